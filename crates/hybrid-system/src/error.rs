@@ -1,0 +1,89 @@
+//! What can go wrong while following a hybrid system.
+
+use thiserror::Error;
+
+/// Why an execution or a root search could not go on.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The ends of a bracket do not have opposite signs.
+    #[error("no sign change on [{left}, {right}]: values {at_left} and {at_right}")]
+    NoSignChange {
+        /// Left end of the bracket.
+        left: f64,
+        /// Right end of the bracket.
+        right: f64,
+        /// Function value at the left end.
+        at_left: f64,
+        /// Function value at the right end.
+        at_right: f64,
+    },
+    /// A function that must be finite was not.
+    #[error("the function is {value} at {at}")]
+    NotFinite {
+        /// Where it was evaluated.
+        at: f64,
+        /// What it returned.
+        value: f64,
+    },
+    /// The root finder used up its iterations.
+    #[error("no root to full precision on [{left}, {right}] within {iterations} iterations")]
+    NoConvergence {
+        /// Left end of the bracket.
+        left: f64,
+        /// Right end of the bracket.
+        right: f64,
+        /// Iterations allowed.
+        iterations: usize,
+    },
+    /// A guard without a closed-form crossing was to be searched, and no sampling interval was given.
+    #[error("guard {surface} has no closed-form crossing: give a sampling interval")]
+    NoSamplingInterval {
+        /// Name of the guard's surface.
+        surface: String,
+    },
+    /// A sampling interval that cannot be stepped with.
+    #[error("cannot sample guards at an interval of {interval} up to time {horizon}")]
+    BadSamplingInterval {
+        /// The interval asked for.
+        interval: f64,
+        /// The time up to which the guards were to be watched.
+        horizon: f64,
+    },
+    /// A guard starts at zero and lies beyond its surface at the first sample: it may have crossed
+    /// at once or gone up and come back.
+    #[error(
+        "guard {surface} starts at zero and has changed sides within the sampling interval \
+         {interval}: make the interval shorter, or let the model solve this crossing"
+    )]
+    UndecidedStart {
+        /// Name of the guard's surface.
+        surface: String,
+        /// The sampling interval in use.
+        interval: f64,
+    },
+    /// The model could not answer.
+    #[error("the model failed: {reason}")]
+    Model {
+        /// The model's own words, with its numbers.
+        reason: String,
+    },
+    /// A start state or a limit that is not a number, or a negative limit.
+    #[error("{what} must be a non-negative number, not {value}")]
+    BadLimit {
+        /// Which limit.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A state with a component that is infinite or not a number.
+    #[error("the state is not finite after {time} time units and {jumps} jumps: {state:?}")]
+    StateNotFinite {
+        /// Continuous time t.
+        time: f64,
+        /// Number of jumps j.
+        jumps: usize,
+        /// The components of the state.
+        state: Vec<f64>,
+    },
+}

@@ -1,0 +1,144 @@
+//! Executions: arcs and events, one after the other, in hybrid time.
+
+use crate::{Arc, ArcEnd, Error, Event, HybridSystem, Reset, State};
+
+/// How far an execution may go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Continuous time; may be infinite if the model solves its own crossings.
+    pub time: f64,
+    /// Number of events.
+    pub events: usize,
+    /// The interval at which guards without closed-form crossings are sampled.
+    pub sampling_interval: Option<f64>,
+}
+
+impl Limits {
+    /// Up to `time`, with at most `events` events, for models that solve their own crossings.
+    pub const fn new(time: f64, events: usize) -> Self {
+        Limits { time, events, sampling_interval: None }
+    }
+
+    /// The same with a sampling interval for guards without closed-form crossings.
+    pub const fn sampled(time: f64, events: usize, interval: f64) -> Self {
+        Limits { time, events, sampling_interval: Some(interval) }
+    }
+}
+
+/// Why an execution ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stop {
+    /// The limit on time was reached.
+    TimeLimit,
+    /// The limit on the number of events was reached.
+    EventLimit,
+    /// A reset ended the execution.
+    Terminal,
+    /// No event ever follows.
+    NoFurtherEvent,
+    /// An error was returned.
+    Failed,
+}
+
+/// An execution of a hybrid system, as an iterator over its arcs.
+///
+/// It ends by itself: at a limit, at a terminal event, when no event can follow, or after an error;
+/// [`stop`](Self::stop) tells which.
+#[derive(Debug, Clone)]
+pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
+    system: &'a T,
+    limits: Limits,
+    mode: T::Mode,
+    state: State<N>,
+    time: f64,
+    jump: usize,
+    stop: Option<Stop>,
+}
+
+impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
+    /// Starts in `mode` from `state` at hybrid time (0, 0).
+    pub fn new(system: &'a T, mode: T::Mode, state: State<N>, limits: Limits) -> Self {
+        Execution { system, limits, mode, state, time: 0.0, jump: 0, stop: None }
+    }
+
+    /// Why the execution ended, or nothing if it has not.
+    pub fn stop(&self) -> Option<Stop> {
+        self.stop
+    }
+
+    fn arc(&mut self) -> Result<Arc<T::Mode, T::Surface, N>, Error> {
+        if !(self.limits.time >= 0.0) {
+            return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
+        }
+        self.check_state()?;
+        let horizon = self.limits.time - self.time;
+        let crossing = self.system.first_crossing(
+            self.mode,
+            &self.state,
+            horizon,
+            self.limits.sampling_interval,
+        )?;
+        let mut arc = Arc {
+            mode: self.mode,
+            time: self.time,
+            jump: self.jump,
+            start: self.state,
+            duration: horizon,
+            end: if horizon.is_finite() { ArcEnd::TimeLimit } else { ArcEnd::Never },
+        };
+        match crossing.filter(|crossing| crossing.time <= horizon) {
+            Some(crossing) => {
+                let time = self.time + crossing.time;
+                let after = match self.system.reset(self.mode, crossing.surface, &crossing.state) {
+                    Reset::Jump { mode, state } => Some((mode, state)),
+                    Reset::Stop => None,
+                };
+                arc.duration = crossing.time;
+                arc.end = ArcEnd::Event(Event {
+                    surface: crossing.surface,
+                    time,
+                    jump: self.jump,
+                    before: crossing.state,
+                    after,
+                    certainty: crossing.certainty,
+                });
+                self.time = time;
+                self.jump += 1;
+                match after {
+                    Some((mode, state)) => (self.mode, self.state) = (mode, state),
+                    None => self.stop = Some(Stop::Terminal),
+                }
+            }
+            None if horizon.is_finite() => self.stop = Some(Stop::TimeLimit),
+            None => self.stop = Some(Stop::NoFurtherEvent),
+        }
+        Ok(arc)
+    }
+
+    fn check_state(&self) -> Result<(), Error> {
+        if self.state.iter().all(|component| component.is_finite()) {
+            return Ok(());
+        }
+        let (time, jumps) = (self.time, self.jump);
+        Err(Error::StateNotFinite { time, jumps, state: self.state.iter().copied().collect() })
+    }
+}
+
+impl<T: HybridSystem<N>, const N: usize> Iterator for Execution<'_, T, N> {
+    type Item = Result<Arc<T::Mode, T::Surface, N>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.stop.is_some() {
+            return None;
+        }
+        if self.jump >= self.limits.events {
+            self.stop = Some(Stop::EventLimit);
+            return None;
+        }
+        let arc = self.arc();
+        if arc.is_err() {
+            self.stop = Some(Stop::Failed);
+        }
+        Some(arc)
+    }
+}

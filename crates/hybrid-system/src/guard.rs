@@ -1,0 +1,56 @@
+//! Guards: which surface is watched, and from which side a crossing counts.
+
+/// The side from which a crossing counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Direction {
+    /// From negative to positive.
+    Rising,
+    /// From positive to negative.
+    Falling,
+    /// Both.
+    Either,
+}
+
+impl Direction {
+    /// Whether a change of sign from `before` to `after` (both non-zero) counts.
+    pub fn admits(self, before: f64, after: f64) -> bool {
+        match self {
+            Direction::Rising => before < 0.0 && after > 0.0,
+            Direction::Falling => before > 0.0 && after < 0.0,
+            Direction::Either => (before < 0.0) != (after < 0.0),
+        }
+    }
+
+    /// Whether `value` lies where an admitted crossing leads to.
+    pub(crate) fn leads_to(self, value: f64) -> bool {
+        match self {
+            Direction::Rising => value > 0.0,
+            Direction::Falling => value < 0.0,
+            Direction::Either => value != 0.0,
+        }
+    }
+}
+
+/// A switching surface, by the name the model gives it, and the direction in which it is crossed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Guard<S> {
+    /// The model's name of the surface {x : g(x) = 0}.
+    pub surface: S,
+    /// The side from which a crossing is an event.
+    pub direction: Direction,
+}
+
+impl<S> Guard<S> {
+    /// An event when g goes from negative to positive.
+    pub const fn rising(surface: S) -> Self {
+        Guard { surface, direction: Direction::Rising }
+    }
+    /// An event when g goes from positive to negative.
+    pub const fn falling(surface: S) -> Self {
+        Guard { surface, direction: Direction::Falling }
+    }
+    /// An event at every change of sign.
+    pub const fn either(surface: S) -> Self {
+        Guard { surface, direction: Direction::Either }
+    }
+}

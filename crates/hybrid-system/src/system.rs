@@ -1,0 +1,74 @@
+//! The trait that a model implements.
+
+use crate::crossing::sampled_crossing;
+use crate::{Crossing, Error, Guard};
+use nalgebra::SVector;
+use std::fmt::Debug;
+
+/// A point of the continuous state space.
+pub type State<const N: usize> = SVector<f64, N>;
+
+/// What happens at an event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reset<M, const N: usize> {
+    /// The execution goes on in `mode` from `state`.
+    Jump {
+        /// The next mode.
+        mode: M,
+        /// The state after the jump, x⁺.
+        state: State<N>,
+    },
+    /// The execution ends here.
+    Stop,
+}
+
+/// A hybrid dynamical system with closed-form flows.
+///
+/// In mode m the state follows x(t) = φ_m(t; x₀); when a guard of the mode is crossed, a reset
+/// gives the next mode and state. Four methods are asked for; parameters live in the implementing
+/// type. A model that can solve its own crossings overrides [`first_crossing`](Self::first_crossing)
+/// and says in the result how sure it is.
+pub trait HybridSystem<const N: usize> {
+    /// The discrete states.
+    type Mode: Copy + Eq + Debug;
+    /// The names of the switching surfaces.
+    type Surface: Copy + Eq + Debug;
+
+    /// The state after `time` ≥ 0 in `mode`, φ(t; x₀), with no regard to guards.
+    fn flow(&self, mode: Self::Mode, start: &State<N>, time: f64) -> State<N>;
+
+    /// The guards watched in `mode`. Of events at the same instant, the guard listed first wins.
+    fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
+
+    /// The function g whose zero set is the surface.
+    fn guard_value(&self, surface: Self::Surface, state: &State<N>) -> f64;
+
+    /// Mode and state after the event, given the mode and state before it.
+    fn reset(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        before: &State<N>,
+    ) -> Reset<Self::Mode, N>;
+
+    /// The first crossing of a guard of `mode` strictly after `start`, no later than `horizon`
+    /// (which may be infinite for a model that solves its crossings).
+    ///
+    /// Provided: every guard is sampled at `sampling_interval` and a change of sign is refined to
+    /// full precision. Two crossings of one guard inside one interval are not seen; the result says
+    /// [`Certainty::Sampled`](crate::Certainty::Sampled). A zero on a sample counts once, and a
+    /// touch without change of sign not at all.
+    ///
+    /// # Errors
+    /// [`Error::NoSamplingInterval`] if it is needed and absent; [`Error::UndecidedStart`] if a
+    /// guard starts at zero and is beyond its surface at the first sample.
+    fn first_crossing(
+        &self,
+        mode: Self::Mode,
+        start: &State<N>,
+        horizon: f64,
+        sampling_interval: Option<f64>,
+    ) -> Result<Option<Crossing<Self::Surface, N>>, Error> {
+        sampled_crossing(self, mode, start, horizon, sampling_interval)
+    }
+}
