@@ -1,0 +1,148 @@
+//! The lift-off map α' = f(α; M) in its stable form.
+
+use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
+use crate::{Error, Landing, MassRatio, TakeOff};
+
+/// Sudden lift-offs that one hop may have before it is given up with an error.
+///
+/// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; at M = 3·10⁴ scans find some
+/// thousands. A hop that uses up the budget takes about 0.1 s.
+pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
+
+/// The map from one gradual lift-off speed to the next, at a fixed mass ratio.
+///
+/// ```text
+///   α'² = α² − μ Σ Γᵢ²        summed over the landings of the hop; negative: grounded
+/// ```
+///
+/// Speeds are in units of the model's length m₂g/k times ω. While no landing is sudden, the sum has
+/// one term that knows nothing of M: the invariance under M → 1/M.
+///
+/// ```
+/// use passive_hopper::{LiftOffMap, MassRatio};
+/// let map = LiftOffMap::new(MassRatio::new(0.2)?);
+/// let image = map.image(5.5)?.expect("hops again");
+/// assert!((image - 3.783365713345068).abs() < 1e-15);
+/// // Too slow to clear the ground again at M = 1:
+/// assert_eq!(LiftOffMap::new(MassRatio::ONE).image(2.0)?, None);
+/// # Ok::<(), passive_hopper::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LiftOffMap {
+    mass_ratio: MassRatio,
+    mu: f64,
+    kappa: f64,
+}
+
+/// All that one hop does to the lift-off speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hop {
+    /// The lift-off speed it started with, α.
+    pub speed: f64,
+    /// The next gradual lift-off speed α'; nothing if the hopper is grounded.
+    pub next: Option<f64>,
+    /// α − α', without cancellation; nothing if grounded.
+    pub loss: Option<f64>,
+    /// α'², negative if grounded.
+    pub radicand: f64,
+    /// Number of sudden lift-offs on the way.
+    pub sudden: usize,
+    /// Total time of flight τ.
+    pub flight_time: f64,
+}
+
+impl LiftOffMap {
+    /// The map at `mass_ratio`.
+    pub fn new(mass_ratio: MassRatio) -> Self {
+        LiftOffMap { mass_ratio, mu: mass_ratio.mu(), kappa: mass_ratio.kappa() }
+    }
+
+    /// The mass ratio M.
+    pub fn mass_ratio(&self) -> MassRatio {
+        self.mass_ratio
+    }
+
+    /// f(α): the next lift-off speed, or nothing if the hopper is grounded.
+    ///
+    /// # Errors
+    /// As [`hop`](Self::hop).
+    pub fn image(&self, alpha: f64) -> Result<Option<f64>, Error> {
+        Ok(self.hop(alpha)?.next)
+    }
+
+    /// The hop that starts with speed `alpha`.
+    ///
+    /// # Errors
+    /// [`Error::LiftOffSpeed`] unless `alpha` is positive and finite,
+    /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
+    /// sudden lift-offs.
+    pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
+        let mut landings = self.landings(alpha)?;
+        let (mut shares, mut sudden, mut flight_time) = (0.0, 0, 0.0);
+        while let Some(landing) = landings.next() {
+            let landing = landing?;
+            let ratio = landing.closing_speed / alpha;
+            shares += ratio * ratio;
+            sudden += usize::from(landing.sudden);
+            flight_time += landing.time;
+        }
+        // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
+        let t = self.mu * shares;
+        let loss = (t <= 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
+        let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
+        // t = 1: the contact force grazes zero and the lower mass stays down.
+        let next = next.filter(|&next| next > 0.0);
+        let loss = loss.filter(|_| next.is_some());
+        Ok(Hop { speed: alpha, next, loss, radicand: alpha * alpha * (1.0 - t), sudden, flight_time })
+    }
+
+    /// The landings of the hop that starts with speed `alpha`, one after the other.
+    ///
+    /// # Errors
+    /// As [`hop`](Self::hop), the budget's from the iterator.
+    pub fn landings(&self, alpha: f64) -> Result<Landings, Error> {
+        if !(alpha > 0.0) || !alpha.is_finite() {
+            return Err(Error::LiftOffSpeed { value: alpha });
+        }
+        if alpha > LARGEST_LIFT_OFF_SPEED {
+            return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
+        }
+        let start = TakeOff { excess: 0.0, velocity: alpha };
+        Ok(Landings { kappa: self.kappa, start: Some(start), flights: 0, loss: 0.0 })
+    }
+}
+
+/// The landings between two gradual lift-offs; see [`LiftOffMap::landings`].
+#[derive(Debug, Clone)]
+pub struct Landings {
+    kappa: f64,
+    start: Option<TakeOff>,
+    flights: usize,
+    loss: f64,
+}
+
+impl Iterator for Landings {
+    type Item = Result<Landing, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let start = self.start?;
+        if self.flights > SUDDEN_LIFT_OFF_BUDGET {
+            self.start = None;
+            let TakeOff { excess, velocity } = start;
+            let (sudden, loss) = (self.flights, self.loss);
+            return Some(Err(Error::SuddenLiftOffBudget { sudden, excess, velocity, loss }));
+        }
+        let landing = if self.flights == 0 {
+            first_landing(start.velocity, self.kappa)
+        } else {
+            next_landing(start, self.kappa)
+        };
+        self.flights += 1;
+        self.loss += landing.loss;
+        // A sudden landing whose excess rounds to zero or below is followed by a flight too short
+        // to see, which loses nothing.
+        let again = landing.sudden && landing.excess > 0.0;
+        self.start = again.then_some(TakeOff { excess: landing.excess, velocity: landing.velocity });
+        Some(Ok(landing))
+    }
+}

@@ -1,0 +1,133 @@
+//! The lossless hops: fixed points of every map, whatever the mass ratio.
+
+use crate::double_double::{DoubleDouble, PI};
+use std::cmp::Ordering;
+use std::sync::OnceLock;
+
+/// The largest index with an [`alpha_star`] of full precision, 2⁵⁰.
+const LARGEST_INDEX: u64 = 1 << 50;
+
+/// α*_n, the n-th positive root of tan α = α (paper, Eq. 3); α*_0 = 0.
+///
+/// Lift-off at this speed lands after τ = 2α*_n with no speed at all: the hop repeats for ever.
+/// The value is right to 100 bits, so that its high part is the nearest `f64`.
+///
+/// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²).
+///
+/// ```
+/// use passive_hopper::alpha_star;
+/// assert_eq!(alpha_star(1).high, 4.493409457909064);
+/// assert_eq!(alpha_star(2).high, 7.725251836937707);
+/// ```
+pub fn alpha_star(n: u64) -> DoubleDouble {
+    static FIRST: OnceLock<[DoubleDouble; 128]> = OnceLock::new();
+    let first = FIRST.get_or_init(|| std::array::from_fn(|n| solve(n as u64)));
+    first.get(n as usize).copied().unwrap_or_else(|| solve(n))
+}
+
+fn solve(n: u64) -> DoubleDouble {
+    if n == 0 {
+        return DoubleDouble { high: 0.0, low: 0.0 };
+    }
+    // Beyond 2⁵⁰ an f64 does not even tell neighbouring α*_n apart: the last one is the answer.
+    let q = PI.times(n.min(LARGEST_INDEX) as f64 + 0.5);
+    let mut alpha = q;
+    // The error shrinks by at least 21 in a step; 24 steps take any start to 106 bits.
+    for _ in 0..24 {
+        let angle = arc_tangent(alpha.reciprocal());
+        let next = q.plus(angle.times(-1.0));
+        if next == alpha {
+            break;
+        }
+        alpha = next;
+    }
+    alpha
+}
+
+/// arctan x = x − x³/3 + x⁵/5 − …, for 0 < x < ¼.
+fn arc_tangent(x: DoubleDouble) -> DoubleDouble {
+    let minus_square = x.times_wide(x).times(-1.0);
+    let (mut power, mut sum, mut odd) = (x, x, 1.0);
+    while power.high.abs() > 1e-34 * x.high {
+        power = power.times_wide(minus_square);
+        odd += 2.0;
+        sum = sum.plus(power.times_wide(DoubleDouble { high: odd, low: 0.0 }.reciprocal()));
+    }
+    sum
+}
+
+/// n π to 100 bits: where a first landing has stretch one, and the flight an integer number of turns.
+pub(crate) fn n_pi(n: u64) -> DoubleDouble {
+    PI.times(n as f64)
+}
+
+/// The largest n with α*_n ≤ `alpha`, for `alpha` ≥ 0 up to 2⁵⁰.
+///
+/// Decided on 100 bits: an `alpha` one ulp below α*_n belongs to n − 1.
+pub fn index_below(alpha: f64) -> u64 {
+    // α*_n ∈ (nπ, (n+½)π): the candidate is ⌊α/π⌋, or one less.
+    let candidate = (alpha / std::f64::consts::PI) as u64;
+    let mut n = candidate + 1;
+    while n > 0 && alpha_star(n).compare(alpha) == Ordering::Less {
+        n -= 1;
+    }
+    n
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// α*_n to 50 digits, computed independently (mpmath).
+    const REFERENCE: &str = include_str!("../tests/data/fixed_points.json");
+
+    #[test]
+    fn agrees_with_fifty_digits() {
+        let rows: Vec<serde_json::Value> = serde_json::from_str(REFERENCE).unwrap();
+        assert!(rows.len() >= 33);
+        for row in rows {
+            let n = row["n"].as_u64().unwrap();
+            let text = row["alpha_star"].as_str().unwrap();
+            let ours = alpha_star(n);
+            assert_eq!(ours.high, text.parse::<f64>().unwrap(), "n = {n}");
+            // The rest, from the decimal digits: integer part and 30 digits of the fraction.
+            let (whole, fraction) = text.split_once('.').unwrap();
+            let mut exact = DoubleDouble { high: whole.parse().unwrap(), low: 0.0 };
+            for (place, chunk) in fraction.as_bytes().chunks(10).take(4).enumerate() {
+                let digits: f64 = std::str::from_utf8(chunk).unwrap().parse().unwrap();
+                let mut term = DoubleDouble { high: digits, low: 0.0 };
+                let digits_so_far = 10 * place + chunk.len();
+                let tenth = DoubleDouble { high: 10.0, low: 0.0 }.reciprocal();
+                for _ in 0..digits_so_far {
+                    term = term.times_wide(tenth);
+                }
+                exact = exact.plus(term);
+            }
+            let error = ours.plus(exact.times(-1.0));
+            assert!(error.high.abs() < 1e-29 * ours.high, "n = {n}: off by {:e}", error.high);
+        }
+    }
+
+    #[test]
+    fn index_is_right_on_both_sides_of_every_fixed_point() {
+        for n in 1..2000 {
+            let star = alpha_star(n);
+            let (below, above) = if star.low < 0.0 {
+                (star.high.next_down(), star.high)
+            } else {
+                (star.high, star.high.next_up())
+            };
+            assert_eq!(index_below(below), n - 1);
+            assert_eq!(index_below(above), n);
+        }
+        assert_eq!(index_below(0.0), 0);
+        assert_eq!(index_below(4.0), 0);
+    }
+
+    #[test]
+    fn huge_indices_do_not_break() {
+        for n in [1 << 40, 1 << 50, u64::MAX] {
+            assert!(alpha_star(n).high.is_finite());
+        }
+    }
+}
