@@ -34,13 +34,13 @@ pub enum Error {
         /// The largest accepted.
         largest: f64,
     },
-    /// A number that must be finite is not.
-    #[error("{name} must be finite, not {value}")]
-    NotFinite {
-        /// What it is.
-        name: &'static str,
-        /// The value given.
+    /// A state so large that an f64 no longer resolves the spring's phase, or not finite.
+    #[error("a coordinate of the motion is {value}, over {largest}, where an f64 no longer resolves it")]
+    MotionTooLarge {
+        /// The coordinate, in the model's units (times 1+M for the height).
         value: f64,
+        /// The largest accepted.
+        largest: f64,
     },
     /// A state with the lower mass under the ground.
     #[error("the lower mass is below the ground: y2 = {height}")]
@@ -60,8 +60,6 @@ pub enum Error {
         excess: f64,
         /// Velocity of the upper mass at the last landing.
         velocity: f64,
-        /// Loss Σ Γ² so far.
-        loss: f64,
     },
     /// A bracket that the theory guarantees did not hold numerically.
     #[error("a landing could not be bracketed from stretch 1 + {excess}, velocity {velocity}: {source}")]

@@ -17,7 +17,7 @@
 
 use crate::double_double::DoubleDouble;
 use crate::lossless::{alpha_star, n_pi};
-use crate::{Error, HalfFlight};
+use crate::HalfFlight;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 

@@ -1,16 +1,31 @@
 //! (docs below)
+mod air_landing;
+mod contact;
+mod dimensional;
 mod double_double;
+mod energy;
 mod error;
 mod flight;
+mod hopper;
 mod landing;
 mod lift_off_map;
 mod lossless;
 mod mass_ratio;
+mod motion;
+mod printed;
+mod state;
 
+pub use contact::{contact_flow, contact_time, lift_off_energy};
+pub use dimensional::PhysicalHopper;
 pub use double_double::DoubleDouble;
+pub use energy::{energy, landing_loss};
 pub use error::Error;
 pub use flight::HalfFlight;
+pub use hopper::{Hopper, HopperSurface, Phase};
 pub use landing::{LARGEST_LIFT_OFF_SPEED, Landing, TakeOff};
-pub use lift_off_map::{Hop, LiftOffMap, Landings, SUDDEN_LIFT_OFF_BUDGET};
+pub use lift_off_map::{Hop, Landings, LiftOffMap, SUDDEN_LIFT_OFF_BUDGET};
 pub use lossless::{alpha_star, index_below};
 pub use mass_ratio::MassRatio;
+pub use motion::Flight;
+pub use printed::printed_image;
+pub use state::HopperState;

@@ -108,7 +108,7 @@ impl LiftOffMap {
             return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
         }
         let start = TakeOff { excess: 0.0, velocity: alpha };
-        Ok(Landings { kappa: self.kappa, start: Some(start), flights: 0, loss: 0.0 })
+        Ok(Landings { kappa: self.kappa, start: Some(start), flights: 0 })
     }
 }
 
@@ -118,7 +118,6 @@ pub struct Landings {
     kappa: f64,
     start: Option<TakeOff>,
     flights: usize,
-    loss: f64,
 }
 
 impl Iterator for Landings {
@@ -129,8 +128,8 @@ impl Iterator for Landings {
         if self.flights > SUDDEN_LIFT_OFF_BUDGET {
             self.start = None;
             let TakeOff { excess, velocity } = start;
-            let (sudden, loss) = (self.flights, self.loss);
-            return Some(Err(Error::SuddenLiftOffBudget { sudden, excess, velocity, loss }));
+            let sudden = self.flights;
+            return Some(Err(Error::SuddenLiftOffBudget { sudden, excess, velocity }));
         }
         let landing = if self.flights == 0 {
             first_landing(start.velocity, self.kappa)
@@ -138,7 +137,6 @@ impl Iterator for Landings {
             next_landing(start, self.kappa)
         };
         self.flights += 1;
-        self.loss += landing.loss;
         // A sudden landing whose excess rounds to zero or below is followed by a flight too short
         // to see, which loses nothing.
         let again = landing.sudden && landing.excess > 0.0;

@@ -1,0 +1,73 @@
+//! Return maps of hybrid systems, and what their fixed points do on either side.
+//!
+//! ```text
+//!     section ──start──► arc ─event─► arc ─event─► … ─event on the section──► image
+//!     x ↦ f(x)                fixed point f(x*) = x*           cobweb (x, x) → (x, f(x)) → …
+//! ```
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Section`] | coordinates of a section: where a start lies, which events count as returns |
+//! | [`ReturnMap`], [`Return`] | image, return time and number of events, in any dimension |
+//! | [`orbit`], [`cobweb`] | iterates of a scalar map, and their drawing |
+//! | [`fixed_points`], [`FixedPoint`] | crossings of the diagonal, and touches of it |
+//! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
+//!
+//! Each half of a ball's flight is half as long as the one before:
+//!
+//! ```
+//! use hybrid_system::*;
+//! use nalgebra::{SVector, Vector2};
+//! use return_map::{ReturnMap, Section};
+//!
+//! # #[derive(Debug, Clone, Copy, PartialEq, Eq)] struct Floor;
+//! struct Ball;
+//! # impl HybridSystem<2> for Ball {
+//! #     type Mode = ();
+//! #     type Surface = Floor;
+//! #     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
+//! #         Vector2::new(x[0] + t * (x[1] - t / 2.0), x[1] - t)
+//! #     }
+//! #     fn guards(&self, _: ()) -> &[Guard<Floor>] { const { &[Guard::falling(Floor)] } }
+//! #     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 { x[0] }
+//! #     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
+//! #         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
+//! #     }
+//! # }
+//! /// The floor, by the speed after the bounce.
+//! struct Bounce;
+//! impl Section<Ball, 2, 1> for Bounce {
+//!     fn point(&self, speed: &SVector<f64, 1>) -> ((), State<2>) {
+//!         ((), Vector2::new(0.0, speed[0]))
+//!     }
+//!     fn coordinates(&self, event: &Event<(), Floor, 2>) -> Option<SVector<f64, 1>> {
+//!         event.after.map(|(_, state)| SVector::<f64, 1>::new(state[1]))
+//!     }
+//! }
+//!
+//! let map = ReturnMap::new(&Ball, &Bounce, Limits::sampled(10.0, 10, 0.01));
+//! let image = map.image(1.0)?.expect("it always comes back");
+//! assert!((image - 0.5).abs() < 1e-14);
+//! # Ok::<(), return_map::Error>(())
+//! ```
+//!
+//! # Accuracy
+//! A return is as exact as the system's crossings. [`fixed_points`] sees what its samples reveal.
+//!
+//! # Not here
+//! Derivatives of return maps, Newton's method in several dimensions, sections of plain flows that
+//! are not guards of the system.
+
+mod error;
+mod fixed_point;
+mod orbit;
+mod return_map;
+mod section;
+mod stability;
+
+pub use error::Error;
+pub use fixed_point::{FixedPoint, Meeting, fixed_points};
+pub use orbit::{cobweb, orbit};
+pub use return_map::{Return, ReturnMap};
+pub use section::Section;
+pub use stability::{OneSidedStability, Side, Stability, one_sided_stability};

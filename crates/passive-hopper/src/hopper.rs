@@ -1,0 +1,164 @@
+//! The hopper as a hybrid system: both masses through flights, collisions and contacts.
+
+use crate::air_landing::landing_time;
+use crate::contact::{contact_flow, contact_time};
+use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
+use crate::motion::Flight;
+use crate::{HopperState, MassRatio, TakeOff};
+use hybrid_system::{Certainty, Crossing, Error, Guard, HybridSystem, Reset, State};
+
+/// The phases between events.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Both masses in the air (paper, Eq. 1).
+    Flight,
+    /// The lower mass on the ground, the upper one oscillating.
+    Contact,
+}
+
+/// The surfaces at which a phase ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum HopperSurface {
+    /// y₂ = 0, falling.
+    Landing,
+    /// y₁ = 1 on the ground, rising: the contact force vanishes.
+    LiftOff,
+}
+
+/// The passive hopper with state (y₁, ẏ₁, y₂, ẏ₂).
+///
+/// Landings and lift-offs are solved for, never stepped to. After a collision the spring pulls the
+/// lower mass off again at once (a sudden lift-off: the event leads back to flight) or the contact
+/// phase follows.
+///
+/// ```
+/// use hybrid_system::{Execution, Limits};
+/// use passive_hopper::{Hopper, HopperState, MassRatio, Phase, alpha_star};
+///
+/// let hopper = Hopper::new(MassRatio::new(0.5)?);
+/// let start = HopperState::lift_off(alpha_star(1).high);
+/// let arcs: Vec<_> = Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(100.0, 2))
+///     .collect::<Result<_, _>>()?;
+/// assert_eq!(arcs[0].duration, 2.0 * alpha_star(1).high);
+/// assert_eq!(arcs[1].mode, Phase::Contact);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hopper {
+    mass_ratio: MassRatio,
+}
+
+impl Hopper {
+    /// The hopper with this mass ratio.
+    pub fn new(mass_ratio: MassRatio) -> Self {
+        Hopper { mass_ratio }
+    }
+
+    /// The mass ratio M.
+    pub fn mass_ratio(&self) -> MassRatio {
+        self.mass_ratio
+    }
+
+    fn landing(&self, start: &HopperState) -> Result<Crossing<HopperSurface, 4>, Error> {
+        if start.lower_position < 0.0 {
+            let reason = crate::Error::BelowGround { height: start.lower_position }.to_string();
+            return Err(Error::Model { reason });
+        }
+        let flight = Flight::new(self.mass_ratio, start);
+        if let Some(value) = flight.unresolved() {
+            let error = crate::Error::MotionTooLarge { value, largest: LARGEST_LIFT_OFF_SPEED };
+            return Err(Error::Model { reason: error.to_string() });
+        }
+        let excess = start.upper_position - 1.0;
+        let velocity = start.upper_velocity;
+        let on_ground = start.lower_position == 0.0 && start.lower_velocity == 0.0;
+        let (time, state) = if on_ground && (excess > 0.0 || (excess == 0.0 && velocity > 0.0)) {
+            self.landing_from_ground(TakeOff { excess, velocity })
+        } else {
+            let time = landing_time(&flight)?;
+            (time, HopperState { lower_position: 0.0, ..flight.state(time) })
+        };
+        Ok(Crossing { surface: HopperSurface::Landing, time, state: state.into(), certainty: Certainty::Exact })
+    }
+
+    fn landing_from_ground(&self, start: TakeOff) -> (f64, HopperState) {
+        let kappa = self.mass_ratio.kappa();
+        let landing = if start.excess > 0.0 {
+            next_landing(start, kappa)
+        } else {
+            first_landing(start.velocity, kappa)
+        };
+        let state = HopperState {
+            upper_position: 1.0 + landing.excess,
+            upper_velocity: landing.velocity,
+            lower_position: 0.0,
+            lower_velocity: -landing.closing_speed / (1.0 + self.mass_ratio.value()),
+        };
+        (landing.time, state)
+    }
+
+    fn lift_off(&self, start: &HopperState) -> Option<Crossing<HopperSurface, 4>> {
+        let excess = start.upper_position - 1.0;
+        let time = contact_time(self.mass_ratio, excess, start.upper_velocity)?;
+        let state = if time > 0.0 {
+            let energy = crate::lift_off_energy(self.mass_ratio, excess, start.upper_velocity);
+            HopperState::lift_off(energy.sqrt())
+        } else {
+            *start
+        };
+        Some(Crossing { surface: HopperSurface::LiftOff, time, state: state.into(), certainty: Certainty::Exact })
+    }
+}
+
+impl HybridSystem<4> for Hopper {
+    type Mode = Phase;
+    type Surface = HopperSurface;
+
+    fn flow(&self, phase: Phase, start: &State<4>, time: f64) -> State<4> {
+        let start = HopperState::from(*start);
+        match phase {
+            Phase::Flight => Flight::new(self.mass_ratio, &start).state(time).into(),
+            Phase::Contact => contact_flow(self.mass_ratio, &start, time).into(),
+        }
+    }
+
+    fn guards(&self, phase: Phase) -> &[Guard<HopperSurface>] {
+        match phase {
+            Phase::Flight => const { &[Guard::falling(HopperSurface::Landing)] },
+            Phase::Contact => const { &[Guard::rising(HopperSurface::LiftOff)] },
+        }
+    }
+
+    fn guard_value(&self, surface: HopperSurface, state: &State<4>) -> f64 {
+        match surface {
+            HopperSurface::Landing => state[2],
+            HopperSurface::LiftOff => state[0] - 1.0,
+        }
+    }
+
+    fn reset(&self, _: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
+        let landed = HopperState { lower_position: 0.0, lower_velocity: 0.0, ..(*before).into() };
+        let (y1, v1) = (landed.upper_position, landed.upper_velocity);
+        let mode = match surface {
+            HopperSurface::LiftOff => Phase::Flight,
+            HopperSurface::Landing if y1 > 1.0 || (y1 == 1.0 && v1 > 0.0) => Phase::Flight,
+            HopperSurface::Landing => Phase::Contact,
+        };
+        Reset::Jump { mode, state: landed.into() }
+    }
+
+    fn first_crossing(
+        &self,
+        phase: Phase,
+        start: &State<4>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<HopperSurface, 4>>, Error> {
+        let start = HopperState::from(*start);
+        let crossing = match phase {
+            Phase::Flight => Some(self.landing(&start)?),
+            Phase::Contact => self.lift_off(&start),
+        };
+        Ok(crossing.filter(|crossing| crossing.time <= horizon))
+    }
+}

@@ -1,0 +1,76 @@
+//! The state of both masses.
+
+use nalgebra::Vector4;
+
+/// Displacements and velocities of both masses, in units of m₂g/k and of m₂gω/k.
+///
+/// Displacements count from the relaxed spring standing on the ground, upwards.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HopperState {
+    /// y₁, displacement of the upper mass.
+    pub upper_position: f64,
+    /// ẏ₁.
+    pub upper_velocity: f64,
+    /// y₂ ≥ 0, height of the lower mass.
+    pub lower_position: f64,
+    /// ẏ₂.
+    pub lower_velocity: f64,
+}
+
+impl HopperState {
+    /// A gradual lift-off with speed α: (1, α, 0, 0) (paper, Eq. 2).
+    pub fn lift_off(alpha: f64) -> Self {
+        HopperState { upper_position: 1.0, upper_velocity: alpha, ..Self::RELAXED }
+    }
+
+    /// Relaxed spring, standing still on the ground.
+    pub const RELAXED: HopperState = HopperState {
+        upper_position: 0.0,
+        upper_velocity: 0.0,
+        lower_position: 0.0,
+        lower_velocity: 0.0,
+    };
+
+    /// s = y₁ − y₂, the stretch of the spring: s̈ = −s in flight.
+    pub fn stretch(&self) -> f64 {
+        self.upper_position - self.lower_position
+    }
+
+    /// ṡ.
+    pub fn stretch_rate(&self) -> f64 {
+        self.upper_velocity - self.lower_velocity
+    }
+
+    /// P = y₁ + M y₂, the momentum coordinate: P̈ = −1 in flight.
+    pub fn momentum_coordinate(&self, mass_ratio: f64) -> f64 {
+        self.upper_position + mass_ratio * self.lower_position
+    }
+
+    /// Ṗ.
+    pub fn momentum_rate(&self, mass_ratio: f64) -> f64 {
+        self.upper_velocity + mass_ratio * self.lower_velocity
+    }
+}
+
+impl From<Vector4<f64>> for HopperState {
+    /// From (y₁, ẏ₁, y₂, ẏ₂).
+    fn from(y: Vector4<f64>) -> Self {
+        HopperState {
+            upper_position: y[0],
+            upper_velocity: y[1],
+            lower_position: y[2],
+            lower_velocity: y[3],
+        }
+    }
+}
+
+impl From<HopperState> for Vector4<f64> {
+    fn from(state: HopperState) -> Self {
+        Vector4::new(
+            state.upper_position,
+            state.upper_velocity,
+            state.lower_position,
+            state.lower_velocity,
+        )
+    }
+}

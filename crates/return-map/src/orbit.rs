@@ -1,0 +1,28 @@
+//! Iterates of a scalar map, and the cobweb that draws them.
+
+/// The orbit of `start` under `map`: `start`, f(start), f(f(start)), …
+///
+/// It ends where the map has no value; otherwise it goes on for ever: `take` what is wanted.
+///
+/// ```
+/// let halves: Vec<f64> = return_map::orbit(|x| Some(x / 2.0), 1.0).take(4).collect();
+/// assert_eq!(halves, [1.0, 0.5, 0.25, 0.125]);
+/// ```
+pub fn orbit(map: impl Fn(f64) -> Option<f64>, start: f64) -> impl Iterator<Item = f64> {
+    std::iter::successors(Some(start), move |&x| map(x))
+}
+
+/// The cobweb of an orbit: (x₀, x₀), (x₀, x₁), (x₁, x₁), (x₁, x₂), …, for `steps` steps.
+///
+/// ```
+/// let web = return_map::cobweb(|x| Some(x / 2.0), 1.0, 1);
+/// assert_eq!(web, [(1.0, 1.0), (1.0, 0.5), (0.5, 0.5)]);
+/// ```
+pub fn cobweb(map: impl Fn(f64) -> Option<f64>, start: f64, steps: usize) -> Vec<(f64, f64)> {
+    let points: Vec<f64> = orbit(map, start).take(steps + 1).collect();
+    let mut web = vec![(start, start)];
+    for pair in points.windows(2) {
+        web.extend([(pair[0], pair[1]), (pair[1], pair[1])]);
+    }
+    web
+}

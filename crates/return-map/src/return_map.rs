@@ -1,0 +1,76 @@
+//! From a section back to it.
+
+use crate::{Error, Section};
+use hybrid_system::{Execution, HybridSystem, Limits, Stop};
+use nalgebra::SVector;
+
+/// The map from a section to the next event on it, along executions of a hybrid system.
+#[derive(Debug, Clone, Copy)]
+pub struct ReturnMap<'a, T, C, const N: usize> {
+    /// The system.
+    pub system: &'a T,
+    /// The section.
+    pub section: &'a C,
+    /// How far one return may go.
+    pub limits: Limits,
+}
+
+/// A return to the section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Return<const K: usize> {
+    /// Where on the section, the image.
+    pub coordinates: SVector<f64, K>,
+    /// Return time.
+    pub time: f64,
+    /// Number of events on the way, the last one included.
+    pub events: usize,
+}
+
+impl<'a, T, C, const N: usize> ReturnMap<'a, T, C, N>
+where
+    T: HybridSystem<N>,
+{
+    /// The map of `system` on `section`; `limits` bound each return.
+    pub fn new(system: &'a T, section: &'a C, limits: Limits) -> Self {
+        ReturnMap { system, section, limits }
+    }
+
+    /// Follows the execution from `coordinates` to its next event on the section.
+    ///
+    /// # Errors
+    /// [`Error::NoReturn`] if the execution ends before; [`Error::Execution`] if it fails.
+    pub fn next<const K: usize>(&self, coordinates: &SVector<f64, K>) -> Result<Return<K>, Error>
+    where
+        C: Section<T, N, K>,
+    {
+        let (mode, state) = self.section.point(coordinates);
+        let mut execution = Execution::new(self.system, mode, state, self.limits);
+        let (mut time, mut events) = (0.0, 0);
+        while let Some(arc) = execution.next() {
+            let arc = arc?;
+            time = arc.time + arc.duration;
+            let Some(event) = arc.event() else { continue };
+            events += 1;
+            if let Some(coordinates) = self.section.coordinates(event) {
+                return Ok(Return { coordinates, time, events });
+            }
+        }
+        let stop = execution.stop().unwrap_or(Stop::Failed);
+        Err(Error::NoReturn { stop, time, events })
+    }
+
+    /// The image of a point of a one-dimensional section; nothing if it never returns.
+    ///
+    /// # Errors
+    /// As [`next`](Self::next), except that an execution that provably never returns is no error.
+    pub fn image(&self, coordinate: f64) -> Result<Option<f64>, Error>
+    where
+        C: Section<T, N, 1>,
+    {
+        match self.next(&SVector::<f64, 1>::new(coordinate)) {
+            Ok(back) => Ok(Some(back.coordinates[0])),
+            Err(Error::NoReturn { stop: Stop::NoFurtherEvent | Stop::Terminal, .. }) => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Stability of a fixed point, from one side at a time.
+
+/// A side of a fixed point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// x < x*.
+    Left,
+    /// x > x*.
+    Right,
+}
+
+/// What a map does to points on one side of a fixed point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Stability {
+    /// Every probed point stays on its side and comes closer.
+    Attracting,
+    /// Every probed point stays on its side and goes away.
+    Repelling,
+    /// Some probed points do one thing and some another, leave their side, or have no image.
+    Undecided,
+}
+
+/// The behaviour of a map on one side of a fixed point, probed at a geometric ladder of distances.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OneSidedStability {
+    /// The side.
+    pub side: Side,
+    /// The verdict over all distances.
+    pub stability: Stability,
+    /// (δ, δ − δ′): the distance before, and by how much it shrinks (negative: grows), from the
+    /// largest to the smallest.
+    pub approach: Vec<(f64, f64)>,
+}
+
+impl OneSidedStability {
+    /// p and c of |δ − δ′| ≈ c δ^p, from the two smallest distances; nothing if they do not shrink
+    /// or grow alike. p = 1 is geometric, p > 1 algebraic approach.
+    pub fn power_law(&self) -> Option<(f64, f64)> {
+        let [.., (far, far_step), (near, near_step)] = self.approach[..] else { return None };
+        let ratio = far_step / near_step;
+        if !(ratio > 0.0) || !ratio.is_finite() {
+            return None;
+        }
+        let exponent = pxfm::f_log2(ratio) / pxfm::f_log2(far / near);
+        Some((exponent, near_step.abs() / pxfm::f_pow(near, exponent)))
+    }
+}
+
+/// Probes one side of a fixed point.
+///
+/// `displacement` is the map in the coordinate δ = |x − x*|: it takes a distance to the distance of
+/// the image on the same side, negative if it changes sides. A model that knows its map near the
+/// point gives it without cancellation. The distances go from `largest` down by halves, `count` of
+/// them.
+///
+/// ```
+/// use return_map::{Side, Stability, one_sided_stability};
+/// // x + x²: attracts from the left, repels to the right.
+/// let left = one_sided_stability(|d| Some(d - d * d), Side::Left, 0.1, 10);
+/// assert_eq!(left.stability, Stability::Attracting);
+/// let (exponent, coefficient) = left.power_law().unwrap();
+/// assert!((exponent - 2.0).abs() < 1e-9 && (coefficient - 1.0).abs() < 1e-9);
+/// let right = one_sided_stability(|d| Some(d + d * d), Side::Right, 0.1, 10);
+/// assert_eq!(right.stability, Stability::Repelling);
+/// ```
+pub fn one_sided_stability(
+    displacement: impl Fn(f64) -> Option<f64>,
+    side: Side,
+    largest: f64,
+    count: usize,
+) -> OneSidedStability {
+    let mut approach = Vec::with_capacity(count);
+    let (mut nearer, mut farther, mut other) = (0, 0, 0);
+    let mut distance = largest;
+    for _ in 0..count {
+        match displacement(distance) {
+            Some(image) if image >= 0.0 => {
+                approach.push((distance, distance - image));
+                match image.total_cmp(&distance) {
+                    std::cmp::Ordering::Less => nearer += 1,
+                    std::cmp::Ordering::Greater => farther += 1,
+                    std::cmp::Ordering::Equal => other += 1,
+                }
+            }
+            _ => other += 1,
+        }
+        distance *= 0.5;
+    }
+    let stability = match (nearer, farther, other) {
+        (1.., 0, 0) => Stability::Attracting,
+        (0, 1.., 0) => Stability::Repelling,
+        _ => Stability::Undecided,
+    };
+    OneSidedStability { side, stability, approach }
+}
