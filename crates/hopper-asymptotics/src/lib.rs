@@ -1,0 +1,43 @@
+//! The passive hopper's lift-off map near its lossless hops, in powers of δ^{1/3}.
+//!
+//! ```text
+//!   f(α* + δ) = α* + δ −    λ  δ^{4/3} + …       δ > 0: attracts, algebraically
+//!   f(α* + δ) = α* + δ − 10 λ |δ|^{4/3} + …      δ < 0: repels
+//!   λ = ¾ β μ (2α* − sin 2α*),   β = [6 (2α* − sin 2α*)/α*]^{1/3},   Δ ≈ λ⁻³
+//! ```
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Coefficients`] | β, λ, Δ and the approximate map of a fixed point at a mass ratio |
+//! | [`Form`] | the paper's λ, or the corrected one |
+//! | [`LEFT_FACTOR`] | the 10 |
+//!
+//! ```
+//! use hopper_asymptotics::{Coefficients, Form};
+//! use passive_hopper::MassRatio;
+//!
+//! let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?;
+//! let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
+//! assert!((corrected.lambda - 3.616949794602146).abs() < 1e-14);
+//! assert!((printed.delta() / corrected.delta() - 27.0 / 64.0).abs() < 1e-14);
+//! # Ok::<(), hopper_asymptotics::Error>(())
+//! ```
+//!
+//! # Accuracy
+//! The coefficients are right to a few ulps; the truncated map errs by the next term, which each
+//! function states.
+//!
+//! # Not here
+//! Higher orders, orbit laws, the expansions about α*_0 = 0 and for n → ∞.
+//!
+//! # References
+//! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
+//! Phys. Rev. E, Sec. IV; the factor ¾ and the left side are derived in `docs/model.md`.
+
+mod coefficients;
+mod error;
+mod local_map;
+
+pub use coefficients::{Coefficients, Form};
+pub use error::Error;
+pub use local_map::LEFT_FACTOR;

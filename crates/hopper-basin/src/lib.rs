@@ -1,0 +1,51 @@
+//! Traps, fates and basins of the passive hopper.
+//!
+//! ```text
+//!   f(α) ≤ α      orbits go down the ladder 0 = α*_0 < α*_1 < α*_2 < …
+//!   trap of α*_n = [α*_n, α*_n + Δ_n(M)]: f ≥ α*_n on it, so whoever enters stays and converges
+//! ```
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Trap`] | Δ_n, and why the trap ends there |
+//! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
+//! | [`crisis`], [`grounding`] | mass ratios at which a hump falls through its fixed point, or to the ground |
+//! | [`shares`], [`incessant_share`] | measures by the paper's protocol |
+//! | [`basin_raster`] | basins over (M, α) |
+//! | [`basin_levels`], [`branches`] | a basin as intervals, level by level, from the map itself |
+//!
+//! ```
+//! use hopper_basin::{incessant_share, shares};
+//! use passive_hopper::MassRatio;
+//! // The paper's 0.037 at M = 0.2.
+//! let share = incessant_share(&shares(MassRatio::new(0.2)?, 1, 6, 10_000)?);
+//! assert!((share - 0.037).abs() < 0.0005);
+//! # Ok::<(), hopper_basin::Error>(())
+//! ```
+//!
+//! # Accuracy
+//! Fates are decided by traps, never by closeness; what the budget of hops or the precision of
+//! `f64` leaves open is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles
+//! narrower than any `f64` spacing (canards): a basin there is the one seen at that width.
+//!
+//! # Not here
+//! Basins as exact intervals with both measures, dimensions and entropies; the edges of traps in
+//! the sudden windows.
+//!
+//! # References
+//! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
+//! Phys. Rev. E, Secs. V and VI.
+
+mod basin;
+mod crisis;
+mod error;
+mod fate;
+mod hump;
+mod map;
+mod trap;
+
+pub use basin::{basin_levels, basin_raster, branches, incessant_share, shares};
+pub use crisis::{Crisis, crisis, grounding};
+pub use error::Error;
+pub use fate::{Fates, HOP_BUDGET, HopperFate};
+pub use trap::{Trap, TrapEdge};

@@ -38,10 +38,8 @@ pub struct TakeOff {
 pub struct Landing {
     /// Time of flight τ.
     pub time: f64,
-    /// Γ = −(1+M) ẏ₂ just before the collision.
+    /// Γ = −(1+M) ẏ₂ just before the collision; the landing takes μ Γ² from α².
     pub closing_speed: f64,
-    /// Γ², what the landing takes from α² in units of μ.
-    pub loss: f64,
     /// Stretch minus one at the landing.
     pub excess: f64,
     /// Velocity of the upper mass, which the collision does not change.
@@ -143,13 +141,25 @@ pub(crate) fn branch(start: TakeOff) -> (f64, f64) {
 /// The interval of τ that holds the first landing, for a solver of the printed Eq. (8).
 pub(crate) fn time_bracket(start: TakeOff) -> (f64, f64) {
     let (left, right) = if start.excess > 0.0 {
-        branch(start)
+        let (left, right) = branch(start);
+        (if left > 0.0 { left } else { before_landing(start, right) }, right)
     } else {
-        // The whole cell: at its ends Eq. (8) is 2nπ (nπ − α), far from rounding.
+        // The whole cell: at its ends Eq. (8) is 2nπ (nπ − α), far from rounding; on the first one
+        // the lift-off itself is a root at τ = 0, and h > α.
         let n = Cell::of(start.velocity).n as f64;
-        (n * PI, (n + 1.0) * PI)
+        let left = if n == 0.0 { start.velocity } else { n * PI };
+        (left, (n + 1.0) * PI)
     };
     (2.0 * left, 2.0 * right)
+}
+
+/// An h > 0 before the landing on branch 1: V(h) falls to −∞ towards the lift-off at h = 0.
+fn before_landing(start: TakeOff, right: f64) -> f64 {
+    let mut h = 0.5 * right;
+    while h > f64::MIN_POSITIVE && HalfFlight::at(h).start_speed(start.excess) >= start.velocity {
+        h *= 0.5;
+    }
+    h
 }
 
 /// A root of V(h) = V: an `f64` h, and what is left.
@@ -204,13 +214,18 @@ impl Root {
             * (h * half.sin * w
                 + half.u * (h * half.sin + excess * half.cos)
                 + 2.0 * half.sin * half.sin * half.rho * w);
-        let closing_speed = half.closing_speed(excess);
-        let loss = (closing_speed * closing_speed - self.residual * loss_slope).max(0.0);
-        let closing_speed = loss.sqrt();
+        let uncorrected = half.closing_speed(excess);
+        let change = self.residual / uncorrected * (loss_slope / uncorrected);
+        let closing_speed = if change.abs() < 0.5 {
+            uncorrected * (1.0 - change).sqrt()
+        } else {
+            // Next to a triple root all of it may be correction.
+            (uncorrected * uncorrected - self.residual * loss_slope).max(0.0).sqrt()
+        };
         // x' = x + 2h (V − h) on the parabola, moved by `rest`.
         let landed = excess + 2.0 * h * (velocity - h) + 2.0 * rest * (velocity - 2.0 * h);
         let upper = (velocity - 2.0 * h) - 2.0 * rest + kappa * closing_speed;
         let sudden = sudden.unwrap_or(landed > 0.0 || (landed == 0.0 && upper > 0.0));
-        Landing { time: 2.0 * (h + rest), closing_speed, loss, excess: landed, velocity: upper, sudden }
+        Landing { time: 2.0 * (h + rest), closing_speed, excess: landed, velocity: upper, sudden }
     }
 }

@@ -1,0 +1,135 @@
+//! Fates by traps: an orbit that enters a set it cannot leave is decided at once.
+
+use crate::{Error, Image, Interval, ScalarMap};
+
+/// Sets that no orbit leaves, each with the label of its attractor.
+pub trait Traps {
+    /// The label of the trap that holds x, if one does.
+    fn label(&self, x: f64) -> Option<u16>;
+}
+
+/// Disjoint intervals as traps.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TrapSet {
+    traps: Vec<(Interval, u16)>,
+}
+
+impl TrapSet {
+    /// Traps with their labels. That orbits stay in them is the caller's knowledge.
+    ///
+    /// # Errors
+    /// [`Error::OverlappingTraps`] if two have a point in common.
+    pub fn new(mut traps: Vec<(Interval, u16)>) -> Result<Self, Error> {
+        traps.sort_by(|a, b| a.0.left.total_cmp(&b.0.left));
+        for pair in traps.windows(2) {
+            let (first, second) = (pair[0].0, pair[1].0);
+            if second.left <= first.right {
+                return Err(Error::OverlappingTraps {
+                    first_left: first.left,
+                    first_right: first.right,
+                    second_left: second.left,
+                    second_right: second.right,
+                });
+            }
+        }
+        Ok(TrapSet { traps })
+    }
+}
+
+impl Traps for TrapSet {
+    fn label(&self, x: f64) -> Option<u16> {
+        let at = self.traps.partition_point(|(interval, _)| interval.right < x);
+        self.traps.get(at).filter(|(interval, _)| interval.contains(x)).map(|&(_, label)| label)
+    }
+}
+
+/// Where an orbit ends up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fate {
+    /// In the trap with this label.
+    Trapped(u16),
+    /// The map has no value: the orbit stops.
+    Stopped,
+    /// Not known, and why.
+    Undecided(Reason),
+}
+
+/// Why a fate is not known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reason {
+    /// The budget of steps was used up.
+    Budget,
+    /// The image equals the point outside any trap: the step is below the precision of `f64`.
+    Precision {
+        /// Where the orbit stands still.
+        at: f64,
+    },
+    /// The map could not be evaluated, or not at a finite point.
+    Map {
+        /// The point.
+        at: f64,
+    },
+}
+
+/// The fate of `start`, and the number of steps until it was known.
+///
+/// Nothing is judged by closeness: a slow passage is no attractor. An orbit is trapped, or it
+/// stops, or its fate is undecided.
+///
+/// ```
+/// use basin_of_attraction::{Fate, Interval, TrapSet, classify};
+/// // x + x²: 0 attracts [−1, 0], though ever more slowly; −½ is trapped in [−½, 0].
+/// let traps = TrapSet::new(vec![(Interval::new(-0.5, 0.0)?, 1)])?;
+/// let map = |x: f64| (x.abs() < 10.0).then(|| x + x * x);
+/// assert_eq!(classify(&map, &traps, -0.9, 100), (Fate::Trapped(1), 1));
+/// assert_eq!(classify(&map, &traps, 0.3, 100).0, Fate::Stopped);
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
+pub fn classify(map: &impl ScalarMap, traps: &impl Traps, start: f64, budget: usize) -> (Fate, usize) {
+    let mut x = start;
+    for step in 0..=budget {
+        if !x.is_finite() {
+            return (Fate::Undecided(Reason::Map { at: x }), step);
+        }
+        if let Some(label) = traps.label(x) {
+            return (Fate::Trapped(label), step);
+        }
+        if step == budget {
+            break;
+        }
+        match map.image(x) {
+            Image::Stops => return (Fate::Stopped, step + 1),
+            Image::Undecided => return (Fate::Undecided(Reason::Map { at: x }), step),
+            Image::Point(image) if image == x => {
+                return (Fate::Undecided(Reason::Precision { at: x }), step);
+            }
+            Image::Point(image) => x = image,
+        }
+    }
+    (Fate::Undecided(Reason::Budget), budget)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fate_is_told() {
+        let traps = TrapSet::new(vec![(Interval::new(0.0, 0.1).unwrap(), 7)]).unwrap();
+        let halve = |x: f64| Some(x / 2.0);
+        assert_eq!(classify(&halve, &traps, 0.8, 10), (Fate::Trapped(7), 3));
+        assert_eq!(classify(&halve, &traps, 1e9, 10), (Fate::Undecided(Reason::Budget), 10));
+        let stands = |x: f64| Some(x);
+        assert_eq!(classify(&stands, &traps, 5.0, 10).0, Fate::Undecided(Reason::Precision { at: 5.0 }));
+        let breaks = |x: f64| Some(x / 0.0);
+        let (fate, steps) = classify(&breaks, &traps, 5.0, 10);
+        assert!(matches!(fate, Fate::Undecided(Reason::Map { .. })) && steps == 1);
+        assert!(matches!(classify(&halve, &traps, f64::NAN, 10).0, Fate::Undecided(Reason::Map { .. })));
+    }
+
+    #[test]
+    fn overlapping_traps_are_refused() {
+        let traps = vec![(Interval::new(0.0, 1.0).unwrap(), 1), (Interval::new(1.0, 2.0).unwrap(), 2)];
+        assert!(matches!(TrapSet::new(traps), Err(Error::OverlappingTraps { .. })));
+    }
+}

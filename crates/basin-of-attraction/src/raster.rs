@@ -1,0 +1,145 @@
+//! Label images over a window of the plane, computed in parallel, column by column.
+
+use crate::{Error, Interval};
+use rayon::prelude::*;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+
+/// A window of the plane and its resolution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// Horizontal range; a parameter is best put here, because its columns can share work.
+    pub x: Interval,
+    /// Vertical range.
+    pub y: Interval,
+    /// Number of pixels across.
+    pub columns: usize,
+    /// Number of pixels up.
+    pub rows: usize,
+}
+
+impl Grid {
+    /// x at the middle of a column.
+    pub fn x_at(&self, column: usize) -> f64 {
+        self.x.left + self.x.length() * ((column as f64 + 0.5) / self.columns as f64)
+    }
+
+    /// y at the middle of a row, counted from below.
+    pub fn y_at(&self, row: usize) -> f64 {
+        self.y.left + self.y.length() * ((row as f64 + 0.5) / self.rows as f64)
+    }
+}
+
+/// Labels on a grid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LabelImage {
+    /// The grid.
+    pub grid: Grid,
+    /// Row by row from below, each from left to right.
+    pub labels: Vec<u16>,
+}
+
+impl LabelImage {
+    /// The label of a pixel; rows count from below.
+    pub fn at(&self, column: usize, row: usize) -> Option<u16> {
+        (column < self.grid.columns).then(|| self.labels.get(row * self.grid.columns + column).copied())?
+    }
+
+    /// How many pixels have each label, in increasing order of labels.
+    pub fn counts(&self) -> Vec<(u16, usize)> {
+        let mut counts = std::collections::BTreeMap::new();
+        for &label in &self.labels {
+            *counts.entry(label).or_insert(0) += 1;
+        }
+        counts.into_iter().collect()
+    }
+}
+
+/// Labels every pixel of `grid` by its middle.
+///
+/// `prepare` does the work that a column shares; `label` labels a point of it. `progress` hears
+/// how many columns are finished and may break off. The image does not depend on the number of
+/// threads.
+///
+/// ```
+/// use basin_of_attraction::{Grid, Interval, raster};
+/// use std::ops::ControlFlow::Continue;
+/// let unit = Interval::new(0.0, 1.0)?;
+/// let grid = Grid { x: unit, y: unit, columns: 4, rows: 4 };
+/// let image = raster(grid, |x| x, |&x, y| u16::from(y > x), |_| Continue(()))?;
+/// assert_eq!(image.counts(), [(0, 10), (1, 6)]);
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::BadRaster`] without pixels; [`Error::Interrupted`] if `progress` breaks off.
+pub fn raster<C>(
+    grid: Grid,
+    prepare: impl Fn(f64) -> C + Sync,
+    label: impl Fn(&C, f64) -> u16 + Sync,
+    progress: impl Fn(usize) -> ControlFlow<()> + Sync,
+) -> Result<LabelImage, Error> {
+    let Grid { columns, rows, .. } = grid;
+    let pixels = columns.checked_mul(rows).filter(|&pixels| pixels > 0 && pixels <= 1 << 34);
+    let Some(pixels) = pixels else { return Err(Error::BadRaster { columns, rows }) };
+    let finished = AtomicUsize::new(0);
+    let interrupted = AtomicBool::new(false);
+    let by_column: Vec<Vec<u16>> = (0..columns)
+        .into_par_iter()
+        .map(|column| {
+            if interrupted.load(Ordering::Relaxed) {
+                return Vec::new();
+            }
+            let shared = prepare(grid.x_at(column));
+            let labels = (0..rows).map(|row| label(&shared, grid.y_at(row))).collect();
+            let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
+            if progress(done).is_break() {
+                interrupted.store(true, Ordering::Relaxed);
+            }
+            labels
+        })
+        .collect();
+    if interrupted.into_inner() {
+        return Err(Error::Interrupted { finished: finished.into_inner(), columns });
+    }
+    let mut labels = vec![0; pixels];
+    for (column, values) in by_column.iter().enumerate() {
+        for (row, &value) in values.iter().enumerate() {
+            labels[row * columns + column] = value;
+        }
+    }
+    Ok(LabelImage { grid, labels })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ops::ControlFlow::{Break, Continue};
+
+    fn grid() -> Grid {
+        let unit = Interval::new(0.0, 1.0).unwrap();
+        Grid { x: unit, y: unit, columns: 64, rows: 48 }
+    }
+
+    #[test]
+    fn the_number_of_threads_does_not_matter() {
+        let compute = || {
+            raster(grid(), |x| x, |&x, y| ((x * 1000.0) * y) as u16, |_| Continue(())).unwrap()
+        };
+        let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert_eq!(pool(1).install(compute), pool(7).install(compute));
+    }
+
+    #[test]
+    fn it_can_be_interrupted() {
+        let stop = |done| if done >= 5 { Break(()) } else { Continue(()) };
+        let error = raster(grid(), |_| (), |(), _| 0, stop).unwrap_err();
+        assert!(matches!(error, Error::Interrupted { columns: 64, .. }));
+    }
+
+    #[test]
+    fn an_empty_raster_is_an_error() {
+        let empty = Grid { columns: 0, ..grid() };
+        assert!(raster(empty, |_| (), |(), _| 0, |_| Continue(())).is_err());
+    }
+}

@@ -1,0 +1,39 @@
+//! What cannot be asked.
+
+use thiserror::Error;
+
+/// Why a trap, crisis or basin could not be computed.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The hopper refused.
+    #[error(transparent)]
+    Hopper(#[from] passive_hopper::Error),
+    /// The basin tools refused.
+    #[error(transparent)]
+    Basin(#[from] basin_of_attraction::Error),
+    /// A bracket that theory guarantees did not hold numerically.
+    #[error("no root where theory has one, on hump {n}: {source}")]
+    Root {
+        /// The hump.
+        n: u64,
+        /// What the root finder said.
+        source: hybrid_system::Error,
+    },
+    /// A window whose fixed points do not fit the labels, or that is not positive.
+    #[error("a window of lift-off speeds must lie in (0, {largest}], not [{bottom}, {top}]")]
+    Window {
+        /// Lowest speed.
+        bottom: f64,
+        /// Highest speed.
+        top: f64,
+        /// Highest speed whose fixed points have labels.
+        largest: f64,
+    },
+    /// A hump on which the quantity is not defined.
+    #[error("the crisis of a fixed point needs n ≥ 1, not {n}")]
+    Index {
+        /// The index given.
+        n: u64,
+    },
+}

@@ -1,0 +1,132 @@
+//! The fate of a lift-off speed.
+
+use crate::{Error, Trap};
+use basin_of_attraction::{Fate, Reason, classify};
+use passive_hopper::{LiftOffMap, MassRatio, index_below};
+
+/// What becomes of a hopper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum HopperFate {
+    /// It hops for ever, ever closer to the lossless hop α*_n, n ≥ 1.
+    Incessant {
+        /// Index of the fixed point.
+        n: u64,
+    },
+    /// It hops for ever, ever lower: α → 0 = α*_0.
+    Decaying,
+    /// After some landing the lower mass never lifts off again.
+    Grounded,
+    /// Not known, and why.
+    Undecided(Reason),
+}
+
+impl HopperFate {
+    /// The label of a grounded hopper in label images.
+    pub const GROUNDED: u16 = u16::MAX - 1;
+    /// The label of an undecided fate in label images.
+    pub const UNDECIDED: u16 = u16::MAX;
+    /// The largest n with a label.
+    pub const LARGEST_LABEL: u64 = 65_000;
+
+    /// The label of a fate: n for α*_n, so 0 for decaying. An n above 65 000 has no label of its
+    /// own and is [`UNDECIDED`](Self::UNDECIDED); rasters refuse such windows.
+    pub fn label(self) -> u16 {
+        match self {
+            HopperFate::Decaying => 0,
+            HopperFate::Incessant { n } if n <= Self::LARGEST_LABEL => n as u16,
+            HopperFate::Grounded => Self::GROUNDED,
+            HopperFate::Incessant { .. } | HopperFate::Undecided(_) => Self::UNDECIDED,
+        }
+    }
+}
+
+/// Hops followed before a fate is given up as undecided. An orbit needs long only just left of a
+/// fixed point, where it leaves like 3/(10 λ) δ^{−1/3}: some 10⁵ hops from an ulp away.
+pub const HOP_BUDGET: usize = 10_000_000;
+
+/// The fates at one mass ratio.
+///
+/// Orbits only go down, so that each is decided when it enters a [`Trap`] or is grounded. Nothing
+/// is judged by closeness.
+///
+/// ```
+/// use hopper_basin::{Fates, HopperFate};
+/// use passive_hopper::MassRatio;
+/// let fates = Fates::new(MassRatio::new(0.2)?)?;
+/// assert_eq!(fates.fate(4.55)?, HopperFate::Incessant { n: 1 });
+/// assert_eq!(fates.fate(4.60)?, HopperFate::Decaying);
+/// # Ok::<(), hopper_basin::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Fates {
+    map: LiftOffMap,
+    /// The traps of the first fixed points; those beyond are computed when asked for.
+    first: Vec<Trap>,
+}
+
+impl Fates {
+    /// The fates at `mass_ratio`.
+    ///
+    /// # Errors
+    /// As [`Trap::new`].
+    pub fn new(mass_ratio: MassRatio) -> Result<Self, Error> {
+        let first = (0..8).map(|n| Trap::new(n, mass_ratio)).collect::<Result<_, _>>()?;
+        Ok(Fates { map: LiftOffMap::new(mass_ratio), first })
+    }
+
+    /// The map.
+    pub fn map(&self) -> &LiftOffMap {
+        &self.map
+    }
+
+    /// The trap of α*_n.
+    ///
+    /// # Errors
+    /// As [`Trap::new`].
+    pub fn trap(&self, n: u64) -> Result<Trap, Error> {
+        match self.first.get(n as usize) {
+            Some(&trap) => Ok(trap),
+            None => Trap::new(n, self.map.mass_ratio()),
+        }
+    }
+
+    /// The fate of the hopper that lifts off with speed `alpha`.
+    ///
+    /// # Errors
+    /// [`Error::Hopper`] for a speed that is not positive, finite and below 2⁴³.
+    pub fn fate(&self, alpha: f64) -> Result<HopperFate, Error> {
+        self.fate_within(alpha, HOP_BUDGET).map(|(fate, _)| fate)
+    }
+
+    /// The fate, and the number of hops until it was known, with a budget of hops of one's own.
+    ///
+    /// # Errors
+    /// As [`fate`](Self::fate).
+    pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
+        self.map.landings(alpha)?; // checks α
+        let (fate, hops) = classify(self, self, alpha, budget);
+        let fate = match fate {
+            Fate::Stopped => HopperFate::Grounded,
+            Fate::Trapped(0) => HopperFate::Decaying,
+            Fate::Trapped(label) if u64::from(label) < HopperFate::LARGEST_LABEL => {
+                HopperFate::Incessant { n: u64::from(label) }
+            }
+            // Higher indices share a label.
+            Fate::Trapped(_) => HopperFate::Incessant { n: self.last_index(alpha, hops) },
+            Fate::Undecided(reason) => HopperFate::Undecided(reason),
+        };
+        Ok((fate, hops))
+    }
+
+    /// The index of the fixed point below the orbit after `hops` hops.
+    fn last_index(&self, alpha: f64, hops: usize) -> u64 {
+        let mut speed = alpha;
+        for _ in 0..hops {
+            match self.map.image(speed) {
+                Ok(Some(next)) => speed = next,
+                Ok(None) | Err(_) => break,
+            }
+        }
+        index_below(speed)
+    }
+}

@@ -1,0 +1,209 @@
+//! The hopper as a hybrid system: energy, flows, landing times, and the map built from it.
+
+#![allow(missing_docs)]
+
+use approx::assert_relative_eq;
+use hybrid_system::{Event, Execution, HybridSystem, Limits, State, Stop};
+use nalgebra::SVector;
+use passive_hopper::{
+    Hopper, HopperState, HopperSurface, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
+    energy, landing_loss,
+};
+use proptest::prelude::*;
+use return_map::{ReturnMap, Section};
+
+fn hopper(mass_ratio: f64) -> Hopper {
+    Hopper::new(MassRatio::new(mass_ratio).unwrap())
+}
+
+/// Gradual lift-offs by their speed α.
+struct GradualLiftOff;
+
+impl Section<Hopper, 4, 1> for GradualLiftOff {
+    fn point(&self, alpha: &SVector<f64, 1>) -> (Phase, State<4>) {
+        (Phase::Flight, HopperState::lift_off(alpha[0]).into())
+    }
+    fn coordinates(&self, event: &Event<Phase, HopperSurface, 4>) -> Option<SVector<f64, 1>> {
+        (event.surface == HopperSurface::LiftOff).then(|| SVector::<f64, 1>::new(event.before[1]))
+    }
+}
+
+/// Built as a return map of the hybrid system, the map agrees with the exact one to 1e-12 over the
+/// paper's window.
+#[test]
+fn the_return_map_is_the_lift_off_map() {
+    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+    let mut compared = 0;
+    for m in [0.05, 0.1, 0.2, 0.5, 0.9, 1.0, 1.5, 3.0, 10.0, 20.0] {
+        let hopper = hopper(m);
+        let returns = ReturnMap::new(&hopper, &GradualLiftOff, Limits::new(f64::INFINITY, 10_000));
+        let exact = LiftOffMap::new(hopper.mass_ratio());
+        for k in 0..2000 {
+            let alpha = low + (high - low) * (f64::from(k) + 0.5) / 2000.0;
+            let hop = exact.hop(alpha).unwrap();
+            let image = returns.image(alpha).unwrap();
+            assert_eq!(image.is_some(), hop.next.is_some(), "M = {m}, α = {alpha}");
+            if let (Some(image), Some(next)) = (image, hop.next) {
+                // Near grounding the square root magnifies rounding by α²/α'², and many sudden
+                // lift-offs in a row each magnify it too.
+                let scale = (alpha / next).powi(2).max(1.0) * (1 + hop.sudden) as f64;
+                assert!((image - next).abs() < 1e-12 * scale, "M = {m}, α = {alpha}: {image} {next}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 15_000);
+}
+
+#[test]
+fn no_event_is_doubled_at_a_lift_off() {
+    // Incessant hopping in the trap of α*_2: landing, lift-off, landing, … and nothing else.
+    let hopper = hopper(0.3);
+    let start = HopperState::lift_off(alpha_star(2).high + 1e-3);
+    let mut execution = Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(1e4, 40));
+    let surfaces: Vec<_> =
+        execution.by_ref().map(|arc| arc.unwrap().event().unwrap().surface).collect();
+    assert_eq!(execution.stop(), Some(Stop::EventLimit));
+    for pair in surfaces.chunks(2) {
+        assert_eq!(pair, [HopperSurface::Landing, HopperSurface::LiftOff]);
+    }
+}
+
+#[test]
+fn a_grounded_hopper_never_lifts_off_again() {
+    let hopper = hopper(1.0);
+    let start = HopperState::lift_off(2.0);
+    let mut execution =
+        Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(f64::INFINITY, 100));
+    let arcs: Vec<_> = execution.by_ref().map(Result::unwrap).collect();
+    assert_eq!(arcs.len(), 2);
+    assert!(arcs[1].duration.is_infinite());
+    assert_eq!(execution.stop(), Some(Stop::NoFurtherEvent));
+}
+
+#[test]
+fn impossible_states_are_errors() {
+    let hopper = hopper(1.0);
+    let below = HopperState { lower_position: -0.5, ..HopperState::RELAXED };
+    let huge = HopperState::lift_off(1e300);
+    let nan = HopperState::lift_off(f64::NAN);
+    for (state, words) in [(below, "-0.5"), (huge, "e300"), (nan, "not finite")] {
+        let mut execution =
+            Execution::new(&hopper, Phase::Flight, state.into(), Limits::new(10.0, 10));
+        let error = execution.next().unwrap().unwrap_err();
+        let text = error.to_string();
+        assert!(text.contains(words) || text.contains(&1e300.to_string()), "{text}");
+        assert_eq!(execution.stop(), Some(Stop::Failed));
+    }
+}
+
+#[test]
+fn flight_times_agree_with_forty_digits() {
+    for line in include_str!("data/hops_window.jsonl").lines() {
+        let row: serde_json::Value = serde_json::from_str(line).unwrap();
+        let map = LiftOffMap::new(MassRatio::new(row["mass_ratio"].as_f64().unwrap()).unwrap());
+        let alpha = row["alpha"].as_f64().unwrap();
+        let times = row["flight_times"].as_array().unwrap();
+        let first = map.landings(alpha).unwrap().next().unwrap().unwrap();
+        let exact: f64 = times[0].as_str().unwrap().parse().unwrap();
+        // dτ/dα = 2D/Γ: the time is that badly conditioned.
+        let condition = 1.0 + 2.0 * alpha / first.closing_speed;
+        assert!((first.time - exact).abs() < 4.0 * f64::EPSILON * exact * condition, "{line}");
+    }
+}
+
+/// SciML DifferentialEquations.jl #647: g = 9.8, k = 500, natural length 1, masses 1, dropped from
+/// heights 5 and 6. Exact values in closed form; elsewhere it crashed.
+#[test]
+fn sciml_647_hopper() {
+    let physical = PhysicalHopper::new(1.0, 1.0, 500.0, 9.8).unwrap();
+    let hopper = Hopper::new(physical.mass_ratio().unwrap());
+    let start = HopperState { upper_position: 5.0, lower_position: 5.0, ..HopperState::RELAXED };
+    let start = physical.to_dimensionless(&start);
+    let arcs: Vec<_> =
+        Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(f64::INFINITY, 3))
+            .map(Result::unwrap)
+            .collect();
+    let seconds = physical.time_unit();
+    let state = |arc: usize| {
+        physical.to_physical(&HopperState::from(arcs[arc].event().unwrap().before))
+    };
+    let times: Vec<f64> = arcs.iter().map(|arc| arc.event().unwrap().time * seconds).collect();
+    assert_relative_eq!(times[0], 1.010_152_544_552_210_75, max_relative = 1e-14);
+    assert_relative_eq!(state(0).lower_velocity, -9.899_494_936_611_665, max_relative = 1e-13);
+    assert_relative_eq!(arcs[1].duration * seconds, 0.146_436_001_872_528_8, max_relative = 1e-13);
+    assert_relative_eq!(times[1], 1.156_588_546_424_739_6, max_relative = 1e-14);
+    assert_relative_eq!(1.0 + state(1).upper_position, 1.019_6, max_relative = 1e-14);
+    assert_relative_eq!(state(1).upper_velocity, 9.870_347_511_612_75, max_relative = 1e-13);
+    assert_relative_eq!(times[2], 2.156_934_558_330_891_5, max_relative = 1e-13);
+    assert_relative_eq!(state(2).lower_velocity, -9.619_844_900_102_33, max_relative = 1e-13);
+    // The lift-off is cubic: a ten-thousandth of a second later the lower mass is 8 ångström high.
+    let later = hopper.flow(Phase::Flight, &arcs[2].start, 1e-4 / seconds);
+    let height = physical.to_physical(&HopperState::from(later)).lower_position;
+    assert_relative_eq!(height, 8.224_88e-10, max_relative = 1e-5);
+    let lowest = (1..100_000)
+        .map(|k| 1.0 + arcs[1].duration * f64::from(k) / 1e5)
+        .map(|t| hopper.flow(Phase::Contact, &arcs[1].start, t - 1.0)[0])
+        .fold(f64::INFINITY, f64::min);
+    assert_relative_eq!(1.0 + lowest * physical.length_unit(), 0.537_247_475_466_967, max_relative = 1e-8);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(500))]
+
+    /// Energy is the same all along an arc, and only landings take any: ½M(1+M)ẏ2².
+    #[test]
+    fn energy_is_lost_at_landings_only(m in 0.02..50f64, alpha in 0.1..40f64) {
+        let hopper = hopper(m);
+        let ratio = hopper.mass_ratio();
+        let start = HopperState::lift_off(alpha);
+        let scale = (1.0 + m) * alpha * alpha + alpha.powi(4) + 10.0;
+        for arc in Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(1e3, 30)) {
+            let arc = arc.unwrap();
+            let at_start = energy(ratio, &arc.start.into());
+            for k in 0..=16 {
+                let state = arc.state(&hopper, arc.duration * f64::from(k) / 16.0);
+                prop_assert!((energy(ratio, &state.into()) - at_start).abs() < 1e-13 * scale);
+            }
+            let Some(event) = arc.event() else { continue };
+            let (_, after) = event.after.unwrap();
+            let lost = energy(ratio, &event.before.into()) - energy(ratio, &after.into());
+            let expected = match event.surface {
+                HopperSurface::Landing => landing_loss(ratio, event.before[3]),
+                HopperSurface::LiftOff => 0.0,
+            };
+            prop_assert!((lost - expected).abs() < 1e-13 * scale, "{lost} {expected}");
+        }
+    }
+
+    /// φ(t + u; x) = φ(u; φ(t; x)).
+    #[test]
+    fn flows_are_groups(
+        m in 0.05..20f64, t in 0.0..10f64, u in 0.0..10f64, flight: bool,
+        y1 in -5.0..5f64, v1 in -5.0..5f64, y2 in 0.0..5f64, v2 in -5.0..5f64,
+    ) {
+        let hopper = hopper(m);
+        let (phase, y2, v2) = if flight { (Phase::Flight, y2, v2) } else { (Phase::Contact, 0.0, 0.0) };
+        let start = State::<4>::new(y1, v1, y2, v2);
+        let at_once = hopper.flow(phase, &start, t + u);
+        let in_two = hopper.flow(phase, &hopper.flow(phase, &start, t), u);
+        let scale = 400.0 * (1.0 + m + 1.0 / m);
+        prop_assert!((at_once - in_two).norm() < 1e-13 * scale, "{at_once} {in_two}");
+    }
+
+    /// The closed-form flight obeys the equations of motion (1).
+    #[test]
+    fn flight_obeys_the_equations_of_motion(m in 0.05..20f64, t in 0.0..20f64, alpha in 0.1..10f64) {
+        let hopper = hopper(m);
+        let start = State::<4>::from(nalgebra::Vector4::from(HopperState::lift_off(alpha)));
+        let step = 1e-4;
+        let at = |t: f64| hopper.flow(Phase::Flight, &start, t);
+        let (before, here, after) = (at(t), at(t + step), at(t + 2.0 * step));
+        let rate = (after - before) / (2.0 * step);
+        let stretch = here[0] - here[2];
+        let tolerance = 1e-6 * (1.0 + alpha);
+        prop_assert!((rate[0] - here[1]).abs() < tolerance && (rate[2] - here[3]).abs() < tolerance);
+        prop_assert!(((1.0 + m) * rate[1] + m * stretch + 1.0).abs() < tolerance * (1.0 + m));
+        prop_assert!(((1.0 + m) * rate[3] - stretch + 1.0).abs() < tolerance * (1.0 + m));
+    }
+}

@@ -1,0 +1,212 @@
+//! The lift-off map against 40 digits, and against itself.
+
+#![allow(missing_docs)]
+
+use passive_hopper::{Error, LiftOffMap, MassRatio, alpha_star, printed_image};
+use proptest::prelude::*;
+use serde_json::Value;
+use std::f64::consts::PI;
+
+fn map(mass_ratio: f64) -> LiftOffMap {
+    LiftOffMap::new(MassRatio::new(mass_ratio).unwrap())
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_str().unwrap().parse().unwrap()
+}
+
+/// The worst error in units of the K of `data/README.md` per flight, over all lines; verdicts must
+/// be right on each.
+fn worst_k(text: &str, keep: impl Fn(&Value) -> bool) -> f64 {
+    let mut worst: f64 = 0.0;
+    for line in text.lines() {
+        let row: Value = serde_json::from_str(line).unwrap();
+        if !keep(&row) {
+            continue;
+        }
+        let (m, alpha) = (row["mass_ratio"].as_f64().unwrap(), row["alpha"].as_f64().unwrap());
+        let sudden = row["sudden"].as_u64().unwrap() as usize;
+        let hop = map(m).hop(alpha).unwrap();
+        assert_eq!(hop.sudden, sudden, "{line}");
+        assert_eq!(hop.next.is_none(), row["alpha_next"].is_null(), "{line}");
+        let Some(next) = hop.next else { continue };
+        let exact = number(&row["alpha_next"]);
+        let slope = |key: &str| row[key].as_str().map_or(0.0, |s| s.parse::<f64>().unwrap().abs());
+        let unit = exact
+            + slope("dalpha_next_dalpha") * alpha
+            + slope("dalpha_next_dM") * m
+            + alpha * alpha / exact;
+        let k = (next - exact).abs() / (0.5 * f64::EPSILON * unit);
+        worst = worst.max(k / (1 + sudden) as f64);
+    }
+    worst
+}
+
+#[test]
+fn random_hops_are_right_to_four_units_a_flight() {
+    assert!(worst_k(include_str!("data/hops_random.jsonl"), |_| true) <= 4.0);
+}
+
+#[test]
+fn hops_of_the_papers_window_are_right_to_four_units_a_flight() {
+    assert!(worst_k(include_str!("data/hops_window.jsonl"), |_| true) <= 4.0);
+}
+
+#[test]
+fn hops_next_to_branch_changes_are_right_to_four_units_a_flight() {
+    assert!(worst_k(include_str!("data/hops_boundaries.jsonl"), |_| true) <= 4.0);
+}
+
+#[test]
+fn extreme_hops_are_right_to_four_units_a_flight() {
+    // One speed above 4e6 has its fifth landing within rounding of stretch one.
+    let resolved = |row: &Value| row["alpha"].as_f64().unwrap() < 4e6;
+    assert!(worst_k(include_str!("data/hops_extreme.jsonl"), resolved) <= 4.0);
+}
+
+#[test]
+fn the_loss_of_tiny_hops_keeps_its_digits() {
+    for alpha in [1e-2, 1e-4, 1e-8, 1e-20, 1e-60] {
+        let hop = map(0.7).hop(alpha).unwrap();
+        let leading = 32.0 / 9.0 * MassRatio::new(0.7).unwrap().mu() * alpha.powi(5);
+        let error = hop.loss.unwrap() / leading - 1.0;
+        assert!(error.abs() < 2.0 * alpha * alpha + 1e-14, "{alpha}: {error}");
+    }
+}
+
+#[test]
+fn every_fixed_point_is_kept() {
+    for n in (1..200).chain([1000, 100_000]) {
+        for m in [1e-3, 0.2, 1.0, 7.0] {
+            let star = alpha_star(n).high;
+            let image = map(m).image(star).unwrap().unwrap();
+            // The nearest f64 is up to half an ulp off, δ; the map takes λ δ^{4/3} more on the
+            // right and ten times that on the left, λ < 3.5 μ α.
+            let delta = 0.5 * f64::EPSILON * star;
+            let lambda = 3.5 * MassRatio::new(m).unwrap().mu() * star;
+            let allowed = delta + 10.0 * lambda * delta.powf(4.0 / 3.0) + f64::EPSILON * star;
+            assert!((image - star).abs() <= allowed, "n = {n}, M = {m}: {image}");
+        }
+    }
+}
+
+#[test]
+fn the_first_flight_time_is_continuous_across_fixed_points() {
+    for n in 1..50 {
+        let star = alpha_star(n).high;
+        let time = |alpha| map(1.0).landings(alpha).unwrap().next().unwrap().unwrap().time;
+        let (below, above) = (time(star - 1e-9), time(star + 1e-9));
+        // t ≈ β δ^{1/3} on either side.
+        let step = 2.0 * 2.3 * 1e-3;
+        assert!(below < 2.0 * star && above > 2.0 * star && above - below < 1.1 * step, "{n}");
+    }
+}
+
+#[test]
+fn bad_speeds_are_errors_with_the_value() {
+    for alpha in [0.0, -0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert!(matches!(map(1.0).image(alpha), Err(Error::LiftOffSpeed { .. })), "{alpha}");
+    }
+    let error = map(1.0).image(1e300).unwrap_err();
+    assert!(matches!(error, Error::LiftOffSpeedTooLarge { value, .. } if value == 1e300));
+    assert!(map(1.0).image(f64::MIN_POSITIVE / 8.0).unwrap().is_some());
+}
+
+/// Thousands of sudden lift-offs in one hop: bounded by theory, and by the budget.
+#[test]
+fn huge_mass_ratios_end() {
+    for (m, alpha) in [(1e4, 3.6), (1e6, 3.2), (1e9, 40.0), (1e15, 7.1), (1e300, 3.5)] {
+        match map(m).hop(alpha) {
+            Ok(hop) => {
+                let (root, star) = (alpha * m.sqrt(), alpha_star(1).high);
+                let bound = (root + (root * root + 8.0 * alpha * star).sqrt()) / (2.0 * star);
+                assert!((hop.sudden as f64) <= bound * bound, "{m}: {}", hop.sudden);
+            }
+            Err(error) => assert!(matches!(error, Error::SuddenLiftOffBudget { .. }), "{error}"),
+        }
+    }
+}
+
+/// A few ulps around the places where branches change.
+fn degenerate_alpha() -> impl Strategy<Value = f64> {
+    let nudge = |x: f64, ulps: i32| f64::from_bits(x.to_bits().wrapping_add_signed(i64::from(ulps)));
+    prop_oneof![
+        3 => 1e-3..60f64,
+        1 => (1u64..20, -5..6i32).prop_map(move |(n, ulps)| nudge(n as f64 * PI, ulps)),
+        1 => (1u64..20, -5..6i32).prop_map(move |(n, ulps)| nudge(alpha_star(n).high, ulps)),
+        1 => (-300.0..1.0f64).prop_map(|e| 10f64.powf(e)),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    /// f(α; M) = f(α; 1/M) where the first landing is not sudden, i.e. off (nπ, α*_n).
+    #[test]
+    fn invariant_under_inversion_on_the_contact_intervals(alpha in degenerate_alpha(), e in -3.0..3.0f64) {
+        let ratio = MassRatio::new(10f64.powf(e)).unwrap();
+        let (here, there) = (LiftOffMap::new(ratio).hop(alpha).unwrap(), LiftOffMap::new(ratio.inverted()).hop(alpha).unwrap());
+        let first = LiftOffMap::new(ratio).landings(alpha).unwrap().next().unwrap().unwrap();
+        if !first.sudden {
+            // 1/M and both μ are rounded: a few ulps of μ.
+            let radicands = (here.radicand - there.radicand).abs();
+            prop_assert!(radicands <= 8.0 * f64::EPSILON * alpha * alpha, "{here:?} {there:?}");
+        }
+    }
+
+    /// Sudden exactly on (nπ, α*_n), n ≥ 1.
+    #[test]
+    fn sudden_exactly_left_of_the_fixed_points(alpha in degenerate_alpha(), m in 0.01..100f64) {
+        let first = map(m).landings(alpha).unwrap().next().unwrap().unwrap();
+        let n = (alpha / PI).round() as u64;
+        // Decided on the doubles nearest to the ends, with the sign of what they round away.
+        let beyond = |end: f64, rest: f64| alpha > end || (alpha == end && rest < 0.0);
+        let sin_pi = (n as f64 * PI).sin() * if n % 2 == 0 { -1.0 } else { 1.0 };
+        let after_turn = n >= 1 && beyond(n as f64 * PI, sin_pi);
+        let index = if after_turn { n } else { n.saturating_sub(1) };
+        let star = alpha_star(index);
+        let sudden = index >= 1 && !beyond(star.high, star.low);
+        prop_assert_eq!(first.sudden, sudden);
+    }
+
+    #[test]
+    fn never_gains_energy(alpha in degenerate_alpha(), e in -6.0..4.0f64) {
+        let hop = map(10f64.powf(e)).hop(alpha).unwrap();
+        prop_assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");
+        prop_assert!(hop.loss.is_none_or(|loss| loss >= 0.0));
+        prop_assert_eq!(hop.next.is_none(), !(hop.radicand > 0.0) && alpha > 1e-150);
+    }
+
+    /// The printed equations give the same map, to their own rounding.
+    #[test]
+    fn printed_and_stable_forms_agree(alpha in 0.5..40f64, e in -1.5..0.0f64) {
+        let ratio = MassRatio::new(10f64.powf(e)).unwrap();
+        // Within 1e-9 of a branch change the two may differ in their verdict.
+        let near = |x: f64| (alpha - x).abs() < 1e-9;
+        prop_assume!((0..14).all(|n| !near(n as f64 * PI) && !near(alpha_star(n).high)));
+        let stable = LiftOffMap::new(ratio).hop(alpha).unwrap();
+        prop_assume!(stable.radicand.abs() > 1e-6);
+        let printed = printed_image(ratio, alpha).unwrap();
+        prop_assert_eq!(printed.is_some(), stable.next.is_some());
+        if let (Some(a), Some(b)) = (printed, stable.next) {
+            let scale = alpha * alpha / b;
+            prop_assert!((a - b).abs() < 1e-9 * scale, "{a} {b}");
+        }
+    }
+
+    /// α' dα'/dα = α (1 − 4μW), against a central difference.
+    #[test]
+    fn the_slope_on_the_contact_intervals(n in 1u64..8, part in 0.1..0.9f64, m in 0.05..1f64) {
+        let star = alpha_star(n).high;
+        let alpha = star + part * ((n + 1) as f64 * PI - star);
+        let hop = map(m).hop(alpha).unwrap();
+        prop_assume!(hop.radicand > 1e-2);
+        let h = 0.5 * hop.flight_time;
+        let w = passive_hopper::HalfFlight::at(h).w();
+        let slope = alpha * (1.0 - 4.0 * MassRatio::new(m).unwrap().mu() * w) / hop.next.unwrap();
+        let step = 1e-5;
+        let value = |x: f64| map(m).image(x).unwrap().unwrap();
+        let difference = (value(alpha + step) - value(alpha - step)) / (2.0 * step);
+        prop_assert!((difference - slope).abs() < 1e-4 * (1.0 + slope.abs()).powi(3), "{difference} {slope}");
+    }
+}
