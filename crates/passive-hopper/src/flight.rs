@@ -72,7 +72,8 @@ impl HalfFlight {
             d: d_hat * cube,
             u: u_hat * cube,
             rho: u_hat / d_hat,
-            sigma: ratio * ratio / (d_hat * h),
+            // Capped where 1/h overflows, so that a start with x = 0 gives 0 and not 0 · ∞.
+            sigma: (ratio * ratio / (d_hat * h)).min(f64::MAX),
         }
     }
 
@@ -93,8 +94,8 @@ impl HalfFlight {
 
     /// dV/dh = Γ/D.
     pub fn start_speed_slope(&self, excess: f64) -> f64 {
-        // x S/D = x σ/S, but D is there already; both are finite for h > 0.
-        2.0 * self.rho * (self.rho - excess * (self.sin / self.d))
+        // Capped as σ is: D underflows for h below 1e-108.
+        2.0 * self.rho * (self.rho - excess * (self.sin / self.d).min(f64::MAX))
     }
 
     /// W = sin h (sin h − h cos h): α' dα'/dα = α (1 − 4μW) on the contact intervals.
