@@ -1,0 +1,56 @@
+//! The workspace's tasks: `cargo xtask --help`.
+//!
+//! The only code here that prints, draws or writes files; the libraries compute.
+
+pub mod claims;
+pub mod commands;
+mod error;
+pub mod figures;
+pub mod output;
+pub mod plot;
+pub mod progress;
+pub mod report;
+
+pub use error::Error;
+
+/// Where everything of the paper is: equations, figures and numbers, with functions, tests and
+/// figure files. Compiled, so that a rename breaks the build of the docs.
+#[doc = include_str!("../../docs/paper-map.md")]
+pub mod paper_map {}
+
+/// The README's code, compiled and run.
+#[doc = include_str!("../../README.md")]
+#[cfg(doctest)]
+pub mod readme {}
+
+use clap::{Parser, Subcommand};
+
+/// Figures, claims and rules of the hybrid-hopper workspace.
+#[derive(Debug, Parser)]
+#[command(name = "cargo xtask", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compute every figure and number of the paper, check every claim, write a report
+    ReproducePaper(commands::reproduce_paper::Options),
+    /// Check the invariance under M → 1/M alone, with its figure
+    VerifyInvariance(commands::verify_invariance::Options),
+    /// Compare the map and the fates with files of reference values
+    CheckReference(commands::check_reference::Options),
+    /// Check the repository's rules
+    Tidy,
+}
+
+/// Runs the command line.
+pub fn run() -> Result<(), Error> {
+    match Cli::parse().command {
+        Command::ReproducePaper(options) => commands::reproduce_paper::run(&options),
+        Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
+        Command::CheckReference(options) => commands::check_reference::run(&options),
+        Command::Tidy => commands::tidy::run(),
+    }
+}

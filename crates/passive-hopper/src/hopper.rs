@@ -39,7 +39,8 @@ pub enum HopperSurface {
 /// let start = HopperState::lift_off(alpha_star(1).high);
 /// let arcs: Vec<_> = Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(100.0, 2))
 ///     .collect::<Result<_, _>>()?;
-/// assert_eq!(arcs[0].duration, 2.0 * alpha_star(1).high);
+/// // A lossless hop lands after 2α*: a triple root, so the time is good to the cube root of an ulp.
+/// assert!((arcs[0].duration - 2.0 * alpha_star(1).high).abs() < 1e-4);
 /// assert_eq!(arcs[1].mode, Phase::Contact);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

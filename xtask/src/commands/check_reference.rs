@@ -1,0 +1,232 @@
+//! `check-reference`: the map and the fates against files of reference values.
+
+use crate::Error;
+use crate::output::read;
+use hopper_basin::{Fates, HopperFate};
+use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// Allowed error, in units of the reference's K, per flight: K (1 + sudden)
+    #[arg(long, value_name = "K", default_value_t = 4.0)]
+    limit: f64,
+    /// Files with one JSON object a line: hops, hops near a fixed point, or fates
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+}
+
+/// What a line asks and answers.
+enum Line {
+    Hop(Hop),
+    Fate { mass_ratio: f64, alpha: f64, fate: HopperFate },
+}
+
+struct Hop {
+    class: String,
+    mass_ratio: f64,
+    alpha: f64,
+    sudden: usize,
+    next: Option<f64>,
+    slope_alpha: f64,
+    slope_mass_ratio: f64,
+}
+
+/// The tally of a class.
+#[derive(Default)]
+struct Tally {
+    lines: usize,
+    worst: f64,
+    worst_place: String,
+    over: usize,
+    wrong: usize,
+    first_wrong: String,
+}
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    if !(options.limit > 0.0) {
+        return Err(Error::CheckFailed(format!("--limit must be positive, not {}", options.limit)));
+    }
+    // All lines are understood before the first is judged.
+    let mut parsed = Vec::new();
+    for path in &options.files {
+        parsed.push((path, parse(path)?));
+    }
+    let mut out = std::io::stdout().lock();
+    let write = |source| Error::File { path: "standard output".into(), source };
+    let (mut over, mut wrong) = (0, 0);
+    for (path, lines) in parsed {
+        for (class, tally) in judge(&lines, options.limit) {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            write!(out, "{name}: {class}: {} lines, ", tally.lines).map_err(write)?;
+            if !tally.worst_place.is_empty() {
+                write!(out, "worst K = {:.2} ({}), ", tally.worst, tally.worst_place).map_err(write)?;
+            }
+            write!(out, "{} over the limit, {} wrong verdicts", tally.over, tally.wrong).map_err(write)?;
+            if tally.wrong > 0 {
+                write!(out, " (first: {})", tally.first_wrong).map_err(write)?;
+            }
+            writeln!(out).map_err(write)?;
+            over += tally.over;
+            wrong += tally.wrong;
+        }
+    }
+    if over + wrong > 0 {
+        return Err(Error::CheckFailed(format!(
+            "{over} errors over K = {} (1 + sudden), {wrong} wrong verdicts",
+            options.limit
+        )));
+    }
+    Ok(())
+}
+
+fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
+    let text = read(path)?;
+    let mut lines = Vec::new();
+    for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
+        let bad = |reason: String| Error::ReferenceLine { path: path.into(), line: index + 1, reason };
+        let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
+        lines.push((index + 1, line(&value).map_err(bad)?));
+    }
+    Ok(lines)
+}
+
+fn line(value: &Value) -> Result<Line, String> {
+    let mass_ratio = number(value, "mass_ratio")?;
+    if let Some(fate) = value.get("fate") {
+        let fate = match fate.as_str() {
+            Some("incessant") => HopperFate::Incessant { n: whole(value, "n")? },
+            Some("decaying") => HopperFate::Decaying,
+            Some("grounded") => HopperFate::Grounded,
+            _ => return Err(format!("'fate' is {fate}, not incessant, decaying or grounded")),
+        };
+        return Ok(Line::Fate { mass_ratio, alpha: number(value, "alpha")?, fate });
+    }
+    let alpha = match value.get("offset") {
+        Some(_) => alpha_star(whole(value, "n")?).high + number(value, "offset")?,
+        None => number(value, "alpha")?,
+    };
+    let next = match value.get("alpha_next") {
+        None => return Err("'alpha_next' is missing".into()),
+        Some(Value::Null) => None,
+        Some(_) => Some(number(value, "alpha_next")?),
+    };
+    let slope = |key| if value.get(key).is_some() { number(value, key) } else { Ok(0.0) };
+    Ok(Line::Hop(Hop {
+        class: value.get("class").and_then(Value::as_str).unwrap_or("hop").to_owned(),
+        mass_ratio,
+        alpha,
+        sudden: whole(value, "sudden")? as usize,
+        next,
+        slope_alpha: slope("dalpha_next_dalpha")?.abs(),
+        slope_mass_ratio: slope("dalpha_next_dM")?.abs(),
+    }))
+}
+
+/// A finite number, given as such or as a decimal string.
+fn number(value: &Value, key: &str) -> Result<f64, String> {
+    let field = value.get(key).ok_or_else(|| format!("'{key}' is missing"))?;
+    let number = field.as_f64().or_else(|| field.as_str().and_then(|text| text.parse().ok()));
+    number.filter(|n: &f64| n.is_finite()).ok_or_else(|| format!("'{key}' is {field}, not a number"))
+}
+
+fn whole(value: &Value, key: &str) -> Result<u64, String> {
+    let field = value.get(key).ok_or_else(|| format!("'{key}' is missing"))?;
+    field.as_u64().ok_or_else(|| format!("'{key}' is {field}, not a whole number"))
+}
+
+fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
+    let mut tallies: BTreeMap<String, Tally> = BTreeMap::new();
+    for (at, line) in lines {
+        match line {
+            Line::Hop(hop) => judge_hop(tallies.entry(hop.class.clone()).or_default(), *at, hop, limit),
+            Line::Fate { mass_ratio, alpha, fate } => {
+                let tally = tallies.entry("fates".into()).or_default();
+                tally.lines += 1;
+                let found = MassRatio::new(*mass_ratio)
+                    .map_err(hopper_basin::Error::from)
+                    .and_then(Fates::new)
+                    .and_then(|fates| fates.fate(*alpha));
+                if found.as_ref() != Ok(fate) {
+                    tally.is_wrong(*at, &format!("{fate:?} expected, {found:?} found"));
+                }
+            }
+        }
+    }
+    tallies
+}
+
+fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
+    tally.lines += 1;
+    let found = MassRatio::new(hop.mass_ratio).and_then(|ratio| LiftOffMap::new(ratio).hop(hop.alpha));
+    let found = match found {
+        Ok(found) => found,
+        Err(error) => return tally.is_wrong(at, &error.to_string()),
+    };
+    if found.sudden != hop.sudden || found.next.is_some() != hop.next.is_some() {
+        let text = format!(
+            "{} sudden and next {:?} expected, {} and {:?} found",
+            hop.sudden, hop.next, found.sudden, found.next
+        );
+        return tally.is_wrong(at, &text);
+    }
+    let (Some(next), Some(exact)) = (found.next, hop.next) else { return };
+    let unit = exact.abs()
+        + hop.slope_alpha * hop.alpha
+        + hop.slope_mass_ratio * hop.mass_ratio
+        + hop.alpha * hop.alpha / exact.abs();
+    let k = (next - exact).abs() / (0.5 * f64::EPSILON * unit);
+    tally.over += usize::from(!(k <= limit * (1 + hop.sudden) as f64));
+    if k > tally.worst || tally.worst_place.is_empty() {
+        tally.worst = k;
+        tally.worst_place = format!("line {at}: M = {}, α = {}, sudden = {}", hop.mass_ratio, hop.alpha, hop.sudden);
+    }
+}
+
+impl Tally {
+    fn is_wrong(&mut self, at: usize, text: &str) {
+        self.wrong += 1;
+        if self.first_wrong.is_empty() {
+            self.first_wrong = format!("line {at}: {text}");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Line, String> {
+        line(&serde_json::from_str(text).unwrap())
+    }
+
+    #[test]
+    fn malformed_lines_say_what_is_wrong() {
+        for (text, words) in [
+            (r#"{"alpha": 1}"#, "'mass_ratio' is missing"),
+            (r#"{"mass_ratio": "x", "alpha": 1}"#, "'mass_ratio' is \"x\", not a number"),
+            (r#"{"mass_ratio": 1, "alpha": 5, "fate": "lost"}"#, "not incessant"),
+            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0}"#, "'alpha_next' is missing"),
+            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": -1, "alpha_next": "4"}"#, "'sudden' is -1"),
+        ] {
+            let error = parsed(text).err().unwrap();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_wrong_value_and_a_wrong_verdict_are_counted() {
+        let good = r#"{"class": "c", "mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "35.997158341573688180303069833057"}"#;
+        let off = good.replace("35.9971583415", "35.9971583416");
+        let verdict = good.replace("\"sudden\": 0", "\"sudden\": 1");
+        let lines: Vec<_> = [good, &off, &verdict].iter().map(|text| parsed(text).unwrap()).enumerate().collect();
+        let tally = judge(&lines, 4.0).remove("c").unwrap();
+        assert_eq!((tally.lines, tally.over, tally.wrong), (3, 1, 1));
+        assert!(tally.worst_place.starts_with("line 1"));
+    }
+}

@@ -1,0 +1,125 @@
+//! `reproduce-paper`: every figure and every number, and a report.
+
+use super::{failed, line};
+use crate::claims::{self, Claim};
+use crate::figures::{self, Figure};
+use crate::output::{Folder, digest, read, repository};
+use crate::plot::render::{Rendered, render};
+use crate::progress::Progress;
+use crate::{Error, report};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// Folder for the results [default: target/paper in the repository]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Make only these figures, and check no claims
+    #[arg(long, value_name = "FIGURE", value_delimiter = ',')]
+    only: Vec<String>,
+    /// Compare the data of the figures with the committed digests
+    #[arg(long)]
+    check: bool,
+    /// Update the committed figures and digests in docs/figures
+    #[arg(long, conflicts_with_all = ["check", "only"])]
+    bless: bool,
+}
+
+/// Figures of the README: name and form.
+const COMMITTED: &[(&str, Form)] =
+    &[("fig_02_map", Form::Svg), ("fig_03_segments", Form::Svg), ("fig_06_basin", Form::Png), ("invariance", Form::Svg)];
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Svg,
+    Png,
+}
+
+const DIGESTS: &str = "digests.json";
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let begin = Instant::now();
+    let chosen = figures::named(&options.only)?;
+    let folder = Folder::open(&options.out.clone().unwrap_or_else(|| repository().join("target/paper")))?;
+    let mut out = std::io::stdout().lock();
+    let mut say = |text: &str| writeln!(out, "{text}").map_err(|source| Error::File { path: "standard output".into(), source });
+    let mut made = Vec::new();
+    for (name, build) in chosen {
+        let figure = build(&Progress)?;
+        let rendered = render(name, &figure.svg, 2.0)?;
+        write(&folder, &figure, &rendered)?;
+        say(&format!("{name:10} {}", folder.path().join(format!("{}.png", figure.name)).display()))?;
+        made.push((figure, rendered));
+    }
+    let claims = if options.only.is_empty() { Some(claims::all(&Progress)?) } else { None };
+    if let Some(claims) = &claims {
+        let json = serde_json::to_vec_pretty(claims)
+            .map_err(|e| Error::Render { what: "claims.json".into(), reason: e.to_string() })?;
+        folder.write("claims.json", &json)?;
+        claims.iter().try_for_each(|claim| say(&line(claim)))?;
+    }
+    let seconds = begin.elapsed().as_secs_f64();
+    folder.write("report.html", report::page(&made, claims.as_deref(), seconds).as_bytes())?;
+    say(&format!("report     {}", folder.path().join("report.html").display()))?;
+    if options.bless {
+        bless(&made)?;
+    }
+    let differing = if options.check { compare(&made)? } else { Vec::new() };
+    say(&format!("{:.1} s", begin.elapsed().as_secs_f64()))?;
+    verdict(claims.as_deref().unwrap_or(&[]), &differing)
+}
+
+fn verdict(claims: &[Claim], differing: &[String]) -> Result<(), Error> {
+    if !differing.is_empty() {
+        return Err(Error::CheckFailed(format!(
+            "figure data differ from docs/figures/{DIGESTS}: {}. If that is meant: cargo xtask reproduce-paper --bless",
+            differing.join(", ")
+        )));
+    }
+    match failed(claims) {
+        0 => Ok(()),
+        count => Err(Error::CheckFailed(format!("{count} claims fail"))),
+    }
+}
+
+fn write(folder: &Folder, figure: &Figure, rendered: &Rendered) -> Result<(), Error> {
+    folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?;
+    folder.write(&format!("{}.png", figure.name), &rendered.png)?;
+    figure.data.iter().try_for_each(|file| folder.write(&file.name, &file.bytes))
+}
+
+/// Digests of all numbers; images of them depend on the encoder as well.
+fn digests(made: &[(Figure, Rendered)]) -> BTreeMap<String, String> {
+    let files = made.iter().flat_map(|(figure, _)| &figure.data);
+    let numbers = files.filter(|file| !file.name.ends_with(".png"));
+    numbers.map(|file| (file.name.clone(), digest(&file.bytes))).collect()
+}
+
+fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
+    let folder = Folder::open(&repository().join("docs/figures"))?;
+    for (figure, rendered) in made {
+        for (_, form) in COMMITTED.iter().filter(|(name, _)| *name == figure.name) {
+            match form {
+                Form::Svg => folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?,
+                Form::Png => folder.write(&format!("{}.png", figure.name), &rendered.png)?,
+            }
+        }
+    }
+    let json = serde_json::to_string_pretty(&digests(made))
+        .map_err(|e| Error::Render { what: DIGESTS.into(), reason: e.to_string() })?;
+    folder.write(DIGESTS, format!("{json}\n").as_bytes())
+}
+
+/// Names of the files whose digests differ from the committed ones.
+fn compare(made: &[(Figure, Rendered)]) -> Result<Vec<String>, Error> {
+    let path = repository().join("docs/figures").join(DIGESTS);
+    let committed: BTreeMap<String, String> = serde_json::from_str(&read(&path)?)
+        .map_err(|e| Error::Render { what: path.display().to_string(), reason: e.to_string() })?;
+    let ours = digests(made);
+    Ok(ours.into_iter().filter(|(name, digest)| committed.get(name) != Some(digest)).map(|(name, _)| name).collect())
+}

@@ -1,0 +1,133 @@
+//! Fig. 3: the map around α*_1 cut into four segments, and a typical motion of each.
+
+use super::{Figure, csv_file};
+use crate::Error;
+use crate::plot::curve::graph_pieces;
+use crate::plot::{Anchor, Frame, Pen, Svg, ticks};
+use crate::progress::Progress;
+use hopper_basin::Trap;
+use hybrid_system::{Execution, Limits};
+use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase, alpha_star};
+use std::f64::consts::PI;
+
+const M: f64 = 0.8;
+const UPPER: Pen = Pen::solid("#10386e", 1.2);
+const LOWER: Pen = Pen::solid("#d55e00", 1.4);
+const DURATION: f64 = 42.0;
+
+struct Segment {
+    name: &'static str,
+    says: &'static str,
+    alpha: f64,
+}
+
+/// Draws map and motions.
+pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
+    let ratio = MassRatio::new(M)?;
+    let map = LiftOffMap::new(ratio);
+    let trap = Trap::new(1, ratio)?;
+    let star = alpha_star(1).high;
+    let segments = [
+        Segment { name: "$α$_{L}", says: "sudden lift-off", alpha: 3.8 },
+        Segment { name: "$α$_{S}", says: "incessant hopping", alpha: star + 0.6 * trap.delta },
+        Segment { name: "$α$_{R}", says: "some hops, ever lower", alpha: 5.1 },
+        Segment { name: "$α$_{G}", says: "no further hop", alpha: 6.12 },
+    ];
+    let mut svg = Svg::new(760.0, 430.0);
+    let frame = Frame::linear(58.0, 18.0, 300.0, 350.0, (3.0, 6.45), (0.0, 5.2));
+    let pieces = graph_pieces(&map, &[3.0, PI, star, 2.0 * PI, 6.45], 160);
+    let gap = pieces.iter().filter(|p| p[0].0 < 6.2).filter_map(|p| p.last()).map(|p| p.0).fold(0.0, f64::max);
+    let bands = [("#f6e3d7", PI, star), ("#bfe6d4", star, trap.right()), ("#e3eaf4", trap.right(), gap), ("#ededeb", gap, 2.0 * PI)];
+    for (color, left, right) in bands {
+        let (x0, x1) = (frame.at((left, 0.0)).0, frame.at((right, 0.0)).0);
+        svg.fill_rect(x0, frame.top, (x1 - x0).max(1.2), frame.height, color);
+    }
+    frame.clipped(&mut svg, |svg| {
+        frame.polyline(svg, &[(0.0, 0.0), (9.0, 9.0)], Pen::dashed("#000", 0.7, "1.5 2.5"));
+        for piece in &pieces {
+            frame.curve(svg, piece, Pen::solid("#000", 1.6));
+        }
+    });
+    for (k, segment) in segments.iter().enumerate() {
+        let x = frame.at((segment.alpha, 0.0)).0;
+        // α_S is narrower than its name: set between the others, above.
+        let y = if k == 1 { frame.top + 30.0 } else { frame.top + 16.0 };
+        svg.text(x, y, Anchor::Middle, 12.5, segment.name);
+        if let Some(next) = map.image(segment.alpha)? {
+            let (px, py) = frame.at((segment.alpha, next));
+            svg.dot(px, py, 3.0, "#b02418");
+        } else {
+            svg.dot(x, frame.top + frame.height - 3.0, 3.0, "#b02418");
+        }
+    }
+    let (x, y) = frame.at((star, star));
+    svg.text(x + 14.0, y - 8.0, Anchor::Start, 11.5, "$α$^{∗}_{1}");
+    frame.axes(&mut svg, &ticks((3.0, 6.45), 4), &ticks((0.0, 5.2), 5), "$α$_{n} (dimensionless)", "$α$_{n+1}");
+    svg.text(frame.left, 420.0, Anchor::Start, 11.0, &format!("$M$ = {M}; shaded: the four segments"));
+
+    let mut rows = Vec::new();
+    for (k, segment) in segments.iter().enumerate() {
+        let (column, row) = ((k % 2) as f64, (k / 2) as f64);
+        let panel = Frame::linear(432.0 + 172.0 * column, 36.0 + 205.0 * row, 142.0, 128.0, (0.0, DURATION), (-14.0, 15.0));
+        let motion = motion(ratio, segment.alpha)?;
+        draw_motion(&mut svg, &panel, segment, &motion);
+        rows.extend(motion.iter().flatten().map(|&(t, y1, y2)| vec![Some(segment.alpha), Some(t), Some(y1), Some(y2)]));
+    }
+    svg.line((432.0, 420.0), (456.0, 420.0), UPPER);
+    svg.text(461.0, 424.0, Anchor::Start, 11.0, "upper mass, $y$_{1}");
+    svg.line((570.0, 420.0), (594.0, 420.0), LOWER);
+    svg.text(599.0, 424.0, Anchor::Start, 11.0, "lower mass, $y$_{2}");
+    Ok(Figure {
+        name: "fig_03_segments",
+        title: "Four segments around the first fixed point, and the motion in each".into(),
+        paper: "Around α*_1 the map has a left leg α_L, where landings are followed by an immediate \
+                take-off, the local basin α_S of incessant hopping, the right leg α_R with a few \
+                hops before the hopper settles, and a gap α_G without any further hop."
+            .into(),
+        notes: format!(
+            "Mass ratio lost; $M$ = {M}, at which all four segments exist. Red dots: the lift-off \
+             speeds whose motions are shown, {:.3}, {:.4}, {:.2} and {:.2}. Times in units of 1/$ω$, \
+             displacements of $m$_{{2}}$g$/$k$. The motion on α_R need not come to rest: hops may \
+             die out without end (the decaying fate).",
+            segments[0].alpha, segments[1].alpha, segments[2].alpha, segments[3].alpha
+        ),
+        svg: svg.finish(),
+        data: vec![
+            csv_file("fig_03_map.csv", &["alpha", "alpha_next"], pieces.iter().flatten().map(|&(x, y)| vec![Some(x), Some(y)]))?,
+            csv_file("fig_03_motions.csv", &["alpha", "time", "upper", "lower"], rows)?,
+        ],
+    })
+}
+
+/// (τ, y₁, y₂) along the arcs of an execution, a piece an arc.
+fn motion(ratio: MassRatio, alpha: f64) -> Result<Vec<Vec<(f64, f64, f64)>>, Error> {
+    let hopper = Hopper::new(ratio);
+    let start = HopperState::lift_off(alpha);
+    let mut pieces = Vec::new();
+    for arc in Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(DURATION, 1000)) {
+        let arc = arc?;
+        let samples = (arc.duration / 0.12).ceil().max(4.0) as usize;
+        let piece = (0..=samples).map(|k| {
+            let elapsed = arc.duration * (k as f64 / samples as f64);
+            let state = arc.state(&hopper, elapsed);
+            (arc.time + elapsed, state[0], state[2])
+        });
+        pieces.push(piece.collect());
+    }
+    Ok(pieces)
+}
+
+fn draw_motion(svg: &mut Svg, panel: &Frame, segment: &Segment, motion: &[Vec<(f64, f64, f64)>]) {
+    panel.polyline(svg, &[(0.0, 0.0), (DURATION, 0.0)], Pen::solid("#999", 0.6));
+    panel.clipped(svg, |svg| {
+        for piece in motion {
+            let upper: Vec<_> = piece.iter().map(|&(t, y1, _)| (t, y1)).collect();
+            let lower: Vec<_> = piece.iter().map(|&(t, _, y2)| (t, y2)).collect();
+            panel.curve(svg, &upper, UPPER);
+            panel.curve(svg, &lower, LOWER);
+        }
+    });
+    let title = format!("{}: {}", segment.name, segment.says);
+    svg.text(panel.left + panel.width / 2.0, panel.top - 6.0, Anchor::Middle, 11.5, &title);
+    panel.axes(svg, &ticks((0.0, DURATION), 4), &ticks((-14.0, 15.0), 3), "time $τ$", "$y$_{1}, $y$_{2}");
+}
