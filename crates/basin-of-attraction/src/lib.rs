@@ -12,7 +12,7 @@
 //! | [`Interval`], [`IntervalSet`] | disjoint intervals: union, difference, measure |
 //! | [`monotone_branches`], [`Branch`] | where a map is monotone, and preimages on a branch to 1 ulp |
 //! | [`preimage_levels`] | the basin of a trap, level by level |
-//! | [`equally_spaced_shares`] | shares of a window by equally spaced points |
+//! | [`equally_spaced_counts`] | labels of equally spaced points, counted |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //!
 //! ```
@@ -47,7 +47,7 @@ pub use branches::{Branch, monotone_branches};
 pub use error::Error;
 pub use fate::{Fate, Reason, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
-pub use measure::equally_spaced_shares;
+pub use measure::equally_spaced_counts;
 pub use preimage::preimage_levels;
 pub use raster::{Grid, LabelImage, raster};
 pub use scalar_map::{Image, ScalarMap};

@@ -1,8 +1,8 @@
 //! Basins at a fixed mass ratio, and over the plane of mass ratio and lift-off speed.
 
-use crate::{Error, Fates, HopperFate};
+use crate::{Error, Fates, HopperFate, TrapEdge};
 use basin_of_attraction::{
-    Branch, Grid, Interval, IntervalSet, LabelImage, equally_spaced_shares, monotone_branches,
+    Branch, Grid, Interval, IntervalSet, LabelImage, equally_spaced_counts, monotone_branches,
     preimage_levels, raster,
 };
 use passive_hopper::{MassRatio, alpha_star};
@@ -10,35 +10,46 @@ use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+/// Points counted by their fate.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Shares {
+    /// Points by [label](HopperFate::label).
+    pub counts: BTreeMap<u16, usize>,
+    /// All points.
+    pub points: usize,
+}
+
+impl Shares {
+    /// The share of one label.
+    pub fn of(&self, label: u16) -> f64 {
+        self.counts.get(&label).copied().unwrap_or(0) as f64 / self.points as f64
+    }
+
+    /// The share of incessant hopping: all labels of fixed points n ≥ 1.
+    pub fn incessant(&self) -> f64 {
+        let labels = 1..=HopperFate::LARGEST_LABEL as u16;
+        self.counts.range(labels).map(|(_, count)| count).sum::<usize>() as f64 / self.points as f64
+    }
+}
+
 /// The shares of all fates on [α*_from, α*_to] by the paper's protocol (Sec. VI): `points` equally
-/// spaced points on each interval between neighbouring fixed points, fractions averaged over the
-/// intervals. Keys are [labels](HopperFate::label).
+/// spaced points on each interval between neighbouring fixed points, so that the fractions of the
+/// intervals are averaged, whatever their lengths.
 ///
 /// # Errors
 /// As [`Fates::new`].
-pub fn shares(
-    mass_ratio: MassRatio,
-    from: u64,
-    to: u64,
-    points: usize,
-) -> Result<BTreeMap<u16, f64>, Error> {
+pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Result<Shares, Error> {
     let fates = Fates::new(mass_ratio)?;
     let label = |alpha: f64| fates.fate(alpha).map_or(HopperFate::UNDECIDED, HopperFate::label);
-    let mut sums = BTreeMap::new();
+    let mut counts = BTreeMap::new();
     for n in from..to {
         let hump = Interval::new(alpha_star(n).high, alpha_star(n + 1).high)?;
-        for (label, share) in equally_spaced_shares(hump, points, label) {
-            *sums.entry(label).or_insert(0.0) += share;
+        for (label, count) in equally_spaced_counts(hump, points, label) {
+            *counts.entry(label).or_insert(0) += count;
         }
     }
-    let humps = to.saturating_sub(from).max(1) as f64;
-    sums.values_mut().for_each(|share| *share /= humps);
-    Ok(sums)
-}
-
-/// The share of incessant hopping among `shares`: all labels of fixed points n ≥ 1.
-pub fn incessant_share(shares: &BTreeMap<u16, f64>) -> f64 {
-    shares.range(1..=HopperFate::LARGEST_LABEL as u16).map(|(_, share)| share).sum()
+    let points = counts.values().sum();
+    Ok(Shares { counts, points })
 }
 
 /// The basins over a window of (M, α): M to the right, α upwards, labels as in
@@ -114,6 +125,12 @@ pub fn basin_levels(
 ) -> Result<Vec<IntervalSet>, Error> {
     let trap = fates.trap(n)?;
     let branches = branches(fates, n, top, samples)?;
-    let trap = Interval::new(trap.star.high, trap.right())?;
-    Ok(preimage_levels(fates, &branches, trap, depth))
+    let mut level = Interval::new(trap.star.high, trap.right())?;
+    if trap.edge == TrapEdge::Crossing {
+        // The edge is where f falls to α*_n: taken as the map computes it, to the last bit, so that
+        // no sliver between two roundings of it counts as a level of its own.
+        let own = branches.iter().filter_map(|branch| branch.preimage(fates, &level));
+        level.right = own.filter(|p| p.left < level.right).fold(level.right, |r, p| r.max(p.right));
+    }
+    Ok(preimage_levels(fates, &branches, level, depth))
 }

@@ -10,15 +10,15 @@
 //! | [`Trap`] | Δ_n, and why the trap ends there |
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
 //! | [`crisis`], [`grounding`] | mass ratios at which a hump falls through its fixed point, or to the ground |
-//! | [`shares`], [`incessant_share`] | measures by the paper's protocol |
+//! | [`shares`], [`Shares`] | measures by the paper's protocol |
 //! | [`basin_raster`] | basins over (M, α) |
 //! | [`basin_levels`], [`branches`] | a basin as intervals, level by level, from the map itself |
 //!
 //! ```
-//! use hopper_basin::{incessant_share, shares};
+//! use hopper_basin::shares;
 //! use passive_hopper::MassRatio;
 //! // The paper's 0.037 at M = 0.2.
-//! let share = incessant_share(&shares(MassRatio::new(0.2)?, 1, 6, 10_000)?);
+//! let share = shares(MassRatio::new(0.2)?, 1, 6, 10_000)?.incessant();
 //! assert!((share - 0.037).abs() < 0.0005);
 //! # Ok::<(), hopper_basin::Error>(())
 //! ```
@@ -44,7 +44,7 @@ mod hump;
 mod map;
 mod trap;
 
-pub use basin::{basin_levels, basin_raster, branches, incessant_share, shares};
+pub use basin::{Shares, basin_levels, basin_raster, branches, shares};
 pub use crisis::{Crisis, crisis, grounding};
 pub use error::Error;
 pub use fate::{Fates, HOP_BUDGET, HopperFate};

@@ -4,7 +4,7 @@ use super::Claim;
 use crate::Error;
 use crate::progress::Progress;
 use basin_of_attraction::{Interval, monotone_branches};
-use hopper_basin::{Fates, branches, crisis, incessant_share, shares};
+use hopper_basin::{Fates, Shares, branches, crisis, shares};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 
 pub(super) fn check(progress: &Progress) -> Result<Vec<Claim>, Error> {
@@ -85,8 +85,8 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
         bar.set(k as u64 + 1);
     }
     bar.finish();
-    let total: Vec<f64> = results.iter().map(incessant_share).collect();
-    let first = results[0].get(&1).copied().unwrap_or(0.0);
+    let total: Vec<f64> = results.iter().map(Shares::incessant).collect();
+    let first = results[0].of(1);
     let how = "10 000 equally spaced points on each of the five intervals [$α$^{∗}_{i}, $α$^{∗}_{i+1}], fractions averaged; fates by traps";
     let claim = |name: &str, paper: &str, value: f64, printed: f64, digit: f64| {
         Claim::new("Sec. VI B", name)

@@ -16,7 +16,7 @@ const BLOCK: (f64, f64) = (52.0, 30.0);
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let mut svg = Svg::new(680.0, 330.0);
     let titles = ["(a) relaxed", "(b) flight", "(c) collision", "(d) contact"];
-    let conditions = ["", "$x$_{2} > 0", "$x$_{2} = 0, $ẋ$_{2} < 0", "$x$_{2} = 0, $kx$_{1} < $m$_{2}$g$"];
+    let conditions = ["", "$x$_{2} > 0", "$x$_{2} = 0, $v$_{2} < 0", "$x$_{2} = 0, $kx$_{1} < $m$_{2}$g$"];
     // Height of the lower mass, then of the upper one, above the ground.
     let heights = [(0.0, 110.0), (42.0, 165.0), (0.0, 132.0), (0.0, 84.0)];
     for (k, (lower, upper)) in heights.into_iter().enumerate() {
@@ -39,6 +39,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 of flight, collision and contact."
             .into(),
         notes: "Drawn anew. Positions $x$_{1}, $x$_{2} count upwards from the relaxed state; the \
+                velocities are $v$_{1}, $v$_{2}. The \
                 contact ends when the spring's pull $kx$_{1} reaches the lower mass's weight."
             .into(),
         svg: svg.finish(),
@@ -89,20 +90,20 @@ fn forces(svg: &mut Svg, panel: usize, x: f64, lower: f64, upper: f64) {
     match panel {
         1 => {
             force(-side - 5.0, upper_middle, upper_middle + 30.0, weight1);
-            force(side + 5.0, upper_middle, upper_middle + 38.0, "$k$($x$_{1}−$x$_{2})");
+            force(side + 5.0, upper_middle, upper_middle + 38.0, "$k$($x$_{1} − $x$_{2})");
             force(-side - 5.0, lower_middle, lower_middle + 30.0, weight2);
-            force(side + 5.0, lower_middle, lower_middle - 38.0, "$k$($x$_{1}−$x$_{2})");
+            force(side + 5.0, lower_middle, lower_middle - 38.0, "$k$($x$_{1} − $x$_{2})");
         }
         2 => {
             force(-side - 5.0, lower_middle + 15.0, lower_middle - 28.0, "impulse");
-            force(side + 5.0, upper_middle + 15.0, upper_middle - 20.0, "$ẋ$_{1} unchanged");
-            force(side + 5.0, lower_middle - 20.0, lower_middle + 15.0, "$ẋ$_{2} → 0");
+            force(side + 5.0, upper_middle + 15.0, upper_middle - 20.0, "$v$_{1} unchanged");
+            force(side + 5.0, lower_middle - 20.0, lower_middle + 15.0, "$v$_{2} → 0");
         }
         3 => {
             force(-side - 5.0, upper_middle, upper_middle + 30.0, weight1);
             force(side + 5.0, upper_middle, upper_middle + 30.0, "$kx$_{1}");
-            force(-side - 5.0, lower_middle - 10.0, lower_middle + 22.0, weight2);
-            force(side + 5.0, lower_middle + 22.0, lower_middle - 10.0, "$m$_{2}$g$−$kx$_{1}");
+            force(-side - 5.0, lower_middle - 22.0, lower_middle + 10.0, weight2);
+            force(side + 5.0, lower_middle + 12.0, lower_middle - 20.0, "$m$_{2}$g$ − $kx$_{1}");
         }
         _ => {}
     }

@@ -31,13 +31,14 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         Segment { name: "$α$_{L}", says: "sudden lift-off", alpha: 3.8 },
         Segment { name: "$α$_{S}", says: "incessant hopping", alpha: star + 0.6 * trap.delta },
         Segment { name: "$α$_{R}", says: "some hops, ever lower", alpha: 5.1 },
-        Segment { name: "$α$_{G}", says: "no further hop", alpha: 6.12 },
+        Segment { name: "$α$_{G}", says: "no further hop", alpha: 5.95 },
     ];
     let mut svg = Svg::new(760.0, 430.0);
     let frame = Frame::linear(58.0, 18.0, 300.0, 350.0, (3.0, 6.45), (0.0, 5.2));
     let pieces = graph_pieces(&map, &[3.0, PI, star, 2.0 * PI, 6.45], 160);
     let gap = pieces.iter().filter(|p| p[0].0 < 6.2).filter_map(|p| p.last()).map(|p| p.0).fold(0.0, f64::max);
-    let bands = [("#f6e3d7", PI, star), ("#bfe6d4", star, trap.right()), ("#e3eaf4", trap.right(), gap), ("#ededeb", gap, 2.0 * PI)];
+    let gap_end = pieces.iter().map(|p| p[0].0).filter(|&left| left > gap).fold(2.0 * PI, f64::min);
+    let bands = [("#f6e3d7", PI, star), ("#bfe6d4", star, trap.right()), ("#e3eaf4", trap.right(), gap), ("#e0e0dc", gap, gap_end)];
     for (color, left, right) in bands {
         let (x0, x1) = (frame.at((left, 0.0)).0, frame.at((right, 0.0)).0);
         svg.fill_rect(x0, frame.top, (x1 - x0).max(1.2), frame.height, color);
@@ -51,17 +52,18 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     for (k, segment) in segments.iter().enumerate() {
         let x = frame.at((segment.alpha, 0.0)).0;
         // α_S is narrower than its name: set between the others, above.
-        let y = if k == 1 { frame.top + 30.0 } else { frame.top + 16.0 };
+        let y = if k == 1 { frame.top + 42.0 } else { frame.top + 16.0 };
+        let x = if k == 1 { x + 12.0 } else { x };
         svg.text(x, y, Anchor::Middle, 12.5, segment.name);
         if let Some(next) = map.image(segment.alpha)? {
             let (px, py) = frame.at((segment.alpha, next));
             svg.dot(px, py, 3.0, "#b02418");
         } else {
-            svg.dot(x, frame.top + frame.height - 3.0, 3.0, "#b02418");
+            svg.dot(frame.at((segment.alpha, 0.0)).0, frame.top + frame.height - 3.0, 3.0, "#b02418");
         }
     }
     let (x, y) = frame.at((star, star));
-    svg.text(x + 14.0, y - 8.0, Anchor::Start, 11.5, "$α$^{∗}_{1}");
+    svg.text(x - 6.0, y - 3.0, Anchor::End, 11.5, "$α$^{∗}_{1}");
     frame.axes(&mut svg, &ticks((3.0, 6.45), 4), &ticks((0.0, 5.2), 5), "$α$_{n} (dimensionless)", "$α$_{n+1}");
     svg.text(frame.left, 420.0, Anchor::Start, 11.0, &format!("$M$ = {M}; shaded: the four segments"));
 
@@ -129,5 +131,6 @@ fn draw_motion(svg: &mut Svg, panel: &Frame, segment: &Segment, motion: &[Vec<(f
     });
     let title = format!("{}: {}", segment.name, segment.says);
     svg.text(panel.left + panel.width / 2.0, panel.top - 6.0, Anchor::Middle, 11.5, &title);
-    panel.axes(svg, &ticks((0.0, DURATION), 4), &ticks((-14.0, 15.0), 3), "time $τ$", "$y$_{1}, $y$_{2}");
+    let y_label = if panel.left < 500.0 { "$y$_{1}, $y$_{2}" } else { "" };
+    panel.axes(svg, &ticks((0.0, DURATION), 4), &ticks((-14.0, 15.0), 3), "time $τ$", y_label);
 }

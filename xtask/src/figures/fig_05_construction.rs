@@ -25,14 +25,14 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let levels = levels()?;
     let map = LiftOffMap::new(MassRatio::new(M)?);
     let window = (4.2, alpha_star(3).high);
-    let mut svg = Svg::new(620.0, 640.0);
+    let mut svg = Svg::new(620.0, 630.0);
     let top = Frame::linear(62.0, 16.0, 530.0, 330.0, window, (0.0, alpha_star(3).high));
     draw_map(&mut svg, &top, &map, &levels);
     top.axes(&mut svg, &ticks(window, 7), &ticks(top.y, 6), "$α$_{n} (dimensionless)", "$α$_{n+1}");
     svg.text(top.left + 8.0, top.top + 16.0, Anchor::Start, 13.0, &format!("(a)  $M$ = {M}"));
 
-    let bars = Frame::linear(62.0, 412.0, 530.0, 180.0, window, (0.0, 5.0));
-    svg.text(bars.left, bars.top - 8.0, Anchor::Start, 13.0, "(b)  points that enter $A$ after $n$ hops");
+    let bars = Frame::linear(62.0, 420.0, 530.0, 180.0, window, (0.0, 5.0));
+    svg.text(bars.left, bars.top - 15.0, Anchor::Start, 13.0, "(b)  points that enter $A$ after $n$ hops");
     for (k, level) in levels.iter().enumerate() {
         // One row a level, with those before it in grey, as in a construction that keeps its pieces.
         let y = bars.top + 36.0 * k as f64;
@@ -101,7 +101,7 @@ fn draw_map(svg: &mut Svg, frame: &Frame, map: &LiftOffMap, levels: &[IntervalSe
         }
     });
     let bottom = frame.top + frame.height - 8.0;
-    svg.text(frame.at((trap.right, 0.0)).0 + 4.0, bottom, Anchor::Start, 13.0, "$A$");
+    svg.text(frame.at((trap.right, 0.0)).0 + 3.0, bottom, Anchor::Start, 13.0, "$A$");
     for (k, part) in first.iter().enumerate() {
         svg.text(frame.at((part.right, 0.0)).0 + 4.0, bottom, Anchor::Start, 13.0, &format!("$A$_{{{k}}}"));
     }

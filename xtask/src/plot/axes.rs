@@ -108,6 +108,9 @@ impl Frame {
             widest = widest.max(label.chars().filter(|c| !"{}^_$".contains(*c)).count());
         }
         svg.text(self.left + self.width / 2.0, bottom + 30.0, Anchor::Middle, LABEL_SIZE, x_label);
+        if y_label.is_empty() {
+            return;
+        }
         let away = 5.0 * widest as f64 + 16.0;
         svg.rotated_text(
             self.left - away,

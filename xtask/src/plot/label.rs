@@ -48,8 +48,25 @@ pub fn tspans(markup: &str, size: f64) -> String {
 }
 
 fn span(out: &mut String, body: &str, italic: bool, size: f64, dy: f64, dx: f64) {
-    let style = if italic { " font-style=\"italic\"" } else { "" };
-    let _ = write!(out, "<tspan font-size=\"{size:.2}\"{style} dy=\"{dy:.2}\" dx=\"{dx:.2}\">{}</tspan>", escape(body));
+    let text: String = if italic { body.chars().map(math_italic).collect() } else { body.into() };
+    let _ = write!(
+        out,
+        "<tspan font-size=\"{size:.2}\" dy=\"{dy:.2}\" dx=\"{dx:.2}\">{}</tspan>",
+        escape(&text)
+    );
+}
+
+/// The mathematical italic of a Latin or Greek letter, from the same font as the upright one.
+fn math_italic(c: char) -> char {
+    let (first, base) = match c {
+        'h' => return 'ℎ',
+        'a'..='z' => ('a', 0x1d44e),
+        'A'..='Z' => ('A', 0x1d434),
+        'α'..='ω' => ('α', 0x1d6fc),
+        'Α'..='Ω' => ('Α', 0x1d6e2),
+        _ => return c,
+    };
+    char::from_u32(base + (c as u32 - first as u32)).unwrap_or(c)
 }
 
 /// Text as XML.
@@ -94,6 +111,12 @@ mod tests {
             .map(|part| part.split('"').next().unwrap().parse::<f64>().unwrap())
             .sum();
         assert!(shifts.abs() < 1e-9, "{spans}");
+    }
+
+    #[test]
+    fn letters_between_dollars_are_mathematical_italics() {
+        let italics: String = "azAZαωhΓ1".chars().map(math_italic).collect();
+        assert_eq!(italics, "𝑎𝑧𝐴𝑍𝛼𝜔ℎ𝛤1");
     }
 
     #[test]

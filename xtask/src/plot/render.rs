@@ -4,8 +4,8 @@ use crate::Error;
 use resvg::{tiny_skia, usvg};
 use std::sync::{Arc, OnceLock};
 
-const REGULAR: &[u8] = include_bytes!("../../assets/STIX-Regular.otf");
-const ITALIC: &[u8] = include_bytes!("../../assets/STIX-Italic.otf");
+/// It has the mathematical italics too.
+const FONT: &[u8] = include_bytes!("../../assets/STIX-Regular.otf");
 
 /// A drawing in both forms.
 #[derive(Debug, Clone)]
@@ -16,7 +16,7 @@ pub struct Rendered {
     pub png: Vec<u8>,
 }
 
-/// Renders `svg` with the fonts that are shipped, the PNG at `pixels_per_point`.
+/// Renders `svg` with the font that is shipped, the PNG at `pixels_per_point`.
 pub fn render(name: &str, svg: &str, pixels_per_point: f32) -> Result<Rendered, Error> {
     let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
     let options = usvg::Options { fontdb: fonts(), ..usvg::Options::default() };
@@ -36,8 +36,7 @@ fn fonts() -> Arc<usvg::fontdb::Database> {
     static FONTS: OnceLock<Arc<usvg::fontdb::Database>> = OnceLock::new();
     let load = || {
         let mut fonts = usvg::fontdb::Database::new();
-        fonts.load_font_data(REGULAR.to_vec());
-        fonts.load_font_data(ITALIC.to_vec());
+        fonts.load_font_data(FONT.to_vec());
         fonts.set_serif_family("STIX");
         Arc::new(fonts)
     };
