@@ -16,7 +16,8 @@ pub struct Folder(PathBuf);
 impl Folder {
     /// Makes the folder if need be, and sees that it can be written to.
     pub fn open(path: &Path) -> Result<Self, Error> {
-        std::fs::create_dir_all(path).map_err(|source| Error::File { path: path.into(), source })?;
+        std::fs::create_dir_all(path)
+            .map_err(|source| Error::File { path: path.into(), source })?;
         let folder = Folder(path.to_path_buf());
         folder.write(".writable", b"")?;
         let probe = folder.0.join(".writable");

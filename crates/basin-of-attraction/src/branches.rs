@@ -36,7 +36,10 @@ impl Branch {
             (self.first(map, enter)?, self.last_before(map, leave)?)
         } else {
             // Against the branch: values fall from left to right.
-            (self.first(map, |value| value <= target.right)?, self.last_before(map, |value| value < target.left)?)
+            (
+                self.first(map, |value| value <= target.right)?,
+                self.last_before(map, |value| value < target.left)?,
+            )
         };
         (left < right).then_some(Interval { left, right })
     }

@@ -85,7 +85,12 @@ pub enum Reason {
 /// assert_eq!(classify(&map, &traps, 0.3, 100).0, Fate::Stopped);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
-pub fn classify(map: &impl ScalarMap, traps: &impl Traps, start: f64, budget: usize) -> (Fate, usize) {
+pub fn classify(
+    map: &impl ScalarMap,
+    traps: &impl Traps,
+    start: f64,
+    budget: usize,
+) -> (Fate, usize) {
     let mut x = start;
     for step in 0..=budget {
         if !x.is_finite() {
@@ -120,16 +125,23 @@ mod tests {
         assert_eq!(classify(&halve, &traps, 0.8, 10), (Fate::Trapped(7), 3));
         assert_eq!(classify(&halve, &traps, 1e9, 10), (Fate::Undecided(Reason::Budget), 10));
         let stands = |x: f64| Some(x);
-        assert_eq!(classify(&stands, &traps, 5.0, 10).0, Fate::Undecided(Reason::Precision { at: 5.0 }));
+        assert_eq!(
+            classify(&stands, &traps, 5.0, 10).0,
+            Fate::Undecided(Reason::Precision { at: 5.0 })
+        );
         let breaks = |x: f64| Some(x / 0.0);
         let (fate, steps) = classify(&breaks, &traps, 5.0, 10);
         assert!(matches!(fate, Fate::Undecided(Reason::Map { .. })) && steps == 1);
-        assert!(matches!(classify(&halve, &traps, f64::NAN, 10).0, Fate::Undecided(Reason::Map { .. })));
+        assert!(matches!(
+            classify(&halve, &traps, f64::NAN, 10).0,
+            Fate::Undecided(Reason::Map { .. })
+        ));
     }
 
     #[test]
     fn overlapping_traps_are_refused() {
-        let traps = vec![(Interval::new(0.0, 1.0).unwrap(), 1), (Interval::new(1.0, 2.0).unwrap(), 2)];
+        let traps =
+            vec![(Interval::new(0.0, 1.0).unwrap(), 1), (Interval::new(1.0, 2.0).unwrap(), 2)];
         assert!(matches!(TrapSet::new(traps), Err(Error::OverlappingTraps { .. })));
     }
 }

@@ -42,7 +42,8 @@ pub struct LabelImage {
 impl LabelImage {
     /// The label of a pixel; rows count from below.
     pub fn at(&self, column: usize, row: usize) -> Option<u16> {
-        (column < self.grid.columns).then(|| self.labels.get(row * self.grid.columns + column).copied())?
+        (column < self.grid.columns)
+            .then(|| self.labels.get(row * self.grid.columns + column).copied())?
     }
 
     /// How many pixels have each label, in increasing order of labels.
@@ -123,9 +124,8 @@ mod tests {
 
     #[test]
     fn the_number_of_threads_does_not_matter() {
-        let compute = || {
-            raster(grid(), |x| x, |&x, y| ((x * 1000.0) * y) as u16, |_| Continue(())).unwrap()
-        };
+        let compute =
+            || raster(grid(), |x| x, |&x, y| ((x * 1000.0) * y) as u16, |_| Continue(())).unwrap();
         let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         assert_eq!(pool(1).install(compute), pool(7).install(compute));
     }

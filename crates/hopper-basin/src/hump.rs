@@ -32,11 +32,7 @@ impl Hump {
         let offset = self.offset(&half);
         let closing = half.closing_speed(0.0);
         let alpha = self.star.high + offset;
-        let squares = if target == 0.0 {
-            alpha * alpha
-        } else {
-            offset * (alpha + self.star.high)
-        };
+        let squares = if target == 0.0 { alpha * alpha } else { offset * (alpha + self.star.high) };
         squares - mu * closing * closing
     }
 

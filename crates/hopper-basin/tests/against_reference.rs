@@ -1,6 +1,7 @@
 //! Traps, crises, fates and the paper's measures against independent values.
 
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+#![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
 use hopper_basin::{Fates, HopperFate, Trap, TrapEdge, crisis, grounding, shares};
@@ -26,7 +27,12 @@ fn delta_agrees_with_forty_digits_on_the_contact_intervals() {
         let trap = Trap::new(n, ratio).unwrap();
         if row["edge"].as_str().unwrap().starts_with("contact") {
             assert_eq!(trap.edge, TrapEdge::Crossing);
-            assert_relative_eq!(trap.delta, number(&row["delta_exact"]), max_relative = 1e-13, epsilon = 2e-15);
+            assert_relative_eq!(
+                trap.delta,
+                number(&row["delta_exact"]),
+                max_relative = 1e-13,
+                epsilon = 2e-15
+            );
             compared += 1;
         } else {
             assert_eq!(trap.edge, TrapEdge::ContactEnd, "{row}");

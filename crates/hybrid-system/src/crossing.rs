@@ -49,8 +49,10 @@ where
         return Err(Error::BadSamplingInterval { interval, horizon });
     }
 
-    let mut watches: Vec<Watch<T::Surface>> =
-        guards.iter().map(|&guard| Watch::new(guard, system.guard_value(guard.surface, start))).collect();
+    let mut watches: Vec<Watch<T::Surface>> = guards
+        .iter()
+        .map(|&guard| Watch::new(guard, system.guard_value(guard.surface, start)))
+        .collect();
     let mut index = 0u64;
     loop {
         index += 1;
@@ -66,6 +68,7 @@ where
             let surface = watch.guard.surface;
             let along = |t: f64| system.guard_value(surface, &system.flow(mode, start, t));
             let at = bracketed_root(along, bracket.0, bracket.1)?;
+            let at = beyond(along, at, bracket.1, value);
             if earliest.is_none_or(|(best, _)| at < best) {
                 earliest = Some((at, surface));
             }
@@ -79,6 +82,23 @@ where
             return Ok(None);
         }
     }
+}
+
+/// The first time from `root` on at which the guard has the sign it has at `right`: an execution
+/// that goes on from there does not cross again.
+fn beyond(along: impl Fn(f64) -> f64, root: f64, right: f64, at_right: f64) -> f64 {
+    let mut time = root;
+    let mut step = 1u64;
+    while time < right && along(time).signum() != at_right.signum() || along(time) == 0.0 {
+        // 1, 2, 4, … ulps: rounding hides the sign for a few at most.
+        let next = f64::from_bits(time.to_bits().saturating_add(step)).min(right);
+        if next <= time {
+            break;
+        }
+        time = next;
+        step *= 2;
+    }
+    time
 }
 
 /// One guard along one arc: the last time at which it was not zero, and its value there.
@@ -95,19 +115,25 @@ impl<S: Copy + std::fmt::Debug> Watch<S> {
     }
 
     /// Takes the next sample; a bracket if the guard has been crossed in its direction.
-    fn advance(&mut self, time: f64, value: f64, interval: f64) -> Result<Option<(f64, f64)>, Error> {
+    fn advance(
+        &mut self,
+        time: f64,
+        value: f64,
+        interval: f64,
+    ) -> Result<Option<(f64, f64)>, Error> {
         if value == 0.0 {
             self.first_zero.get_or_insert(time);
             return Ok(None);
         }
         let zero = self.first_zero.take();
         match self.last_nonzero.replace((time, value)) {
-            None if self.guard.direction.leads_to(value) => {
-                Err(Error::UndecidedStart { surface: format!("{:?}", self.guard.surface), interval })
-            }
+            None if self.guard.direction.leads_to(value) => Err(Error::UndecidedStart {
+                surface: format!("{:?}", self.guard.surface),
+                interval,
+            }),
             Some((since, before)) if self.guard.direction.admits(before, value) => {
-                // A sample that hit zero is the root: the bracket shrinks to it.
-                Ok(Some(zero.map_or((since, time), |zero| (zero, zero))))
+                // A sample that hit zero is the first root: the bracket shrinks to it.
+                Ok(Some((zero.unwrap_or(since), time)))
             }
             _ => Ok(None),
         }

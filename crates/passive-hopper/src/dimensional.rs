@@ -17,7 +17,12 @@ impl PhysicalHopper {
     /// # Errors
     /// [`Error::Parameter`] unless all are positive and finite; [`Error::MassRatio`] for a ratio
     /// out of range.
-    pub fn new(upper_mass: f64, lower_mass: f64, stiffness: f64, gravity: f64) -> Result<Self, Error> {
+    pub fn new(
+        upper_mass: f64,
+        lower_mass: f64,
+        stiffness: f64,
+        gravity: f64,
+    ) -> Result<Self, Error> {
         let given = [("m1", upper_mass), ("m2", lower_mass), ("k", stiffness), ("g", gravity)];
         for (name, value) in given {
             if !(value > 0.0) || !value.is_finite() {

@@ -27,7 +27,9 @@ pub enum Error {
         value: f64,
     },
     /// The lift-off speed is so large that neighbouring numbers belong to different motions.
-    #[error("the lift-off speed {value} is over {largest}, where an f64 no longer resolves the motion")]
+    #[error(
+        "the lift-off speed {value} is over {largest}, where an f64 no longer resolves the motion"
+    )]
     LiftOffSpeedTooLarge {
         /// The value given.
         value: f64,
@@ -35,7 +37,9 @@ pub enum Error {
         largest: f64,
     },
     /// A state so large that an f64 no longer resolves the spring's phase, or not finite.
-    #[error("a coordinate of the motion is {value}, over {largest}, where an f64 no longer resolves it")]
+    #[error(
+        "a coordinate of the motion is {value}, over {largest}, where an f64 no longer resolves it"
+    )]
     MotionTooLarge {
         /// The coordinate, in the model's units (times 1+M for the height).
         value: f64,
@@ -62,7 +66,9 @@ pub enum Error {
         velocity: f64,
     },
     /// A bracket that the theory guarantees did not hold numerically.
-    #[error("a landing could not be bracketed from stretch 1 + {excess}, velocity {velocity}: {source}")]
+    #[error(
+        "a landing could not be bracketed from stretch 1 + {excess}, velocity {velocity}: {source}"
+    )]
     Landing {
         /// Stretch minus one at the start of the flight.
         excess: f64,

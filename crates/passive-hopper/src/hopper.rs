@@ -79,7 +79,12 @@ impl Hopper {
             let time = landing_time(&flight)?;
             (time, HopperState { lower_position: 0.0, ..flight.state(time) })
         };
-        Ok(Crossing { surface: HopperSurface::Landing, time, state: state.into(), certainty: Certainty::Exact })
+        Ok(Crossing {
+            surface: HopperSurface::Landing,
+            time,
+            state: state.into(),
+            certainty: Certainty::Exact,
+        })
     }
 
     fn landing_from_ground(&self, start: TakeOff) -> (f64, HopperState) {
@@ -107,7 +112,12 @@ impl Hopper {
         } else {
             *start
         };
-        Some(Crossing { surface: HopperSurface::LiftOff, time, state: state.into(), certainty: Certainty::Exact })
+        Some(Crossing {
+            surface: HopperSurface::LiftOff,
+            time,
+            state: state.into(),
+            certainty: Certainty::Exact,
+        })
     }
 }
 

@@ -15,9 +15,9 @@
 //! (−1)^m (V cos V − Y sin V) ≥ 0: V has not passed the local maximum of branch m, which lies on
 //! the diagonal, so V(h) − h = S (hC − YS)/D changes sign just there (theory: b.2).
 
+use crate::HalfFlight;
 use crate::double_double::DoubleDouble;
 use crate::lossless::{alpha_star, n_pi};
-use crate::HalfFlight;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
@@ -76,11 +76,7 @@ impl Cell {
 
     /// The interval of h that holds the landing.
     fn bracket(&self, alpha: f64) -> (f64, f64) {
-        if self.sudden {
-            (self.n as f64 * PI, alpha)
-        } else {
-            (alpha, (self.n + 1) as f64 * PI)
-        }
+        if self.sudden { (self.n as f64 * PI, alpha) } else { (alpha, (self.n + 1) as f64 * PI) }
     }
 
     /// h to a few digits, from the expansion of A about α*_n, or about 0 and π on the first cell.
@@ -200,7 +196,8 @@ fn solve(excess: f64, velocity: f64, bracket: (f64, f64), start: f64) -> Root {
         half = HalfFlight::at(h);
         residual = (h - velocity) + half.speed_beyond_h(excess);
     }
-    let rest = (-residual / half.start_speed_slope(excess)).clamp(left.min(h) - h, right.max(h) - h);
+    let rest =
+        (-residual / half.start_speed_slope(excess)).clamp(left.min(h) - h, right.max(h) - h);
     Root { half, residual, rest: if rest.is_nan() { 0.0 } else { rest } }
 }
 

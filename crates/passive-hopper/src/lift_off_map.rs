@@ -77,9 +77,9 @@ impl LiftOffMap {
     /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
     /// sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
-        let mut landings = self.landings(alpha)?;
+        let landings = self.landings(alpha)?;
         let (mut shares, mut sudden, mut flight_time) = (0.0, 0, 0.0);
-        while let Some(landing) = landings.next() {
+        for landing in landings {
             let landing = landing?;
             let ratio = landing.closing_speed / alpha;
             shares += ratio * ratio;
@@ -93,7 +93,14 @@ impl LiftOffMap {
         // t = 1: the contact force grazes zero and the lower mass stays down.
         let next = next.filter(|&next| next > 0.0);
         let loss = loss.filter(|_| next.is_some());
-        Ok(Hop { speed: alpha, next, loss, radicand: alpha * alpha * (1.0 - t), sudden, flight_time })
+        Ok(Hop {
+            speed: alpha,
+            next,
+            loss,
+            radicand: alpha * alpha * (1.0 - t),
+            sudden,
+            flight_time,
+        })
     }
 
     /// The landings of the hop that starts with speed `alpha`, one after the other.
@@ -105,7 +112,10 @@ impl LiftOffMap {
             return Err(Error::LiftOffSpeed { value: alpha });
         }
         if alpha > LARGEST_LIFT_OFF_SPEED {
-            return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
+            return Err(Error::LiftOffSpeedTooLarge {
+                value: alpha,
+                largest: LARGEST_LIFT_OFF_SPEED,
+            });
         }
         let start = TakeOff { excess: 0.0, velocity: alpha };
         Ok(Landings { kappa: self.kappa, start: Some(start), flights: 0 })
@@ -140,7 +150,8 @@ impl Iterator for Landings {
         // A sudden landing whose excess rounds to zero or below is followed by a flight too short
         // to see, which loses nothing.
         let again = landing.sudden && landing.excess > 0.0;
-        self.start = again.then_some(TakeOff { excess: landing.excess, velocity: landing.velocity });
+        self.start =
+            again.then_some(TakeOff { excess: landing.excess, velocity: landing.velocity });
         Some(Ok(landing))
     }
 }

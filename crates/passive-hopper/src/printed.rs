@@ -29,11 +29,7 @@ pub fn printed_image(mass_ratio: MassRatio, alpha: f64) -> Result<Option<f64>, E
         }
     }
     let (y, velocity) = state;
-    Err(Error::SuddenLiftOffBudget {
-        sudden: SUDDEN_LIFT_OFF_BUDGET,
-        excess: y - 1.0,
-        velocity,
-    })
+    Err(Error::SuddenLiftOffBudget { sudden: SUDDEN_LIFT_OFF_BUDGET, excess: y - 1.0, velocity })
 }
 
 /// The first positive root of Eq. (8), τ²/2 + V sin τ + Y cos τ − V τ − Y = 0.

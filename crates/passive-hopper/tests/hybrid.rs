@@ -1,6 +1,7 @@
 //! The hopper as a hybrid system: energy, flows, landing times, and the map built from it.
 
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+#![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
 use hybrid_system::{Event, Execution, HybridSystem, Limits, State, Stop};
@@ -47,7 +48,10 @@ fn the_return_map_is_the_lift_off_map() {
                 // Near grounding the square root magnifies rounding by α²/α'², and many sudden
                 // lift-offs in a row each magnify it too.
                 let scale = (alpha / next).powi(2).max(1.0) * (1 + hop.sudden) as f64;
-                assert!((image - next).abs() < 1e-12 * scale, "M = {m}, α = {alpha}: {image} {next}");
+                assert!(
+                    (image - next).abs() < 1e-12 * scale,
+                    "M = {m}, α = {alpha}: {image} {next}"
+                );
                 compared += 1;
             }
         }
@@ -125,9 +129,8 @@ fn sciml_647_hopper() {
             .map(Result::unwrap)
             .collect();
     let seconds = physical.time_unit();
-    let state = |arc: usize| {
-        physical.to_physical(&HopperState::from(arcs[arc].event().unwrap().before))
-    };
+    let state =
+        |arc: usize| physical.to_physical(&HopperState::from(arcs[arc].event().unwrap().before));
     let times: Vec<f64> = arcs.iter().map(|arc| arc.event().unwrap().time * seconds).collect();
     assert_relative_eq!(times[0], 1.010_152_544_552_210_75, max_relative = 1e-14);
     assert_relative_eq!(state(0).lower_velocity, -9.899_494_936_611_665, max_relative = 1e-13);
@@ -145,7 +148,11 @@ fn sciml_647_hopper() {
         .map(|k| 1.0 + arcs[1].duration * f64::from(k) / 1e5)
         .map(|t| hopper.flow(Phase::Contact, &arcs[1].start, t - 1.0)[0])
         .fold(f64::INFINITY, f64::min);
-    assert_relative_eq!(1.0 + lowest * physical.length_unit(), 0.537_247_475_466_967, max_relative = 1e-8);
+    assert_relative_eq!(
+        1.0 + lowest * physical.length_unit(),
+        0.537_247_475_466_967,
+        max_relative = 1e-8
+    );
 }
 
 proptest! {

@@ -62,10 +62,12 @@ pub fn fixed_points(
         if values[k] == Some(0.0) {
             found.push(on_sample(&values, k, at(k)));
         }
-        if let (Some(&Some(a)), Some(&Some(b))) = (values.get(k), values.get(k + 1)) {
-            if (a < 0.0 && b > 0.0) || (a > 0.0 && b < 0.0) {
-                found.extend(crossing(&gap, at(k), at(k + 1)));
-            }
+        if let Some(&[Some(a), Some(b)]) = values.get(k..k + 2)
+            && (a < 0.0) != (b < 0.0)
+            && a != 0.0
+            && b != 0.0
+        {
+            found.extend(crossing(gap, at(k), at(k + 1)));
         }
         if let Some(&[Some(a), Some(b), Some(c)]) = values.get(k..k + 3) {
             let side = b.signum();
@@ -82,7 +84,8 @@ pub fn fixed_points(
 
 /// A sample that hit a fixed point exactly: told apart by the neighbours' signs.
 fn on_sample(values: &[Option<f64>], k: usize, location: f64) -> FixedPoint {
-    let neighbour = |k: Option<usize>| k.and_then(|k| values.get(k).copied().flatten()).unwrap_or(0.0);
+    let neighbour =
+        |k: Option<usize>| k.and_then(|k| values.get(k).copied().flatten()).unwrap_or(0.0);
     let (before, after) = (neighbour(k.checked_sub(1)), neighbour(Some(k + 1)));
     let touches = before != 0.0 && after != 0.0 && before.signum() == after.signum();
     let meeting = if touches { Meeting::Touching } else { Meeting::Crossing };
@@ -94,8 +97,11 @@ fn crossing(gap: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<F
     let residual = gap(location)?;
     // At a jump through the diagonal the residual stays large on both sides.
     let scale = left.abs().max(right.abs()).max(right - left);
-    (residual.abs() <= 1e-8 * scale)
-        .then_some(FixedPoint { location, residual, meeting: Meeting::Crossing })
+    (residual.abs() <= 1e-8 * scale).then_some(FixedPoint {
+        location,
+        residual,
+        meeting: Meeting::Crossing,
+    })
 }
 
 /// Golden-section search for a minimum of `height` ≥ 0 that is zero to rounding.
@@ -121,6 +127,9 @@ fn touching(
     let best = if heights[0] < heights[1] { 0 } else { 1 };
     let (location, residual) = (inner[best], heights[best]);
     let rounding = TOUCH_ULPS * f64::EPSILON * location.abs().max(right - left);
-    (residual.abs() <= rounding)
-        .then_some(FixedPoint { location, residual, meeting: Meeting::Touching })
+    (residual.abs() <= rounding).then_some(FixedPoint {
+        location,
+        residual,
+        meeting: Meeting::Touching,
+    })
 }

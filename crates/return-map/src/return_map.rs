@@ -46,7 +46,7 @@ where
         let (mode, state) = self.section.point(coordinates);
         let mut execution = Execution::new(self.system, mode, state, self.limits);
         let (mut time, mut events) = (0.0, 0);
-        while let Some(arc) = execution.next() {
+        for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
             let Some(event) = arc.event() else { continue };

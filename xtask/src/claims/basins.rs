@@ -19,12 +19,15 @@ fn multimodal() -> Result<Claim, Error> {
     let mut turns = Vec::new();
     for n in 1..=5 {
         let hump = branches(&fates, n, n + 1, 2001)?;
-        turns.push(hump.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count());
+        turns.push(
+            hump.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count(),
+        );
     }
     // An independent look: the whole window, sampled, with no theory.
     let window = Interval::new(alpha_star(1).high, alpha_star(6).high)?;
     let blind = monotone_branches(&fates, window, 40_001)?;
-    let blind_turns = blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
+    let blind_turns =
+        blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
     Ok(Claim::new("Secs. I, III, Fig. 2", "multimodality")
         .paper("the map has many humps, one between any two neighbouring fixed points")
         .ours(format!("at $M$ = 0.2 each of the first five humps has one maximum and one minimum; {blind_turns} turning points in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}]"))
@@ -96,7 +99,8 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
             .how(how)
             .holds((value - printed).abs() <= digit)
     };
-    let table: Vec<String> = ratios.iter().zip(&total).map(|(m, t)| format!("{t:.4} at {m}")).collect();
+    let table: Vec<String> =
+        ratios.iter().zip(&total).map(|(m, t)| format!("{t:.4} at {m}")).collect();
     Ok(vec![
         claim("measure at M = 0.1, all basins", "1", total[0], 1.0, 0.0),
         claim("measure at M = 0.1, first basin", "0.953", first, 0.953, 0.0005),
@@ -113,11 +117,14 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
 /// Changes of fate along α at M = 0.175, in the windows of Figs. 6, 8 and 9.
 fn finer_scales() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.175)?)?;
-    let windows = [(alpha_star(1).high, alpha_star(6).high), (14.066, 20.371), (17.0, 17.8), (17.25, 17.33)];
+    let windows =
+        [(alpha_star(1).high, alpha_star(6).high), (14.066, 20.371), (17.0, 17.8), (17.25, 17.33)];
     let mut changes = Vec::new();
     for (left, right) in windows {
         let labels: Result<Vec<u16>, _> = (0..10_000)
-            .map(|k| fates.fate(left + (right - left) * ((f64::from(k) + 0.5) / 1e4)).map(|f| f.label()))
+            .map(|k| {
+                fates.fate(left + (right - left) * ((f64::from(k) + 0.5) / 1e4)).map(|f| f.label())
+            })
             .collect();
         changes.push(labels?.windows(2).filter(|pair| pair[0] != pair[1]).count());
     }

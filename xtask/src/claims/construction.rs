@@ -44,7 +44,10 @@ fn each_level(levels: &[IntervalSet]) -> Result<Claim, Error> {
         }
     }
     let disjoint = levels.iter().enumerate().all(|(k, level)| {
-        levels.iter().take(k).all(|earlier| (level.minus(earlier).measure() - level.measure()).abs() < 1e-12)
+        levels
+            .iter()
+            .take(k)
+            .all(|earlier| (level.minus(earlier).measure() - level.measure()).abs() < 1e-12)
     });
     let table: Vec<String> = levels
         .iter()
@@ -94,7 +97,8 @@ fn accumulation() -> Result<Claim, Error> {
         alpha = map.image(alpha)?.unwrap_or(0.0);
         hops += 1;
     }
-    let predicted = 3.0 / (LEFT_FACTOR * lambda) * (1.0 / pxfm::f_cbrt(from) - 1.0 / pxfm::f_cbrt(to));
+    let predicted =
+        3.0 / (LEFT_FACTOR * lambda) * (1.0 / pxfm::f_cbrt(from) - 1.0 / pxfm::f_cbrt(to));
     let ratio = f64::from(hops) / predicted;
     Ok(Claim::new("Sec. VI A", "where the pieces accumulate")
         .paper("nested pieces at every scale")

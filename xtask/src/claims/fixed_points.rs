@@ -44,7 +44,9 @@ fn all_are_fixed() -> Result<Claim, Error> {
         }
     }
     Ok(Claim::new("Sec. II", "incessant hopping is possible")
-        .paper("at $α$ = $α$^{∗} the landing costs nothing and the hop repeats for ever, for any $M$")
+        .paper(
+            "at $α$ = $α$^{∗} the landing costs nothing and the hop repeats for ever, for any $M$",
+        )
         .ours("$f$($α$^{∗}_{n}) = $α$^{∗}_{n} for $n$ ≤ 30 and seven mass ratios from 0.02 to 50")
         .error(format!("{worst:.1e} relative"))
         .how("the map at the double nearest to $α$^{∗}_{n}; bound: two ulps")
@@ -70,7 +72,13 @@ fn found_from_the_map() -> Result<Claim, Error> {
 }
 
 /// The map near α*_n in |δ|: the loss has its own digits.
-pub(super) fn probe(n: u64, mass_ratio: MassRatio, side: Side, largest: f64, count: usize) -> OneSidedStability {
+pub(super) fn probe(
+    n: u64,
+    mass_ratio: MassRatio,
+    side: Side,
+    largest: f64,
+    count: usize,
+) -> OneSidedStability {
     let map = LiftOffMap::new(mass_ratio);
     let star = alpha_star(n);
     let sign = match side {
@@ -114,8 +122,12 @@ fn exponents() -> Result<Claim, Error> {
     for m in RATIOS {
         for n in INDICES {
             let ratio = MassRatio::new(m)?;
-            let laws = [Side::Right, Side::Left].map(|side| probe(n, ratio, side, 1e-7, 4).power_law());
-            let [Some(right), Some(left)] = laws else { worst = f64::NAN; continue };
+            let laws =
+                [Side::Right, Side::Left].map(|side| probe(n, ratio, side, 1e-7, 4).power_law());
+            let [Some(right), Some(left)] = laws else {
+                worst = f64::NAN;
+                continue;
+            };
             worst = worst.max((right.0 - 4.0 / 3.0).abs()).max((left.0 - 4.0 / 3.0).abs());
             let factor = left.1 / right.1;
             worst_factor = worst_factor.max((factor / LEFT_FACTOR - 1.0).abs());

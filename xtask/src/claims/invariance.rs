@@ -54,7 +54,8 @@ pub(super) fn check(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let (sudden, contact): (Vec<_>, Vec<_>) = comparisons.iter().partition(|c| c.sudden);
     let worst = contact.iter().map(|c| c.difference).fold(0.0, f64::max);
     let agree = contact.iter().all(|c| c.verdicts_agree);
-    let differing = sudden.iter().filter(|c| c.difference > 1e-9).count() as f64 / sudden.len() as f64;
+    let differing =
+        sudden.iter().filter(|c| c.difference > 1e-9).count() as f64 / sudden.len() as f64;
     Ok(vec![
         Claim::new("Sec. IV B, Eq. 23", "M → 1/M invariance")
             .paper("$f$($α$; $M$) = $f$($α$; 1/$M$) when no landing between is sudden")

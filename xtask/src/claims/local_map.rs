@@ -10,7 +10,14 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use return_map::Side;
 
 pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
-    Ok(vec![beta()?, lambda()?, delta()?, delta_for_large_n()?, smallest_at_one()?, symmetric_traps()?])
+    Ok(vec![
+        beta()?,
+        lambda()?,
+        delta()?,
+        delta_for_large_n()?,
+        smallest_at_one()?,
+        symmetric_traps()?,
+    ])
 }
 
 fn beta() -> Result<Claim, Error> {

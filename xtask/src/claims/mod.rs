@@ -85,8 +85,13 @@ type Group = fn(&Progress) -> Result<Vec<Claim>, Error>;
 
 /// Checks every claim.
 pub fn all(progress: &Progress) -> Result<Vec<Claim>, Error> {
-    let groups: [Group; 5] =
-        [invariance::check, fixed_points::check, local_map::check, basins::check, construction::check];
+    let groups: [Group; 5] = [
+        invariance::check,
+        fixed_points::check,
+        local_map::check,
+        basins::check,
+        construction::check,
+    ];
     let mut claims = Vec::new();
     for group in groups {
         claims.extend(group(progress)?);

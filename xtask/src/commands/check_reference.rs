@@ -65,9 +65,11 @@ pub fn run(options: &Options) -> Result<(), Error> {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             write!(out, "{name}: {class}: {} lines, ", tally.lines).map_err(write)?;
             if !tally.worst_place.is_empty() {
-                write!(out, "worst K = {:.2} ({}), ", tally.worst, tally.worst_place).map_err(write)?;
+                write!(out, "worst K = {:.2} ({}), ", tally.worst, tally.worst_place)
+                    .map_err(write)?;
             }
-            write!(out, "{} over the limit, {} wrong verdicts", tally.over, tally.wrong).map_err(write)?;
+            write!(out, "{} over the limit, {} wrong verdicts", tally.over, tally.wrong)
+                .map_err(write)?;
             if tally.wrong > 0 {
                 write!(out, " (first: {})", tally.first_wrong).map_err(write)?;
             }
@@ -89,7 +91,8 @@ fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
     let text = read(path)?;
     let mut lines = Vec::new();
     for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
-        let bad = |reason: String| Error::ReferenceLine { path: path.into(), line: index + 1, reason };
+        let bad =
+            |reason: String| Error::ReferenceLine { path: path.into(), line: index + 1, reason };
         let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
         lines.push((index + 1, line(&value).map_err(bad)?));
     }
@@ -132,7 +135,9 @@ fn line(value: &Value) -> Result<Line, String> {
 fn number(value: &Value, key: &str) -> Result<f64, String> {
     let field = value.get(key).ok_or_else(|| format!("'{key}' is missing"))?;
     let number = field.as_f64().or_else(|| field.as_str().and_then(|text| text.parse().ok()));
-    number.filter(|n: &f64| n.is_finite()).ok_or_else(|| format!("'{key}' is {field}, not a number"))
+    number
+        .filter(|n: &f64| n.is_finite())
+        .ok_or_else(|| format!("'{key}' is {field}, not a number"))
 }
 
 fn whole(value: &Value, key: &str) -> Result<u64, String> {
@@ -144,7 +149,9 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
     let mut tallies: BTreeMap<String, Tally> = BTreeMap::new();
     for (at, line) in lines {
         match line {
-            Line::Hop(hop) => judge_hop(tallies.entry(hop.class.clone()).or_default(), *at, hop, limit),
+            Line::Hop(hop) => {
+                judge_hop(tallies.entry(hop.class.clone()).or_default(), *at, hop, limit)
+            }
             Line::Fate { mass_ratio, alpha, fate } => {
                 let tally = tallies.entry("fates".into()).or_default();
                 tally.lines += 1;
@@ -163,7 +170,8 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
 
 fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
     tally.lines += 1;
-    let found = MassRatio::new(hop.mass_ratio).and_then(|ratio| LiftOffMap::new(ratio).hop(hop.alpha));
+    let found =
+        MassRatio::new(hop.mass_ratio).and_then(|ratio| LiftOffMap::new(ratio).hop(hop.alpha));
     let found = match found {
         Ok(found) => found,
         Err(error) => return tally.is_wrong(at, &error.to_string()),
@@ -184,7 +192,10 @@ fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
     tally.over += usize::from(!(k <= limit * (1 + hop.sudden) as f64));
     if k > tally.worst || tally.worst_place.is_empty() {
         tally.worst = k;
-        tally.worst_place = format!("line {at}: M = {}, α = {}, sudden = {}", hop.mass_ratio, hop.alpha, hop.sudden);
+        tally.worst_place = format!(
+            "line {at}: M = {}, α = {}, sudden = {}",
+            hop.mass_ratio, hop.alpha, hop.sudden
+        );
     }
 }
 
@@ -224,7 +235,8 @@ mod tests {
         let good = r#"{"class": "c", "mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "35.997158341573688180303069833057"}"#;
         let off = good.replace("35.9971583415", "35.9971583416");
         let verdict = good.replace("\"sudden\": 0", "\"sudden\": 1");
-        let lines: Vec<_> = [good, &off, &verdict].iter().map(|text| parsed(text).unwrap()).enumerate().collect();
+        let lines: Vec<_> =
+            [good, &off, &verdict].iter().map(|text| parsed(text).unwrap()).enumerate().collect();
         let tally = judge(&lines, 4.0).remove("c").unwrap();
         assert_eq!((tally.lines, tally.over, tally.wrong), (3, 1, 1));
         assert!(tally.worst_place.starts_with("line 1"));

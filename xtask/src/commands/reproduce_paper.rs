@@ -30,8 +30,12 @@ pub struct Options {
 }
 
 /// Figures of the README: name and form.
-const COMMITTED: &[(&str, Form)] =
-    &[("fig_02_map", Form::Svg), ("fig_03_segments", Form::Svg), ("fig_06_basin", Form::Png), ("invariance", Form::Svg)];
+const COMMITTED: &[(&str, Form)] = &[
+    ("fig_02_map", Form::Svg),
+    ("fig_03_segments", Form::Svg),
+    ("fig_06_basin", Form::Png),
+    ("invariance", Form::Svg),
+];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Form {
@@ -45,15 +49,22 @@ const DIGESTS: &str = "digests.json";
 pub fn run(options: &Options) -> Result<(), Error> {
     let begin = Instant::now();
     let chosen = figures::named(&options.only)?;
-    let folder = Folder::open(&options.out.clone().unwrap_or_else(|| repository().join("target/paper")))?;
+    let folder =
+        Folder::open(&options.out.clone().unwrap_or_else(|| repository().join("target/paper")))?;
     let mut out = std::io::stdout().lock();
-    let mut say = |text: &str| writeln!(out, "{text}").map_err(|source| Error::File { path: "standard output".into(), source });
+    let mut say = |text: &str| {
+        writeln!(out, "{text}")
+            .map_err(|source| Error::File { path: "standard output".into(), source })
+    };
     let mut made = Vec::new();
     for (name, build) in chosen {
         let figure = build(&Progress)?;
         let rendered = render(name, &figure.svg, 2.0)?;
         write(&folder, &figure, &rendered)?;
-        say(&format!("{name:10} {}", folder.path().join(format!("{}.png", figure.name)).display()))?;
+        say(&format!(
+            "{name:10} {}",
+            folder.path().join(format!("{}.png", figure.name)).display()
+        ))?;
         made.push((figure, rendered));
     }
     let claims = if options.only.is_empty() { Some(claims::all(&Progress)?) } else { None };
@@ -105,7 +116,9 @@ fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
     for (figure, rendered) in made {
         for (_, form) in COMMITTED.iter().filter(|(name, _)| *name == figure.name) {
             match form {
-                Form::Svg => folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?,
+                Form::Svg => {
+                    folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?
+                }
                 Form::Png => folder.write(&format!("{}.png", figure.name), &rendered.png)?,
             }
         }
@@ -121,5 +134,9 @@ fn compare(made: &[(Figure, Rendered)]) -> Result<Vec<String>, Error> {
     let committed: BTreeMap<String, String> = serde_json::from_str(&read(&path)?)
         .map_err(|e| Error::Render { what: path.display().to_string(), reason: e.to_string() })?;
     let ours = digests(made);
-    Ok(ours.into_iter().filter(|(name, digest)| committed.get(name) != Some(digest)).map(|(name, _)| name).collect())
+    Ok(ours
+        .into_iter()
+        .filter(|(name, digest)| committed.get(name) != Some(digest))
+        .map(|(name, _)| name)
+        .collect())
 }

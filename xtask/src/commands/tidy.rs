@@ -85,22 +85,44 @@ fn check_file(file: &Path, text: &str, breaches: &mut Vec<Breach>) {
         in_tests |= line.starts_with("#[cfg(test)]");
         let code = line.trim_start();
         let comment = code.starts_with("//");
-        if in_crate.is_some_and(|name| GENERIC.contains(&name)) && line.to_lowercase().contains("hopper") {
+        if in_crate.is_some_and(|name| GENERIC.contains(&name))
+            && line.to_lowercase().contains("hopper")
+        {
             breach(at, "a generic crate does not know the hopper");
         }
-        if ["TODO", "FIXME", "XXX"].iter().any(|word| line.contains(word)) && !name.ends_with("tidy.rs") {
+        if ["TODO", "FIXME", "XXX"].iter().any(|word| line.contains(word))
+            && !name.ends_with("tidy.rs")
+        {
             breach(at, "unfinished: finish it, or file an issue");
         }
         if !is_library || comment || in_tests {
             continue;
         }
-        if ["print!(", "println!(", "eprint!(", "eprintln!(", "dbg!("].iter().any(|m| code.contains(m)) {
+        if ["print!(", "println!(", "eprint!(", "eprintln!(", "dbg!("]
+            .iter()
+            .any(|m| code.contains(m))
+        {
             breach(at, "libraries do not print");
         }
-        if ["std::fs", "std::env", "std::net", "std::process", "rand::", "SystemTime", "Instant"].iter().any(|m| code.contains(m)) {
+        if ["std::fs", "std::env", "std::net", "std::process", "rand::", "SystemTime", "Instant"]
+            .iter()
+            .any(|m| code.contains(m))
+        {
             breach(at, "libraries read no files, clocks, environment or random numbers");
         }
-        if [".unwrap()", ".expect(", "panic!(", "unreachable!(", "todo!(", "unimplemented!(", "assert!(", "assert_eq!("].iter().any(|m| code.contains(m)) {
+        if [
+            ".unwrap()",
+            ".expect(",
+            "panic!(",
+            "unreachable!(",
+            "todo!(",
+            "unimplemented!(",
+            "assert!(",
+            "assert_eq!(",
+        ]
+        .iter()
+        .any(|m| code.contains(m))
+        {
             breach(at, "libraries return errors as values");
         }
         if code.contains("unsafe ") {
@@ -114,20 +136,38 @@ fn check_file(file: &Path, text: &str, breaches: &mut Vec<Breach>) {
 
 fn check_root(root: &Path, breaches: &mut Vec<Breach>) -> Result<(), Error> {
     const KNOWN: [&str; 11] = [
-        "Cargo.toml", "Cargo.lock", "LICENSE", "README.md", "crates", "xtask", "docs", "clippy.toml", "rustfmt.toml", "target", "fuzz",
+        "Cargo.toml",
+        "Cargo.lock",
+        "LICENSE",
+        "README.md",
+        "crates",
+        "xtask",
+        "docs",
+        "clippy.toml",
+        "rustfmt.toml",
+        "target",
+        "fuzz",
     ];
     let at = |source| Error::File { path: root.into(), source };
     for entry in std::fs::read_dir(root).map_err(at)? {
         let name = entry.map_err(at)?.file_name().to_string_lossy().into_owned();
         if !name.starts_with('.') && !KNOWN.contains(&name.as_str()) {
-            breaches.push(Breach { file: name.into(), line: 0, rule: "does not belong in the root".into() });
+            breaches.push(Breach {
+                file: name.into(),
+                line: 0,
+                rule: "does not belong in the root".into(),
+            });
         }
     }
     for name in GENERIC {
         let manifest = root.join("crates").join(name).join("Cargo.toml");
         for (index, line) in read(&manifest)?.lines().enumerate() {
             if line.contains("version = \"") && !line.contains("workspace") {
-                breaches.push(Breach { file: manifest.clone(), line: index + 1, rule: "versions live in the workspace table".into() });
+                breaches.push(Breach {
+                    file: manifest.clone(),
+                    line: index + 1,
+                    rule: "versions live in the workspace table".into(),
+                });
             }
         }
     }
@@ -152,8 +192,14 @@ mod tests {
     #[test]
     fn breaches_are_found() {
         let generic = "crates/return-map/src/x.rs";
-        assert_eq!(rules(generic, "//! Of the Hopper.\n"), ["a generic crate does not know the hopper"]);
-        assert_eq!(rules(generic, "//! X.\nlet y = x.unwrap();\n"), ["libraries return errors as values"]);
+        assert_eq!(
+            rules(generic, "//! Of the Hopper.\n"),
+            ["a generic crate does not know the hopper"]
+        );
+        assert_eq!(
+            rules(generic, "//! X.\nlet y = x.unwrap();\n"),
+            ["libraries return errors as values"]
+        );
         assert_eq!(rules(generic, "//! X.\nuse roots::find_root_brent;\n").len(), 1);
         assert_eq!(rules(generic, "//! X.\nprintln!(\"{x}\");\n").len(), 1);
         assert!(rules("xtask/src/x.rs", &"\n".repeat(401)).len() == 1);

@@ -18,7 +18,8 @@ pub struct Options {
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
-    let folder = Folder::open(&options.out.clone().unwrap_or_else(|| repository().join("target/paper")))?;
+    let folder =
+        Folder::open(&options.out.clone().unwrap_or_else(|| repository().join("target/paper")))?;
     let claims = claims::invariance(&Progress)?;
     for (_, build) in figures::named(&["invariance".into()])? {
         let figure = build(&Progress)?;
@@ -32,7 +33,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
     for claim in &claims {
         writeln!(out, "{}", line(claim)).map_err(write)?;
     }
-    writeln!(out, "figure     {}", folder.path().join("invariance.svg").display()).map_err(write)?;
+    writeln!(out, "figure     {}", folder.path().join("invariance.svg").display())
+        .map_err(write)?;
     match failed(&claims) {
         0 => Ok(()),
         count => Err(Error::CheckFailed(format!("{count} claims fail"))),

@@ -9,13 +9,15 @@ use hopper_basin::basin_raster;
 use ndarray_npy::WriteNpyExt;
 use std::ops::ControlFlow;
 
+/// (M, α) ranges of the figure that enlarges a part, and its number.
+type Inset = ((f64, f64), (f64, f64), &'static str);
+
 /// A window of (M, α) and what it is called.
 pub(super) struct Window {
     pub(super) name: &'static str,
     pub(super) mass_ratio: (f64, f64),
     pub(super) alpha: (f64, f64),
-    /// (M, α) frame of the figure that enlarges a part, and its number.
-    pub(super) inset: Option<((f64, f64), (f64, f64), &'static str)>,
+    pub(super) inset: Option<Inset>,
     pub(super) tick_counts: (usize, usize),
 }
 
@@ -66,7 +68,10 @@ pub(super) fn basin_figure(
         name: window.name,
         title,
         paper,
-        notes: format!("{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}", shares(&image)),
+        notes: format!(
+            "{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}",
+            shares(&image)
+        ),
         svg: svg.finish(),
         data: vec![
             DataFile { name: format!("{}.npy", window.name), bytes: npy(window.name, &image)? },
@@ -108,7 +113,8 @@ fn png(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
 fn npy(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
     let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
     let shape = (image.grid.rows, image.grid.columns);
-    let array = ndarray::Array2::from_shape_vec(shape, image.labels.clone()).map_err(|e| fail(e.to_string()))?;
+    let array = ndarray::Array2::from_shape_vec(shape, image.labels.clone())
+        .map_err(|e| fail(e.to_string()))?;
     let mut bytes = Vec::new();
     array.write_npy(&mut bytes).map_err(|e| fail(e.to_string()))?;
     Ok(bytes)

@@ -16,7 +16,8 @@ const BLOCK: (f64, f64) = (52.0, 30.0);
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let mut svg = Svg::new(680.0, 330.0);
     let titles = ["(a) relaxed", "(b) flight", "(c) collision", "(d) contact"];
-    let conditions = ["", "$x$_{2} > 0", "$x$_{2} = 0, $v$_{2} < 0", "$x$_{2} = 0, $kx$_{1} < $m$_{2}$g$"];
+    let conditions =
+        ["", "$x$_{2} > 0", "$x$_{2} = 0, $v$_{2} < 0", "$x$_{2} = 0, $kx$_{1} < $m$_{2}$g$"];
     // Height of the lower mass, then of the upper one, above the ground.
     let heights = [(0.0, 110.0), (42.0, 165.0), (0.0, 132.0), (0.0, 84.0)];
     for (k, (lower, upper)) in heights.into_iter().enumerate() {

@@ -57,14 +57,21 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         svg.text(118.0, y + 4.0, Anchor::Start, 12.0, &format!("$M$ = {m}"));
     }
     let axis = ticks((0.0, 17.8), 9);
-    frame.axes(&mut svg, &axis, &axis, "lift-off speed $α$_{n} (dimensionless)", "next lift-off speed $α$_{n+1} = $f$($α$_{n})");
+    frame.axes(
+        &mut svg,
+        &axis,
+        &axis,
+        "lift-off speed $α$_{n} (dimensionless)",
+        "next lift-off speed $α$_{n+1} = $f$($α$_{n})",
+    );
     Ok(Figure {
         name: "fig_02_map",
         title: "The lift-off map for several mass ratios".into(),
-        paper: "The one-dimensional map between gradual lift-offs is multimodal; curves differ in the \
+        paper:
+            "The one-dimensional map between gradual lift-offs is multimodal; curves differ in the \
                 mass ratio, and the fixed points, where α = tan α, are common to all. Shown up to \
                 the fifth of them."
-            .into(),
+                .into(),
         notes: format!(
             "The mass ratios of the paper's curves are lost; chosen: $M$ = 0.05, 0.1, 0.2 and 1, \
              up to $α$^{{∗}}_{{5}} = {top:.3}. At $M$ = 1 gaps open in which the hopper is grounded; \

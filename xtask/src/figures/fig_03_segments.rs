@@ -36,9 +36,19 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let mut svg = Svg::new(760.0, 430.0);
     let frame = Frame::linear(58.0, 18.0, 300.0, 350.0, (3.0, 6.45), (0.0, 5.2));
     let pieces = graph_pieces(&map, &[3.0, PI, star, 2.0 * PI, 6.45], 160);
-    let gap = pieces.iter().filter(|p| p[0].0 < 6.2).filter_map(|p| p.last()).map(|p| p.0).fold(0.0, f64::max);
+    let gap = pieces
+        .iter()
+        .filter(|p| p[0].0 < 6.2)
+        .filter_map(|p| p.last())
+        .map(|p| p.0)
+        .fold(0.0, f64::max);
     let gap_end = pieces.iter().map(|p| p[0].0).filter(|&left| left > gap).fold(2.0 * PI, f64::min);
-    let bands = [("#f6e3d7", PI, star), ("#bfe6d4", star, trap.right()), ("#e3eaf4", trap.right(), gap), ("#e0e0dc", gap, gap_end)];
+    let bands = [
+        ("#f6e3d7", PI, star),
+        ("#bfe6d4", star, trap.right()),
+        ("#e3eaf4", trap.right(), gap),
+        ("#e0e0dc", gap, gap_end),
+    ];
     for (color, left, right) in bands {
         let (x0, x1) = (frame.at((left, 0.0)).0, frame.at((right, 0.0)).0);
         svg.fill_rect(x0, frame.top, (x1 - x0).max(1.2), frame.height, color);
@@ -51,29 +61,57 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     });
     for (k, segment) in segments.iter().enumerate() {
         let x = frame.at((segment.alpha, 0.0)).0;
-        // α_S is narrower than its name: set between the others, above.
-        let y = if k == 1 { frame.top + 42.0 } else { frame.top + 16.0 };
-        let x = if k == 1 { x + 12.0 } else { x };
+        // α_S is narrower than its name, which stands above the peak; the others at the foot.
+        let y = if k == 1 { frame.top + 20.0 } else { frame.top + frame.height - 16.0 };
         svg.text(x, y, Anchor::Middle, 12.5, segment.name);
         if let Some(next) = map.image(segment.alpha)? {
             let (px, py) = frame.at((segment.alpha, next));
             svg.dot(px, py, 3.0, "#b02418");
         } else {
-            svg.dot(frame.at((segment.alpha, 0.0)).0, frame.top + frame.height - 3.0, 3.0, "#b02418");
+            svg.dot(
+                frame.at((segment.alpha, 0.0)).0,
+                frame.top + frame.height - 3.0,
+                3.0,
+                "#b02418",
+            );
         }
     }
     let (x, y) = frame.at((star, star));
     svg.text(x - 6.0, y - 3.0, Anchor::End, 11.5, "$α$^{∗}_{1}");
-    frame.axes(&mut svg, &ticks((3.0, 6.45), 4), &ticks((0.0, 5.2), 5), "$α$_{n} (dimensionless)", "$α$_{n+1}");
-    svg.text(frame.left, 420.0, Anchor::Start, 11.0, &format!("$M$ = {M}; shaded: the four segments"));
+    frame.axes(
+        &mut svg,
+        &ticks((3.0, 6.45), 4),
+        &ticks((0.0, 5.2), 5),
+        "$α$_{n} (dimensionless)",
+        "$α$_{n+1}",
+    );
+    svg.text(
+        frame.left,
+        420.0,
+        Anchor::Start,
+        11.0,
+        &format!("$M$ = {M}; shaded: the four segments"),
+    );
 
     let mut rows = Vec::new();
     for (k, segment) in segments.iter().enumerate() {
         let (column, row) = ((k % 2) as f64, (k / 2) as f64);
-        let panel = Frame::linear(432.0 + 172.0 * column, 36.0 + 205.0 * row, 142.0, 128.0, (0.0, DURATION), (-14.0, 15.0));
+        let panel = Frame::linear(
+            432.0 + 172.0 * column,
+            36.0 + 205.0 * row,
+            142.0,
+            128.0,
+            (0.0, DURATION),
+            (-14.0, 15.0),
+        );
         let motion = motion(ratio, segment.alpha)?;
         draw_motion(&mut svg, &panel, segment, &motion);
-        rows.extend(motion.iter().flatten().map(|&(t, y1, y2)| vec![Some(segment.alpha), Some(t), Some(y1), Some(y2)]));
+        rows.extend(
+            motion
+                .iter()
+                .flatten()
+                .map(|&(t, y1, y2)| vec![Some(segment.alpha), Some(t), Some(y1), Some(y2)]),
+        );
     }
     svg.line((432.0, 420.0), (456.0, 420.0), UPPER);
     svg.text(461.0, 424.0, Anchor::Start, 11.0, "upper mass, $y$_{1}");
@@ -82,10 +120,11 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     Ok(Figure {
         name: "fig_03_segments",
         title: "Four segments around the first fixed point, and the motion in each".into(),
-        paper: "Around α*_1 the map has a left leg α_L, where landings are followed by an immediate \
+        paper:
+            "Around α*_1 the map has a left leg α_L, where landings are followed by an immediate \
                 take-off, the local basin α_S of incessant hopping, the right leg α_R with a few \
                 hops before the hopper settles, and a gap α_G without any further hop."
-            .into(),
+                .into(),
         notes: format!(
             "Mass ratio lost; $M$ = {M}, at which all four segments exist. Red dots: the lift-off \
              speeds whose motions are shown, {:.3}, {:.4}, {:.2} and {:.2}. Times in units of 1/$ω$, \
@@ -95,14 +134,21 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         ),
         svg: svg.finish(),
         data: vec![
-            csv_file("fig_03_map.csv", &["alpha", "alpha_next"], pieces.iter().flatten().map(|&(x, y)| vec![Some(x), Some(y)]))?,
+            csv_file(
+                "fig_03_map.csv",
+                &["alpha", "alpha_next"],
+                pieces.iter().flatten().map(|&(x, y)| vec![Some(x), Some(y)]),
+            )?,
             csv_file("fig_03_motions.csv", &["alpha", "time", "upper", "lower"], rows)?,
         ],
     })
 }
 
-/// (τ, y₁, y₂) along the arcs of an execution, a piece an arc.
-fn motion(ratio: MassRatio, alpha: f64) -> Result<Vec<Vec<(f64, f64, f64)>>, Error> {
+/// (τ, y₁, y₂) along an arc.
+type Motion = Vec<(f64, f64, f64)>;
+
+/// The arcs of the execution from a lift-off.
+fn motion(ratio: MassRatio, alpha: f64) -> Result<Vec<Motion>, Error> {
     let hopper = Hopper::new(ratio);
     let start = HopperState::lift_off(alpha);
     let mut pieces = Vec::new();
@@ -119,7 +165,7 @@ fn motion(ratio: MassRatio, alpha: f64) -> Result<Vec<Vec<(f64, f64, f64)>>, Err
     Ok(pieces)
 }
 
-fn draw_motion(svg: &mut Svg, panel: &Frame, segment: &Segment, motion: &[Vec<(f64, f64, f64)>]) {
+fn draw_motion(svg: &mut Svg, panel: &Frame, segment: &Segment, motion: &[Motion]) {
     panel.polyline(svg, &[(0.0, 0.0), (DURATION, 0.0)], Pen::solid("#999", 0.6));
     panel.clipped(svg, |svg| {
         for piece in motion {

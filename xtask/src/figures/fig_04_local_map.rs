@@ -19,7 +19,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
     let star = alpha_star(1).high;
     // Points crowd towards α* like squares: f has a δ^{4/3} there.
-    let side = |end: f64| (0..=80).map(move |k| star + (end - star) * (f64::from(k) / 80.0).powi(2));
+    let side =
+        |end: f64| (0..=80).map(move |k| star + (end - star) * (f64::from(k) / 80.0).powi(2));
     let sides: [Vec<f64>; 2] = [side(WINDOW.0).collect(), side(WINDOW.1).collect()];
     let mut svg = Svg::new(540.0, 430.0);
     let frame = Frame::linear(78.0, 16.0, 440.0, 360.0, WINDOW, (4.470, 4.500));
@@ -27,7 +28,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     frame.clipped(&mut svg, |svg| {
         frame.polyline(svg, &[(4.4, 4.4), (4.6, 4.6)], Pen::solid("#999", 0.7));
         for alphas in &sides {
-            let exact: Vec<_> = alphas.iter().filter_map(|&a| Some((a, map.image(a).ok()??))).collect();
+            let exact: Vec<_> =
+                alphas.iter().filter_map(|&a| Some((a, map.image(a).ok()??))).collect();
             frame.curve(svg, &exact, EXACT);
             for (local, pen) in [(&printed, PRINTED), (&corrected, CORRECTED)] {
                 let curve: Vec<_> = alphas.iter().map(|&a| (a, local.image(a))).collect();
@@ -51,7 +53,13 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         svg.line((250.0, y), (284.0, y), pen);
         svg.text(290.0, y + 4.0, Anchor::Start, 11.5, name);
     }
-    frame.axes(&mut svg, &ticks(WINDOW, 5), &ticks((4.470, 4.500), 6), "$α$_{n} (dimensionless)", "$α$_{n+1}");
+    frame.axes(
+        &mut svg,
+        &ticks(WINDOW, 5),
+        &ticks((4.470, 4.500), 6),
+        "$α$_{n} (dimensionless)",
+        "$α$_{n+1}",
+    );
     Ok(Figure {
         name: "fig_04_local_map",
         title: "Exact and approximate map near the first fixed point, $M$ = 1".into(),

@@ -32,22 +32,44 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     svg.text(top.left + 8.0, top.top + 16.0, Anchor::Start, 13.0, &format!("(a)  $M$ = {M}"));
 
     let bars = Frame::linear(62.0, 420.0, 530.0, 180.0, window, (0.0, 5.0));
-    svg.text(bars.left, bars.top - 15.0, Anchor::Start, 13.0, "(b)  points that enter $A$ after $n$ hops");
+    svg.text(
+        bars.left,
+        bars.top - 15.0,
+        Anchor::Start,
+        13.0,
+        "(b)  points that enter $A$ after $n$ hops",
+    );
     for (k, level) in levels.iter().enumerate() {
         // One row a level, with those before it in grey, as in a construction that keeps its pieces.
         let y = bars.top + 36.0 * k as f64;
         for (j, part) in levels.iter().take(k + 1).enumerate() {
             let color = if j == k { COLORS[k] } else { "#c9c9c9" };
             for interval in part.intervals().iter().filter(|interval| interval.left < window.1) {
-                let (x0, x1) = (bars.at((interval.left, 0.0)).0, bars.at((interval.right.min(window.1), 0.0)).0);
+                let (x0, x1) = (
+                    bars.at((interval.left, 0.0)).0,
+                    bars.at((interval.right.min(window.1), 0.0)).0,
+                );
                 svg.fill_rect(x0, y + 6.0, (x1 - x0).max(0.5), 22.0, color);
             }
         }
-        svg.line((bars.left, y + 28.0), (bars.left + bars.width, y + 28.0), Pen::solid("#000", 0.5));
+        svg.line(
+            (bars.left, y + 28.0),
+            (bars.left + bars.width, y + 28.0),
+            Pen::solid("#000", 0.5),
+        );
         svg.text(bars.left - 8.0, y + 21.0, Anchor::End, 12.0, &format!("$n$ = {k}"));
         let count = level.intervals().len();
         let parts = if count == 1 { "interval" } else { "intervals" };
-        svg.text(bars.left + 58.0, y + 3.0, Anchor::Start, 9.5, &format!("{count} {parts} in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}], length {:.5}", level.measure()));
+        svg.text(
+            bars.left + 58.0,
+            y + 3.0,
+            Anchor::Start,
+            9.5,
+            &format!(
+                "{count} {parts} in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}], length {:.5}",
+                level.measure()
+            ),
+        );
     }
     for n in 1..=3 {
         let x = bars.at((alpha_star(n).high, 0.0)).0;
@@ -57,14 +79,16 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let rows = levels.iter().enumerate().flat_map(|(k, level)| {
         level.intervals().iter().map(move |i| vec![Some(k as f64), Some(i.left), Some(i.right)])
     });
-    let counts: Vec<String> = levels.iter().map(|level| level.intervals().len().to_string()).collect();
+    let counts: Vec<String> =
+        levels.iter().map(|level| level.intervals().len().to_string()).collect();
     Ok(Figure {
         name: "fig_05_construction",
         title: "The basin of $α$^{∗}_{1}, level by level".into(),
-        paper: "(a) The local basin A of the first fixed point, its preimages A1 and A2 on the next \
+        paper:
+            "(a) The local basin A of the first fixed point, its preimages A1 and A2 on the next \
                 hump, their preimages, and so on; (b) the pieces level by level, which the paper \
                 says tend to a Cantor set."
-            .into(),
+                .into(),
         notes: format!(
             "Not a sketch but the real map at $M$ = {M}. Beside $A$_{{1}} and $A$_{{2}} on hump 2 the \
              trap has one preimage, $A$_{{0}}, on the rising part of its own hump. Levels 0 to \
@@ -103,6 +127,12 @@ fn draw_map(svg: &mut Svg, frame: &Frame, map: &LiftOffMap, levels: &[IntervalSe
     let bottom = frame.top + frame.height - 8.0;
     svg.text(frame.at((trap.right, 0.0)).0 + 3.0, bottom, Anchor::Start, 13.0, "$A$");
     for (k, part) in first.iter().enumerate() {
-        svg.text(frame.at((part.right, 0.0)).0 + 4.0, bottom, Anchor::Start, 13.0, &format!("$A$_{{{k}}}"));
+        svg.text(
+            frame.at((part.right, 0.0)).0 + 4.0,
+            bottom,
+            Anchor::Start,
+            13.0,
+            &format!("$A$_{{{k}}}"),
+        );
     }
 }

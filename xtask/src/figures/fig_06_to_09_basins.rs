@@ -22,14 +22,18 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
         inset: Some((FIGURE_8.0, FIGURE_8.1, "Fig. 8")),
         tick_counts: (6, 8),
     };
-    basin_figure(&window, progress, texts(
-        "Basins of attraction for small mass ratios",
-        "Initial speeds by the fixed point they lead to: first green, second red, third blue and so \
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "Basins of attraction for small mass ratios",
+            "Initial speeds by the fixed point they lead to: first green, second red, third blue and so \
          on. At M = 0.1 most of the window is green; with growing M the share of incessant hopping \
          falls rapidly.",
-        "Window M ∈ [0.02, 1], α from α*_1 to α*_6 (the paper's lower limit of M is lost). What the \
+            "Window M ∈ [0.02, 1], α from α*_1 to α*_6 (the paper's lower limit of M is lost). What the \
          paper leaves blank is told apart: white decays (hops for ever, ever lower), grey is grounded.",
-    ))
+        ),
+    )
 }
 
 /// Large mass ratios.
@@ -41,12 +45,16 @@ pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
         inset: None,
         tick_counts: (9, 8),
     };
-    basin_figure(&window, progress, texts(
-        "Basins of attraction for large mass ratios",
-        "M from 1 to 10: towards M = 10 the structure resembles that of small M.",
-        "Window M ∈ [1, 10], α from α*_1 to α*_6. The traps are those of 1/M, but the basins are not: \
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "Basins of attraction for large mass ratios",
+            "M from 1 to 10: towards M = 10 the structure resembles that of small M.",
+            "Window M ∈ [1, 10], α from α*_1 to α*_6. The traps are those of 1/M, but the basins are not: \
          the map between nπ and α*_n is not invariant.",
-    ))
+        ),
+    )
 }
 
 /// The inset of Fig. 6.
@@ -58,11 +66,15 @@ pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
         inset: Some((FIGURE_9.0, FIGURE_9.1, "Fig. 9")),
         tick_counts: (5, 7),
     };
-    basin_figure(&window, progress, texts(
-        "The inset of Fig. 6",
-        "The same basins at a finer scale.",
-        "Window M ∈ [0.1, 0.2], α from α*_4 to α*_6, chosen to hold Fig. 9; the paper's limits are lost.",
-    ))
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "The inset of Fig. 6",
+            "The same basins at a finer scale.",
+            "Window M ∈ [0.1, 0.2], α from α*_4 to α*_6, chosen to hold Fig. 9; the paper's limits are lost.",
+        ),
+    )
 }
 
 /// The inset of Fig. 8.
@@ -74,9 +86,13 @@ pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
         inset: None,
         tick_counts: (10, 8),
     };
-    basin_figure(&window, progress, texts(
-        "The inset of Fig. 8",
-        "Finer still, and structure again.",
-        "Window of the paper, M ∈ [0.17, 0.18], α ∈ [17.0, 17.8].",
-    ))
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "The inset of Fig. 8",
+            "Finer still, and structure again.",
+            "Window of the paper, M ∈ [0.17, 0.18], α ∈ [17.0, 17.8].",
+        ),
+    )
 }

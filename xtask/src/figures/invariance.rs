@@ -20,7 +20,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let mut svg = Svg::new(620.0, 560.0);
     let top = Frame::linear(66.0, 16.0, 530.0, 290.0, window, (0.0, 12.8));
     for n in 1..4 {
-        let (x0, x1) = (top.at((f64::from(n) * PI, 0.0)).0, top.at((alpha_star(n as u64).high, 0.0)).0);
+        let (x0, x1) =
+            (top.at((f64::from(n) * PI, 0.0)).0, top.at((alpha_star(n as u64).high, 0.0)).0);
         svg.fill_rect(x0, top.top, x1 - x0, top.height, "#eeeeec");
     }
     let mut cuts: Vec<f64> = super::fig_02_map::cuts(3).into_iter().filter(|&c| c >= PI).collect();
@@ -43,7 +44,10 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         svg.text(118.0, y + 4.0, Anchor::Start, 12.0, name);
     }
 
-    let bottom = Frame { y_scale: Scale::Log, ..Frame::linear(66.0, 340.0, 530.0, 166.0, window, (1e-18, 1e2)) };
+    let bottom = Frame {
+        y_scale: Scale::Log,
+        ..Frame::linear(66.0, 340.0, 530.0, 166.0, window, (1e-18, 1e2))
+    };
     let mut rows = Vec::new();
     let samples = 3000;
     for k in 0..samples {
@@ -56,7 +60,13 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
             svg.fill_rect(x - 0.5, y - 0.5, 1.0, 1.0, "#10386e");
         }
     }
-    bottom.axes(&mut svg, &ticks(window, 9), &decades((1e-18, 1e2), 4), "$α$_{n} (dimensionless)", "|$f$($α$; $M$) − $f$($α$; 1/$M$)|");
+    bottom.axes(
+        &mut svg,
+        &ticks(window, 9),
+        &decades((1e-18, 1e2), 4),
+        "$α$_{n} (dimensionless)",
+        "|$f$($α$; $M$) − $f$($α$; 1/$M$)|",
+    );
     Ok(Figure {
         name: "invariance",
         title: "Invariance under $M$ → 1/$M$".into(),

@@ -48,7 +48,14 @@ fn share(value: f64, (low, high): (f64, f64), scale: Scale) -> f64 {
 
 impl Frame {
     /// A frame with linear axes.
-    pub fn linear(left: f64, top: f64, width: f64, height: f64, x: (f64, f64), y: (f64, f64)) -> Self {
+    pub fn linear(
+        left: f64,
+        top: f64,
+        width: f64,
+        height: f64,
+        x: (f64, f64),
+        y: (f64, f64),
+    ) -> Self {
         Frame { left, top, width, height, x, y, x_scale: Scale::Linear, y_scale: Scale::Linear }
     }
 
@@ -128,7 +135,11 @@ pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
     let rough = (high - low) / count.max(1) as f64;
     let power = pxfm::f_log10(rough).floor() as i32;
     let unit = 10f64.powi(power);
-    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * unit).find(|&s| s >= rough * 0.999).unwrap_or(unit);
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .into_iter()
+        .map(|m| m * unit)
+        .find(|&s| s >= rough * 0.999)
+        .unwrap_or(unit);
     let decimals = (-pxfm::f_log10(step).floor()).max(0.0) as usize;
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
@@ -146,7 +157,9 @@ pub fn decades((low, high): (f64, f64), every: i32) -> Vec<(f64, String)> {
     let last = (pxfm::f_log10(high) + 1e-9).floor() as i32;
     (first..=last)
         .filter(|k| k % every == 0)
-        .map(|k| (pxfm::f_exp10(f64::from(k)), format!("10^{{{}}}", k.to_string().replace('-', "−"))))
+        .map(|k| {
+            (pxfm::f_exp10(f64::from(k)), format!("10^{{{}}}", k.to_string().replace('-', "−")))
+        })
         .collect()
 }
 
@@ -156,9 +169,13 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_inside() {
-        let labels = |range, count| ticks(range, count).into_iter().map(|t| t.1).collect::<Vec<_>>();
+        let labels =
+            |range, count| ticks(range, count).into_iter().map(|t| t.1).collect::<Vec<_>>();
         assert_eq!(labels((0.0, 1.0), 5), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(labels((-1.0, 1.0), 2), ["−1", "0", "1"]);
-        assert_eq!(labels((4.49, 4.515), 5), ["4.490", "4.495", "4.500", "4.505", "4.510", "4.515"]);
+        assert_eq!(
+            labels((4.49, 4.515), 5),
+            ["4.490", "4.495", "4.500", "4.505", "4.510", "4.515"]
+        );
     }
 }

@@ -30,7 +30,8 @@ pub fn tspans(markup: &str, size: f64) -> String {
                 pending = shift;
                 let slanted = body.contains('$') != italic;
                 span(&mut out, &body.replace('$', ""), slanted, SCRIPT * size, dy, back);
-                last_script_width = if c == '^' { 0.42 * SCRIPT * size * body.chars().count() as f64 } else { 0.0 };
+                last_script_width =
+                    if c == '^' { 0.42 * SCRIPT * size * body.chars().count() as f64 } else { 0.0 };
             }
             _ => {
                 let end = rest.char_indices().find(|&(at, c)| {

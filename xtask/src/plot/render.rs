@@ -21,7 +21,8 @@ pub fn render(name: &str, svg: &str, pixels_per_point: f32) -> Result<Rendered, 
     let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
     let options = usvg::Options { fontdb: fonts(), ..usvg::Options::default() };
     let tree = usvg::Tree::from_str(svg, &options).map_err(|e| fail(e.to_string()))?;
-    let outlined = tree.to_string(&usvg::WriteOptions { preserve_text: false, ..Default::default() });
+    let outlined =
+        tree.to_string(&usvg::WriteOptions { preserve_text: false, ..Default::default() });
     let size = tree.size();
     let (width, height) = (size.width() * pixels_per_point, size.height() * pixels_per_point);
     let mut pixmap = tiny_skia::Pixmap::new(width.ceil() as u32, height.ceil() as u32)
@@ -51,7 +52,8 @@ pub fn indexed_png(
     palette: &[[u8; 3]],
     pixels: &[u8],
 ) -> Result<Vec<u8>, Error> {
-    let fail = |e: png::EncodingError| Error::Render { what: name.to_owned(), reason: e.to_string() };
+    let fail =
+        |e: png::EncodingError| Error::Render { what: name.to_owned(), reason: e.to_string() };
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
     encoder.set_color(png::ColorType::Indexed);

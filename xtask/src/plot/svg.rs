@@ -87,7 +87,13 @@ impl Svg {
         let _ = writeln!(
             self.body,
             "<path d=\"M{:.3} {:.3}L{:.3} {:.3}L{:.3} {:.3}Z\" fill=\"{}\"/>",
-            to.0, to.1, base.0 - side * uy, base.1 + side * ux, base.0 + side * uy, base.1 - side * ux, pen.color
+            to.0,
+            to.1,
+            base.0 - side * uy,
+            base.1 + side * ux,
+            base.0 + side * uy,
+            base.1 - side * ux,
+            pen.color
         );
     }
 
@@ -122,7 +128,15 @@ impl Svg {
     }
 
     /// A label turned by `degrees` about its point.
-    pub fn rotated_text(&mut self, x: f64, y: f64, degrees: f64, anchor: Anchor, size: f64, markup: &str) {
+    pub fn rotated_text(
+        &mut self,
+        x: f64,
+        y: f64,
+        degrees: f64,
+        anchor: Anchor,
+        size: f64,
+        markup: &str,
+    ) {
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -152,7 +166,14 @@ impl Svg {
     }
 
     /// Draws what `draw` draws, cut off outside a rectangle.
-    pub fn clipped(&mut self, x: f64, y: f64, width: f64, height: f64, draw: impl FnOnce(&mut Svg)) {
+    pub fn clipped(
+        &mut self,
+        x: f64,
+        y: f64,
+        width: f64,
+        height: f64,
+        draw: impl FnOnce(&mut Svg),
+    ) {
         self.clips += 1;
         let id = format!("clip{}", self.clips);
         let _ = writeln!(
@@ -180,7 +201,8 @@ pub fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let mut out = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for chunk in bytes.chunks(3) {
-        let word = chunk.iter().fold(0u32, |word, &byte| word << 8 | u32::from(byte)) << (8 * (3 - chunk.len()));
+        let word = chunk.iter().fold(0u32, |word, &byte| word << 8 | u32::from(byte))
+            << (8 * (3 - chunk.len()));
         for place in 0..4 {
             let digit = DIGITS[(word >> (18 - 6 * place)) as usize & 63];
             out.push(if place <= chunk.len() { digit as char } else { '=' });
@@ -195,7 +217,9 @@ mod tests {
 
     #[test]
     fn base64_as_in_rfc_4648() {
-        for (plain, coded) in [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")] {
+        for (plain, coded) in
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
+        {
             assert_eq!(base64(plain.as_bytes()), coded);
         }
     }

@@ -1,0 +1,223 @@
+//! Systems with exact answers: balls, oscillators, polynomials. Names say where a case comes from.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+#![allow(clippy::excessive_precision)] // published digits, as they are printed
+
+use approx::assert_relative_eq;
+use hybrid_system::*;
+use nalgebra::{Vector1, Vector2};
+use proptest::prelude::*;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Surface;
+
+/// A ball over a floor at zero.
+struct Ball {
+    gravity: f64,
+    restitution: f64,
+}
+
+impl HybridSystem<2> for Ball {
+    type Mode = ();
+    type Surface = Surface;
+    fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
+        Vector2::new(x[0] + t * (x[1] - 0.5 * self.gravity * t), x[1] - self.gravity * t)
+    }
+    fn guards(&self, _: ()) -> &[Guard<Surface>] {
+        const { &[Guard::falling(Surface)] }
+    }
+    fn guard_value(&self, _: Surface, x: &State<2>) -> f64 {
+        x[0]
+    }
+    fn reset(&self, _: (), _: Surface, x: &State<2>) -> Reset<(), 2> {
+        Reset::Jump { mode: (), state: Vector2::new(0.0, -self.restitution * x[1]) }
+    }
+}
+
+/// A flow ẋ = 1 watched by a function of x; events change nothing.
+struct Clock<F> {
+    guard: F,
+    guards: [Guard<Surface>; 1],
+}
+
+impl<F: Fn(f64) -> f64> HybridSystem<1> for Clock<F> {
+    type Mode = ();
+    type Surface = Surface;
+    fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
+        Vector1::new(x[0] + t)
+    }
+    fn guards(&self, _: ()) -> &[Guard<Surface>] {
+        &self.guards
+    }
+    fn guard_value(&self, _: Surface, x: &State<1>) -> f64 {
+        (self.guard)(x[0])
+    }
+    fn reset(&self, _: (), _: Surface, x: &State<1>) -> Reset<(), 1> {
+        Reset::Jump { mode: (), state: *x }
+    }
+}
+
+fn crossings(
+    guard: impl Fn(f64) -> f64,
+    watch: Guard<Surface>,
+    until: f64,
+    interval: f64,
+) -> Vec<f64> {
+    let clock = Clock { guard, guards: [watch] };
+    let limits = Limits::sampled(until, 100, interval);
+    Execution::new(&clock, (), Vector1::new(0.0), limits)
+        .filter_map(|arc| arc.unwrap().event().map(|event| event.before[0]))
+        .collect()
+}
+
+fn impacts(ball: &Ball, height: f64, limits: Limits) -> Vec<Event<(), Surface, 2>> {
+    Execution::new(ball, (), Vector2::new(height, 0.0), limits)
+        .filter_map(|arc| arc.unwrap().event().copied())
+        .collect()
+}
+
+#[test]
+fn fmi_reference_ball() {
+    let ball = Ball { gravity: 9.81, restitution: 0.7 };
+    let exact = [
+        0.451_523_640_985_730_9,
+        1.083_656_738_365_754_2,
+        1.526_149_906_531_770_5,
+        1.835_895_124_247_981_9,
+        2.052_716_776_649_329_8,
+    ];
+    let found = impacts(&ball, 1.0, Limits::sampled(2.1, 100, 1e-2));
+    assert_eq!(found.len(), 5);
+    for (event, time) in found.iter().zip(exact) {
+        assert_relative_eq!(event.time, time, max_relative = 1e-13);
+    }
+}
+
+#[test]
+fn drake_elastic_ball() {
+    let ball = Ball { gravity: 9.81, restitution: 1.0 };
+    let mut execution =
+        Execution::new(&ball, (), Vector2::new(1.0, 0.0), Limits::sampled(10.0, 100, 1e-2));
+    let arcs: Vec<_> = execution.by_ref().map(Result::unwrap).collect();
+    assert_eq!(execution.stop(), Some(Stop::TimeLimit));
+    assert_eq!(arcs.len(), 12);
+    let last = arcs.last().unwrap();
+    let end = last.state(&ball, last.duration);
+    assert_relative_eq!(end[0], 0.978_321_975_404_438, max_relative = 1e-12);
+    assert_relative_eq!(end[1], -0.652_167_802_459_556_2, max_relative = 1e-11);
+}
+
+#[test]
+fn diffeqgpu_540_both_sides_at_the_end_time() {
+    let ball = Ball { gravity: 10.0, restitution: 1.0 };
+    let found = impacts(&ball, 45.0, Limits::sampled(15.0, 100, 0.25));
+    let times: Vec<f64> = found.iter().map(|event| event.time).collect();
+    for (time, exact) in times.iter().zip([3.0, 9.0, 15.0]) {
+        assert_relative_eq!(*time, exact, max_relative = 1e-14);
+    }
+    // The third may round beyond the end time; the second shows both sides.
+    assert_relative_eq!(found[1].before[1], -30.0, max_relative = 1e-13);
+    assert_relative_eq!(found[1].after.unwrap().1[1], 30.0, max_relative = 1e-13);
+}
+
+#[test]
+fn oscillator_zeros() {
+    let zeros = crossings(|x| x.cos(), Guard::either(Surface), 12.0, 0.1);
+    let exact = [0.5, 1.5, 2.5, 3.5].map(|k| k * std::f64::consts::PI);
+    assert_eq!(zeros.len(), 4);
+    for (zero, exact) in zeros.iter().zip(exact) {
+        assert_relative_eq!(*zero, exact, max_relative = 4.0 * f64::EPSILON);
+    }
+    assert_eq!(crossings(|x| x.cos(), Guard::rising(Surface), 12.0, 0.1).len(), 2);
+}
+
+#[test]
+fn scipy_9228_three_zeros() {
+    // y = x³ + 6x² − 4x − 24 from −8, shifted by 8: zeros at −6, −2, 2.
+    let y = |t: f64| {
+        let x = t - 8.0;
+        (x + 6.0) * (x + 2.0) * (x - 2.0)
+    };
+    let zeros = crossings(y, Guard::either(Surface), 12.0, 0.3);
+    assert_eq!(zeros.len(), 3);
+    for (zero, exact) in zeros.iter().zip([2.0, 6.0, 10.0]) {
+        assert_relative_eq!(*zero, exact, max_relative = 1e-15);
+    }
+}
+
+/// Roots on samples and between them, each once, at any interval shorter than their distance.
+#[test]
+fn every_root_once_on_and_off_the_samples() {
+    let product = |x: f64| (1..=9).map(|k| x - f64::from(k) / 10.0).product::<f64>();
+    for interval in [0.05, 0.01, 0.033, 0.09, 1.0 / 128.0] {
+        let zeros = crossings(product, Guard::either(Surface), 1.0, interval);
+        assert_eq!(zeros.len(), 9, "interval {interval}: {zeros:?}");
+        for (k, zero) in (1..=9).zip(&zeros) {
+            assert_relative_eq!(*zero, f64::from(k) / 10.0, max_relative = 1e-14);
+        }
+    }
+}
+
+#[test]
+fn a_touch_is_no_crossing() {
+    assert!(crossings(|x| (x - 0.5) * (x - 0.5), Guard::either(Surface), 1.0, 0.25).is_empty());
+}
+
+#[test]
+fn sundials_57_tiny_values_still_cross() {
+    let zeros = crossings(|x| 1e-166 * (x - 0.37), Guard::rising(Surface), 1.0, 0.1);
+    assert_eq!(zeros.len(), 1);
+    assert_relative_eq!(zeros[0], 0.37, max_relative = 1e-15);
+}
+
+#[test]
+fn a_guard_without_a_solution_needs_an_interval() {
+    let ball = Ball { gravity: 1.0, restitution: 0.5 };
+    let first = |limits| Execution::new(&ball, (), Vector2::new(1.0, 0.0), limits).next().unwrap();
+    assert!(matches!(first(Limits::new(1.0, 1)), Err(Error::NoSamplingInterval { .. })));
+    for (time, interval) in [(f64::INFINITY, 0.1), (1.0, 0.0), (1.0, -1.0), (1.0, f64::NAN)] {
+        assert!(matches!(
+            first(Limits::sampled(time, 1, interval)),
+            Err(Error::BadSamplingInterval { .. })
+        ));
+    }
+    assert!(matches!(first(Limits::sampled(f64::NAN, 1, 0.1)), Err(Error::BadLimit { .. })));
+    // Resting on the floor it would fall through within the first sample: said, not guessed.
+    let resting =
+        Execution::new(&ball, (), Vector2::new(0.0, 0.0), Limits::sampled(1.0, 1, 0.1)).next();
+    assert!(matches!(resting, Some(Err(Error::UndecidedStart { .. }))));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    /// Planted simple roots farther apart than the interval: none missed, none doubled.
+    #[test]
+    fn planted_roots(mut gaps in proptest::collection::vec(0.021..0.3f64, 1..8), interval in 0.003..0.02f64) {
+        for k in 1..gaps.len() {
+            gaps[k] += gaps[k - 1];
+        }
+        let roots = gaps;
+        let end = roots.last().unwrap() + 0.05;
+        let product = |x: f64| roots.iter().map(|root| x - root).product::<f64>();
+        let found = crossings(product, Guard::either(Surface), end, interval);
+        prop_assert_eq!(found.len(), roots.len());
+        for (found, root) in found.iter().zip(&roots) {
+            prop_assert!((found - root).abs() < 1e-12);
+        }
+    }
+
+    /// The ball against its closed form, event by event.
+    #[test]
+    fn bouncing_ball(restitution in 0.3..1f64, height in 0.1..10f64) {
+        let ball = Ball { gravity: 9.8, restitution };
+        let drop = (2.0 * height / 9.8).sqrt();
+        let found = impacts(&ball, height, Limits::sampled(10.0, 4, 1e-3));
+        let mut time = drop;
+        for (k, event) in found.iter().enumerate() {
+            prop_assert!((event.time - time).abs() < 1e-12 * time, "bounce {k}");
+            prop_assert_eq!(event.jump, k);
+            time += 2.0 * drop * restitution.powi(k as i32 + 1);
+        }
+    }
+}
