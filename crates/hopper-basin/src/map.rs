@@ -6,9 +6,9 @@ use passive_hopper::index_below;
 
 impl ScalarMap for Fates {
     fn image(&self, alpha: f64) -> Image {
-        match self.map().image(alpha) {
-            Ok(next) => next.into(),
-            Err(_) => Image::Undecided,
+        match self.map().hop(alpha) {
+            Ok(hop) if hop.certain => hop.next.into(),
+            Ok(_) | Err(_) => Image::Undecided,
         }
     }
 }

@@ -2,6 +2,8 @@
 //! a speed lies on.
 
 use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::OnceLock;
 
 /// A number `high + low` with |`low`| ≤ ½ ulp(`high`): about 106 bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,13 +14,16 @@ pub struct DoubleDouble {
     pub low: f64,
 }
 
-/// π to 106 bits.
-pub(crate) const PI: DoubleDouble =
-    DoubleDouble { high: std::f64::consts::PI, low: 1.224_646_799_147_353_2e-16 };
+/// π to 161 bits, in three parts.
+const PI_PARTS: [f64; 3] =
+    [std::f64::consts::PI, 1.224_646_799_147_353_2e-16, -2.994_769_809_718_339_7e-33];
 
 impl DoubleDouble {
-    /// `high + low`, renormalised.
-    fn sum(high: f64, low: f64) -> Self {
+    pub(crate) const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
+    pub(crate) const ONE: DoubleDouble = DoubleDouble { high: 1.0, low: 0.0 };
+
+    /// `high + low`, renormalised, for |`high`| ≥ |`low`|.
+    fn ordered_sum(high: f64, low: f64) -> Self {
         let sum = high + low;
         DoubleDouble { high: sum, low: low - (sum - high) }
     }
@@ -42,32 +47,43 @@ impl DoubleDouble {
         DoubleDouble { high, low }
     }
 
-    /// Sum, with a relative error near 2⁻¹⁰⁴ when there is no cancellation.
-    pub(crate) fn plus(self, other: Self) -> Self {
-        let high = Self::exact_sum(self.high, other.high);
-        let low = Self::exact_sum(self.low, other.low);
-        let partial = Self::sum(high.high, high.low + low.high);
-        Self::sum(partial.high, partial.low + low.low)
+    /// n π, relatively right to 2⁻¹⁰⁵.
+    pub(crate) fn multiple_of_pi(n: f64) -> Self {
+        let [a, b, c] = PI_PARTS;
+        Self::exact_product(a, n) + Self::exact_product(b, n) + c * n
     }
 
-    /// Product with an `f64`.
-    pub(crate) fn times(self, factor: f64) -> Self {
-        let product = Self::exact_product(self.high, factor);
-        Self::sum(product.high, product.low + self.low * factor)
+    /// self².
+    pub(crate) fn squared(self) -> Self {
+        self * self
     }
 
-    /// Product.
-    pub(crate) fn times_wide(self, other: Self) -> Self {
-        let product = Self::exact_product(self.high, other.high);
-        Self::sum(product.high, product.low + (self.high * other.low + self.low * other.high))
+    /// √self; 0 for a number that is not positive.
+    pub(crate) fn sqrt(self) -> Self {
+        if !(self.high > 0.0) {
+            return Self::ZERO;
+        }
+        // One Newton step from the f64 root: r + (x − r²)/(2r).
+        let root = self.high.sqrt();
+        let rest = self - Self::exact_product(root, root);
+        Self::ordered_sum(root, rest.high / (2.0 * root))
     }
 
-    /// 1/self.
-    pub(crate) fn reciprocal(self) -> Self {
-        let guess = 1.0 / self.high;
-        // One Newton step: g (2 − x g) = g + g (1 − x g).
-        let rest = DoubleDouble { high: 1.0, low: 0.0 }.plus(self.times(-guess));
-        Self::sum(guess, guess * rest.high).plus(DoubleDouble { high: guess * rest.low, low: 0.0 })
+    /// sin and cos, absolutely right to about 2⁻¹⁰⁰; sin relatively so near zero.
+    pub(crate) fn sin_cos(self) -> (Self, Self) {
+        let turns = (self.high / std::f64::consts::PI).round();
+        // Part by part: the first difference cancels without error.
+        let [a, b, c] = PI_PARTS.map(|part| Self::exact_product(part, turns));
+        let rest = ((self - a) - b) - c;
+        let square = rest.squared();
+        let (mut sin, mut cos) = (Self::ZERO, Self::ZERO);
+        for k in (0..TERMS).rev() {
+            let inverse = inverse_factorials();
+            sin = inverse[2 * k + 1] - sin * square;
+            cos = inverse[2 * k] - cos * square;
+        }
+        let sign = if turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        (sin * rest * sign, cos * sign)
     }
 
     /// Compares `value` with this number: `Less` if `value` is below it.
@@ -79,6 +95,88 @@ impl DoubleDouble {
     pub fn offset_of(self, value: f64) -> f64 {
         let difference = Self::exact_sum(value, -self.high);
         difference.high + (difference.low - self.low)
+    }
+}
+
+/// Terms of the series of sin and cos: (π/2)³²/32! is under 2⁻¹⁰⁶.
+const TERMS: usize = 17;
+
+/// 1/k! for k up to 40.
+pub(crate) fn inverse_factorials() -> &'static [DoubleDouble; 40] {
+    static TABLE: OnceLock<[DoubleDouble; 40]> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let mut table = [DoubleDouble::ONE; 40];
+        for k in 1..40 {
+            table[k] = table[k - 1] / DoubleDouble::from(k as f64);
+        }
+        table
+    })
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(high: f64) -> Self {
+        DoubleDouble { high, low: 0.0 }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let high = Self::exact_sum(self.high, other.high);
+        let low = Self::exact_sum(self.low, other.low);
+        let partial = Self::ordered_sum(high.high, high.low + low.high);
+        Self::ordered_sum(partial.high, partial.low + low.low)
+    }
+}
+
+impl Add<f64> for DoubleDouble {
+    type Output = Self;
+    fn add(self, other: f64) -> Self {
+        self + Self::from(other)
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+    fn neg(self) -> Self {
+        DoubleDouble { high: -self.high, low: -self.low }
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let product = Self::exact_product(self.high, other.high);
+        let rest = self.high * other.low + self.low * other.high;
+        Self::ordered_sum(product.high, product.low + rest)
+    }
+}
+
+impl Mul<f64> for DoubleDouble {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        let product = Self::exact_product(self.high, factor);
+        Self::ordered_sum(product.high, product.low + self.low * factor)
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    fn div(self, divisor: Self) -> Self {
+        // Long division, three digits of 53 bits.
+        let first = self.high / divisor.high;
+        let rest = self - divisor * first;
+        let second = rest.high / divisor.high;
+        let rest = rest - divisor * second;
+        let third = rest.high / divisor.high;
+        Self::ordered_sum(first, second) + third
     }
 }
 
@@ -107,14 +205,44 @@ mod tests {
         #[test]
         fn reciprocals_multiply_to_one(a in 0.1..1e6f64, b in -1e-12..1e-12f64) {
             let x = DoubleDouble::exact_sum(a, b);
-            let one = x.times_wide(x.reciprocal());
+            let one = x * (DoubleDouble::ONE / x);
             prop_assert!(((one.high - 1.0) + one.low).abs() < 1e-30);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn sines_are_on_the_circle_and_near_f64(x in -1e4..1e4f64, low in -1e-17..1e-17f64) {
+            let (sin, cos) = (DoubleDouble::from(x) + low).sin_cos();
+            let one = sin.squared() + cos.squared();
+            prop_assert!(((one.high - 1.0) + one.low).abs() < 1e-30);
+            prop_assert!((sin.high - pxfm::f_sin(x)).abs() < 2e-16);
+            prop_assert!((cos.high - pxfm::f_cos(x)).abs() < 2e-16);
+        }
+
+        #[test]
+        fn roots_square_back(x in 1e-6..1e6f64, low in -1e-17..1e-17f64) {
+            let x = DoubleDouble::from(x) + low;
+            let back = x.sqrt().squared() - x;
+            prop_assert!(back.high.abs() < 1e-30 * x.high);
+        }
+    }
+
+    /// tan α* = α*, with α* from another route (arctangents): the sine series to 30 digits.
+    #[test]
+    fn sines_at_the_fixed_points() {
+        for n in [1, 2, 10, 1000] {
+            let star = crate::alpha_star(n);
+            let (sin, cos) = star.sin_cos();
+            let rest = sin - star * cos;
+            assert!(rest.high.abs() < 1e-28 * star.high, "{n}: {}", rest.high);
         }
     }
 
     #[test]
     fn comparison_sees_the_low_part() {
-        assert_eq!(PI.compare(std::f64::consts::PI), Ordering::Less);
-        assert_eq!(PI.compare(std::f64::consts::PI.next_up()), Ordering::Greater);
+        let pi = DoubleDouble::multiple_of_pi(1.0);
+        assert_eq!(pi.compare(std::f64::consts::PI), Ordering::Less);
+        assert_eq!(pi.compare(std::f64::consts::PI.next_up()), Ordering::Greater);
     }
 }

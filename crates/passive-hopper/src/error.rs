@@ -36,6 +36,21 @@ pub enum Error {
         /// The largest accepted.
         largest: f64,
     },
+    /// An offset outside the cell of its fixed point, or too small to be resolved.
+    #[error(
+        "an offset from α*_{n} must be zero or of size 1e-300 at least, and in ({left}, {right}), \
+         with n ≥ 1; not {delta}"
+    )]
+    Offset {
+        /// Index of the fixed point.
+        n: u64,
+        /// The offset given.
+        delta: f64,
+        /// nπ − α*_n.
+        left: f64,
+        /// (n+1)π − α*_n.
+        right: f64,
+    },
     /// A state so large that an f64 no longer resolves the spring's phase, or not finite.
     #[error(
         "a coordinate of the motion is {value}, over {largest}, where an f64 no longer resolves it"

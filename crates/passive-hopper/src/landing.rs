@@ -79,6 +79,11 @@ impl Cell {
         if self.sudden { (self.n as f64 * PI, alpha) } else { (alpha, (self.n + 1) as f64 * PI) }
     }
 
+    /// Half the time of the first flight.
+    pub(crate) fn root(&self, alpha: f64) -> Root {
+        solve(0.0, alpha, self.bracket(alpha), self.start(alpha))
+    }
+
     /// h to a few digits, from the expansion of A about α*_n, or about 0 and π on the first cell.
     fn start(&self, alpha: f64) -> f64 {
         if self.n == 0 {
@@ -99,34 +104,47 @@ impl Cell {
 /// The first landing after a gradual lift-off with speed `alpha`: exists and is unique for all.
 pub(crate) fn first_landing(alpha: f64, kappa: f64) -> Landing {
     let cell = Cell::of(alpha);
-    let root = solve(0.0, alpha, cell.bracket(alpha), cell.start(alpha));
-    root.landing(0.0, alpha, kappa, Some(cell.sudden))
+    cell.root(alpha).landing(0.0, alpha, kappa, Some(cell.sudden))
 }
 
 /// The first landing after a sudden lift-off, `excess` > 0.
 pub(crate) fn next_landing(start: TakeOff, kappa: f64) -> Landing {
+    next_root(start, before_maximum(start)).landing(start.excess, start.velocity, kappa, None)
+}
+
+/// Half the time of the first flight after a sudden lift-off, on the branch given.
+pub(crate) fn next_root(start: TakeOff, before_maximum: bool) -> Root {
     let TakeOff { excess, velocity } = start;
-    let bracket = branch(start);
+    let bracket = branch(start, before_maximum);
     // On branch 1, V ≈ h/2 − 3x/(2h); elsewhere the middle.
-    let guess = if bracket.0 < PI && bracket.1 <= 3.2 {
+    let guess = if velocity < PI {
         let root = pxfm::f_hypot(velocity, (3.0 * excess).sqrt());
         if velocity < 0.0 { 3.0 * excess / (root - velocity) } else { velocity + root }
     } else {
         0.5 * (bracket.0 + bracket.1)
     };
-    solve(excess, velocity, bracket, guess).landing(excess, velocity, kappa, None)
+    solve(excess, velocity, bracket, guess)
+}
+
+/// (−1)^m (V cos V − Y sin V), m = ⌊V/π⌋: not negative before the maximum of branch m.
+pub(crate) fn maximum_test(start: TakeOff) -> f64 {
+    let TakeOff { excess, velocity } = start;
+    let (sin, cos) = pxfm::f_sincos(velocity);
+    let sign = if (velocity / PI).floor() % 2.0 == 0.0 { 1.0 } else { -1.0 };
+    sign * (velocity * cos - (1.0 + excess) * sin)
+}
+
+fn before_maximum(start: TakeOff) -> bool {
+    start.velocity >= PI && maximum_test(start) >= 0.0
 }
 
 /// The interval of h that holds the first landing of a flight with `excess` > 0.
-pub(crate) fn branch(start: TakeOff) -> (f64, f64) {
-    let TakeOff { excess, velocity } = start;
+fn branch(start: TakeOff, before_maximum: bool) -> (f64, f64) {
+    let velocity = start.velocity;
     if velocity < PI {
         return (velocity.max(0.0), PI);
     }
     let m = (velocity / PI).floor();
-    let (sin, cos) = pxfm::f_sincos(velocity);
-    let sign = if m % 2.0 == 0.0 { 1.0 } else { -1.0 };
-    let before_maximum = sign * (velocity * cos - (1.0 + excess) * sin) >= 0.0;
     if velocity < (m + 0.5) * PI && before_maximum {
         (m * PI, velocity)
     } else {
@@ -137,7 +155,7 @@ pub(crate) fn branch(start: TakeOff) -> (f64, f64) {
 /// The interval of τ that holds the first landing, for a solver of the printed Eq. (8).
 pub(crate) fn time_bracket(start: TakeOff) -> (f64, f64) {
     let (left, right) = if start.excess > 0.0 {
-        let (left, right) = branch(start);
+        let (left, right) = branch(start, before_maximum(start));
         (if left > 0.0 { left } else { before_landing(start, right) }, right)
     } else {
         // The whole cell: at its ends Eq. (8) is 2nπ (nπ − α), far from rounding; on the first one
@@ -159,8 +177,8 @@ fn before_landing(start: TakeOff, right: f64) -> f64 {
 }
 
 /// A root of V(h) = V: an `f64` h, and what is left.
-struct Root {
-    half: HalfFlight,
+pub(crate) struct Root {
+    pub(crate) half: HalfFlight,
     /// V(h) − V.
     residual: f64,
     /// The exact root minus h.

@@ -1,7 +1,9 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
-use crate::{Error, Landing, MassRatio, TakeOff};
+use crate::doubt::Doubt;
+use crate::wide::{WideRatio, wide_hop};
+use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 
 /// Sudden lift-offs that one hop may have before it is given up with an error.
 ///
@@ -49,6 +51,10 @@ pub struct Hop {
     pub sudden: usize,
     /// Total time of flight τ.
     pub flight_time: f64,
+    /// Whether every verdict on the way (sudden or not, on which branch a flight lands, grounded or
+    /// not) is larger than its rounding error. What 53 bits leave open is computed with 106; false
+    /// means that these do not suffice either.
+    pub certain: bool,
 }
 
 impl LiftOffMap {
@@ -79,27 +85,44 @@ impl LiftOffMap {
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
         let landings = self.landings(alpha)?;
         let (mut shares, mut sudden, mut flight_time) = (0.0, 0, 0.0);
+        let mut doubt = Doubt::new(alpha, f64::EPSILON);
         for landing in landings {
             let landing = landing?;
             let ratio = landing.closing_speed / alpha;
             shares += ratio * ratio;
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
+            doubt.pass(&landing, self.kappa);
+        }
+        let t = self.mu * shares;
+        if doubt.is_real(1.0 - t, self.mu, alpha) {
+            return self.hop_in_doubt(alpha);
         }
         // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
-        let t = self.mu * shares;
-        let loss = (t <= 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
+        let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
-        // t = 1: the contact force grazes zero and the lower mass stays down.
-        let next = next.filter(|&next| next > 0.0);
-        let loss = loss.filter(|_| next.is_some());
+        let radicand = alpha * alpha * (1.0 - t);
+        Ok(Hop { speed: alpha, next, loss, radicand, sudden, flight_time, certain: true })
+    }
+
+    /// The same in double-double arithmetic.
+    fn hop_in_doubt(&self, alpha: f64) -> Result<Hop, Error> {
+        let ratio = WideRatio::new(self.mass_ratio);
+        let hop = wide_hop(alpha, ratio)?;
+        let start = DoubleDouble::from(alpha);
+        let taken = ratio.mu * hop.loss;
+        let radicand = start.squared() - taken;
+        let share = (radicand / start.squared()).high;
+        let certain = !hop.doubt.is_real(share, self.mu, alpha);
+        let root = (radicand.high > 0.0).then(|| radicand.sqrt());
         Ok(Hop {
             speed: alpha,
-            next,
-            loss,
-            radicand: alpha * alpha * (1.0 - t),
-            sudden,
-            flight_time,
+            next: root.map(|root| root.high),
+            loss: root.map(|root| (taken / (start + root)).high),
+            radicand: radicand.high,
+            sudden: hop.sudden,
+            flight_time: hop.flight_time,
+            certain,
         })
     }
 

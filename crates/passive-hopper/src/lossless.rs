@@ -1,6 +1,6 @@
 //! The lossless hops: fixed points of every map, whatever the mass ratio.
 
-use crate::double_double::{DoubleDouble, PI};
+use crate::double_double::DoubleDouble;
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
@@ -27,15 +27,14 @@ pub fn alpha_star(n: u64) -> DoubleDouble {
 
 fn solve(n: u64) -> DoubleDouble {
     if n == 0 {
-        return DoubleDouble { high: 0.0, low: 0.0 };
+        return DoubleDouble::ZERO;
     }
     // Beyond 2⁵⁰ an f64 does not even tell neighbouring α*_n apart: the last one is the answer.
-    let q = PI.times(n.min(LARGEST_INDEX) as f64 + 0.5);
+    let q = DoubleDouble::multiple_of_pi(n.min(LARGEST_INDEX) as f64 + 0.5);
     let mut alpha = q;
     // The error shrinks by at least 21 in a step; 24 steps take any start to 106 bits.
     for _ in 0..24 {
-        let angle = arc_tangent(alpha.reciprocal());
-        let next = q.plus(angle.times(-1.0));
+        let next = q - arc_tangent(DoubleDouble::ONE / alpha);
         if next == alpha {
             break;
         }
@@ -46,19 +45,19 @@ fn solve(n: u64) -> DoubleDouble {
 
 /// arctan x = x − x³/3 + x⁵/5 − …, for 0 < x < ¼.
 fn arc_tangent(x: DoubleDouble) -> DoubleDouble {
-    let minus_square = x.times_wide(x).times(-1.0);
+    let minus_square = -x.squared();
     let (mut power, mut sum, mut odd) = (x, x, 1.0);
     while power.high.abs() > 1e-34 * x.high {
-        power = power.times_wide(minus_square);
+        power = power * minus_square;
         odd += 2.0;
-        sum = sum.plus(power.times_wide(DoubleDouble { high: odd, low: 0.0 }.reciprocal()));
+        sum = sum + power / DoubleDouble::from(odd);
     }
     sum
 }
 
 /// n π to 100 bits: where a first landing has stretch one, and the flight an integer number of turns.
 pub(crate) fn n_pi(n: u64) -> DoubleDouble {
-    PI.times(n as f64)
+    DoubleDouble::multiple_of_pi(n as f64)
 }
 
 /// The largest n with α*_n ≤ `alpha`, for `alpha` ≥ 0 up to 2⁵⁰.
@@ -92,18 +91,17 @@ mod tests {
             assert_eq!(ours.high, text.parse::<f64>().unwrap(), "n = {n}");
             // The rest, from the decimal digits: integer part and 30 digits of the fraction.
             let (whole, fraction) = text.split_once('.').unwrap();
-            let mut exact = DoubleDouble { high: whole.parse().unwrap(), low: 0.0 };
+            let mut exact = DoubleDouble::from(whole.parse::<f64>().unwrap());
             for (place, chunk) in fraction.as_bytes().chunks(10).take(4).enumerate() {
                 let digits: f64 = std::str::from_utf8(chunk).unwrap().parse().unwrap();
-                let mut term = DoubleDouble { high: digits, low: 0.0 };
+                let mut term = DoubleDouble::from(digits);
                 let digits_so_far = 10 * place + chunk.len();
-                let tenth = DoubleDouble { high: 10.0, low: 0.0 }.reciprocal();
                 for _ in 0..digits_so_far {
-                    term = term.times_wide(tenth);
+                    term = term / DoubleDouble::from(10.0);
                 }
-                exact = exact.plus(term);
+                exact = exact + term;
             }
-            let error = ours.plus(exact.times(-1.0));
+            let error = ours - exact;
             assert!(error.high.abs() < 1e-29 * ours.high, "n = {n}: off by {:e}", error.high);
         }
     }

@@ -1,0 +1,245 @@
+//! A hop in the coordinate of a fixed point: (n, δ) with α = α*_n + δ, to (n, δ′).
+//!
+//! With a = α*_n, τ = 2a + t, η = t/2, h = a + η and tan a = a (theory: c), exactly
+//!
+//! ```text
+//!   δ(t) = N/Q      N = a (t − sin t) + (t²/2 − 1 + cos t)       Q = 2a + t − sin(2a + t) = 2D
+//!   Γ    = 4 b²/(R² Q)        b = (1 + a² + aη) sin η − η cos η          R² = 1 + a²
+//!   S u/D = −2 (a cos η + sin η) b/(R² Q)          δ′ = δ − μ Σ Γ²/(α + α′)
+//! ```
+//!
+//! Nothing cancels but in δ − loss, near the end of an interval of attraction: there the hop is
+//! computed in double-double arithmetic.
+
+use crate::double_double::{DoubleDouble, inverse_factorials};
+use crate::landing::next_landing;
+use crate::wide::{WideLanding, WideRatio, wide_chain};
+use crate::{Error, LiftOffMap, TakeOff, alpha_star};
+use std::f64::consts::PI;
+
+/// While the loss is under this share of |δ|, its own rounding does not show in δ′.
+const SMALL_LOSS: f64 = 1.0 / 16.0;
+
+/// A hop near a fixed point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalHop {
+    /// δ′ = α′ − α*_n; nothing if the hopper is grounded.
+    pub next: Option<f64>,
+    /// Number of sudden lift-offs.
+    pub sudden: usize,
+    /// By how much the first flight is longer than 2α*_n.
+    pub time_shift: f64,
+}
+
+impl LiftOffMap {
+    /// The hop from α = α*_n + `delta`, in the coordinate δ.
+    ///
+    /// δ′ is right to a few ulps of itself, from |δ| = 10⁻³⁰⁰ to the ends of the cell
+    /// (nπ, (n+1)π): orbits follow the algebraic approach to α*_n for ever, where α itself would
+    /// stand still.
+    ///
+    /// ```
+    /// use passive_hopper::{LiftOffMap, MassRatio};
+    /// let map = LiftOffMap::new(MassRatio::ONE);
+    /// let hop = map.hop_about(1, 1e-60)?;
+    /// // f(α* + δ) = α* + δ − λδ^{4/3}: far below the spacing of α.
+    /// let loss = (1e-60 - hop.next.expect("it hops again")) / 1e-80;
+    /// assert!(loss == 0.0);
+    /// let loss = (1e-30 - map.hop_about(1, 1e-30)?.next.expect("it hops again")) / 1e-40;
+    /// assert!((loss - 3.6169).abs() < 1e-3);
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Offset`] unless n ≥ 1 and α lies in the cell of α*_n, outside 10⁻³⁰⁰ of α*_n (an
+    /// offset of zero is welcome); [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop).
+    pub fn hop_about(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
+        let star = alpha_star(n);
+        let (left, right) = ends(n, star);
+        let resolved = delta == 0.0 || delta.abs() >= 1e-300;
+        if n == 0 || !(delta > left && delta < right) || !resolved {
+            return Err(Error::Offset { n, delta, left, right });
+        }
+        if delta == 0.0 {
+            return Ok(LocalHop { next: Some(0.0), sudden: 0, time_shift: 0.0 });
+        }
+        let local = Local { a: star.high };
+        let t = local.time_shift(delta);
+        self.fast(&local, delta, t).map_or_else(|| self.wide(star, delta), Ok)
+    }
+
+    /// In plain `f64`; nothing if the loss is not small against δ.
+    fn fast(&self, local: &Local, delta: f64, t: f64) -> Option<LocalHop> {
+        let mu = self.mass_ratio().mu();
+        let kappa = self.mass_ratio().kappa();
+        let (excess, velocity, closing_speed) = local.landing(t, kappa);
+        let mut loss = closing_speed * closing_speed;
+        let sudden = usize::from(delta < 0.0);
+        if sudden > 0 {
+            let next = next_landing(TakeOff { excess, velocity }, kappa);
+            if next.sudden {
+                return None; // a longer chain is no small loss
+            }
+            loss += next.closing_speed * next.closing_speed;
+        }
+        let change = mu * loss / (2.0 * local.a);
+        if !(change <= SMALL_LOSS * delta.abs()) {
+            return None;
+        }
+        // δ′ = δ − μ Σ Γ²/(α + α′), α + α′ = 2α − change to far beyond rounding.
+        let change = mu * loss / (2.0 * (local.a + delta) - change);
+        Some(LocalHop { next: Some(delta - change), sudden, time_shift: t })
+    }
+
+    fn wide(&self, star: DoubleDouble, delta: f64) -> Result<LocalHop, Error> {
+        let ratio = WideRatio::new(self.mass_ratio());
+        let local = WideLocal::new(star);
+        let first = local.landing(delta.into(), ratio.kappa);
+        let alpha = star + delta;
+        let hop = wide_chain(first, delta < 0.0, alpha.high, ratio)?;
+        let loss = ratio.mu * hop.loss;
+        let radicand = alpha.squared() - loss;
+        let next = (radicand.high > 0.0).then(|| {
+            let sum = alpha + radicand.sqrt();
+            (DoubleDouble::from(delta) - loss / sum).high
+        });
+        let time_shift = (first.time - star * 2.0).high;
+        Ok(LocalHop { next, sudden: hop.sudden, time_shift })
+    }
+}
+
+/// The cell of α*_n in δ.
+fn ends(n: u64, star: DoubleDouble) -> (f64, f64) {
+    (star.offset_of(n as f64 * PI), star.offset_of((n as f64 + 1.0) * PI))
+}
+
+/// The local functions in plain `f64`.
+struct Local {
+    a: f64,
+}
+
+impl Local {
+    /// δ(t) and Q(t).
+    fn offset(&self, t: f64) -> (f64, f64) {
+        let a = self.a;
+        let half = 0.5 * t;
+        let bend = -2.0 * pxfm::f_sinmx(half) * (half + pxfm::f_sin(half));
+        let q = self.q(t);
+        ((bend - a * pxfm::f_sinmx(t)) / q, q)
+    }
+
+    fn q(&self, t: f64) -> f64 {
+        let square = self.a * self.a;
+        let (sin, cos) = pxfm::f_sincos(t);
+        let sine = (2.0 * self.a * cos + (1.0 - square) * sin) / (1.0 + square);
+        2.0 * self.a + t - sine
+    }
+
+    /// b(η).
+    fn b(&self, eta: f64) -> f64 {
+        let (sin, cos) = pxfm::f_sincos(eta);
+        (1.0 + self.a * (self.a + eta)) * sin - eta * cos
+    }
+
+    /// t of δ, by Newton's method from its expansion in δ^{1/3}.
+    ///
+    /// On t³ ∝ δ it converges quadratically in relative terms, however small δ is.
+    fn time_shift(&self, delta: f64) -> f64 {
+        let square = self.a * self.a;
+        let r2 = 1.0 + square;
+        let w = pxfm::f_cbrt(delta) * pxfm::f_cbrt(12.0 * square / r2);
+        let mut t = w * (1.0 + w * (0.25 / self.a + w * (4.0 + 25.0 / square) / 240.0));
+        for _ in 0..12 {
+            let (offset, q) = self.offset(t);
+            let b = self.b(0.5 * t);
+            let slope = 4.0 * (b / q) * (b / q) / r2;
+            let step = (offset - delta) / slope;
+            if !step.is_finite() {
+                break;
+            }
+            t -= step;
+            if step.abs() <= 1e-15 * t.abs() {
+                break;
+            }
+        }
+        t
+    }
+
+    /// (excess, velocity, Γ) at the first landing.
+    fn landing(&self, t: f64, kappa: f64) -> (f64, f64, f64) {
+        let eta = 0.5 * t;
+        let (sin, cos) = pxfm::f_sincos(eta);
+        let b = self.b(eta);
+        let scale = b / (self.q(t) * (1.0 + self.a * self.a));
+        let beyond = -2.0 * (self.a * cos + sin) * scale; // S u/D
+        let h = self.a + eta;
+        let closing_speed = 4.0 * b * scale;
+        (2.0 * h * beyond, beyond - h + kappa * closing_speed, closing_speed)
+    }
+}
+
+/// The local functions in double-double arithmetic.
+pub(crate) struct WideLocal {
+    a: DoubleDouble,
+    r2: DoubleDouble,
+}
+
+impl WideLocal {
+    pub(crate) fn new(star: DoubleDouble) -> Self {
+        WideLocal { a: star, r2: star.squared() + 1.0 }
+    }
+
+    /// δ(t), Q(t).
+    fn offset(&self, t: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+        let (sin, cos) = t.sin_cos();
+        let (rest, bend) = if t.high.abs() < 1.0 {
+            remainders(t)
+        } else {
+            (t - sin, t.squared() * 0.5 - DoubleDouble::ONE + cos)
+        };
+        let a = self.a;
+        let sine = (a * cos * 2.0 + (DoubleDouble::ONE - a.squared()) * sin) / self.r2;
+        let q = a * 2.0 + t - sine;
+        ((a * rest + bend) / q, q)
+    }
+
+    /// The first landing from α = a + `delta`.
+    pub(crate) fn landing(&self, delta: DoubleDouble, kappa: DoubleDouble) -> WideLanding {
+        let mut t = DoubleDouble::from(Local { a: self.a.high }.time_shift(delta.high));
+        for _ in 0..2 {
+            let (offset, q) = self.offset(t);
+            let b = Local { a: self.a.high }.b(0.5 * t.high);
+            let slope = 4.0 * (b / q.high) * (b / q.high) / self.r2.high;
+            let residual = offset - delta;
+            if slope > 0.0 {
+                t = t - DoubleDouble::exact_sum(residual.high / slope, residual.low / slope);
+            }
+        }
+        let q = self.offset(t).1;
+        let eta = t * 0.5;
+        let (sin, cos) = eta.sin_cos();
+        let b = (DoubleDouble::ONE + self.a * (self.a + eta)) * sin - eta * cos;
+        let scale = b / (q * self.r2);
+        let beyond = -(self.a * cos + sin) * scale * 2.0;
+        let h = self.a + eta;
+        let closing_speed = b * scale * 4.0;
+        WideLanding {
+            closing_speed,
+            excess: h * beyond * 2.0,
+            velocity: beyond - h + kappa * closing_speed,
+            time: h * 2.0,
+        }
+    }
+}
+
+/// t − sin t and t²/2 − 1 + cos t by their series.
+fn remainders(t: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+    let square = t.squared();
+    let inverse = inverse_factorials();
+    let (mut odd, mut even) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
+    for k in (0..15).rev() {
+        odd = inverse[2 * k + 3] - odd * square;
+        even = inverse[2 * k + 4] - even * square;
+    }
+    (odd * square * t, even * square.squared())
+}
