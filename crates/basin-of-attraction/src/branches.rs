@@ -94,8 +94,8 @@ fn bisect(mut left: f64, mut right: f64, holds: impl Fn(f64) -> bool) -> (f64, f
 
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.
 ///
-/// Turning points are refined by golden-section search, edges at which the map loses its value to
-/// one ulp. Turns and gaps that fall between two samples are not seen: split the window at the
+/// Turning points are refined by golden-section search; edges at which the map loses its value, and
+/// jumps that stand out from the steps beside them, to one ulp. Turns and gaps that fall between two samples are not seen: split the window at the
 /// places where theory knows them.
 ///
 /// # Errors
@@ -113,30 +113,67 @@ pub fn monotone_branches(
         Image::Stops | Image::Undecided => None,
     };
     let at = |k: usize| window.left + window.length() * (k as f64 / (samples - 1) as f64);
-    let mut cuts = vec![(at(0), value(at(0)))];
-    for k in 1..samples {
-        let (before, here) = (value(at(k - 1)), value(at(k)));
-        match (before, here) {
+    let values: Vec<Option<f64>> = (0..samples).map(|k| value(at(k))).collect();
+    let step = |k: usize| Some(values.get(k + 1).copied()?? - values.get(k).copied()??);
+    let mut cuts = vec![(at(0), values[0])];
+    // The last step that went up or down, and where it began: equal samples do not hide a turn.
+    let mut last: Option<(usize, f64)> = None;
+    for k in 0..samples - 1 {
+        match (values[k], values[k + 1]) {
             (Some(_), None) => {
-                let (edge, _) = bisect(at(k - 1), at(k), |x| value(x).is_none());
-                cuts.extend([(edge, value(edge)), (at(k), None)]);
+                let (edge, _) = bisect(at(k), at(k + 1), |x| value(x).is_none());
+                cuts.extend([(edge, value(edge)), (at(k + 1), None)]);
+                last = None;
             }
             (None, Some(_)) => {
-                let (_, edge) = bisect(at(k - 1), at(k), |x| value(x).is_some());
+                let (_, edge) = bisect(at(k), at(k + 1), |x| value(x).is_some());
                 cuts.extend([(edge, None), (edge, value(edge))]);
+                last = None;
             }
-            (Some(a), Some(b)) if k + 1 < samples => {
-                if let Some(c) = value(at(k + 1)).filter(|c| (b - a) * (c - b) < 0.0) {
-                    let up = if b > c { 1.0 } else { -1.0 };
-                    let turn = highest(|x| value(x).map(|v| up * v), at(k - 1), at(k + 1));
+            (Some(a), Some(b)) => {
+                let beside = [k.checked_sub(1).and_then(step), step(k + 1)];
+                let usual = beside.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
+                if (b - a).abs() > 4.0 * usual
+                    && let Some((left, right)) = jump(&value, at(k), at(k + 1))
+                {
+                    cuts.extend([(left, value(left)), (left, None), (right, value(right))]);
+                    last = None;
+                    continue;
+                }
+                if let Some((from, before)) = last.filter(|(_, before)| before * (b - a) < 0.0) {
+                    let up = before.signum();
+                    let turn = highest(|x| value(x).map(|v| up * v), at(from), at(k + 1));
                     cuts.push((turn, value(turn)));
                 }
+                if b != a {
+                    last = Some((k, b - a));
+                }
             }
-            _ => {}
+            (None, None) => {}
         }
     }
-    cuts.push((at(samples - 1), value(at(samples - 1))));
+    cuts.push((at(samples - 1), values[samples - 1]));
     Ok(cuts.windows(2).filter_map(branch_between).collect())
+}
+
+/// Neighbouring `f64` between which the map jumps, if halving towards the larger difference leaves
+/// most of it.
+fn jump(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<(f64, f64)> {
+    let (mut left, mut right) = (left, right);
+    let whole = (value(right)? - value(left)?).abs();
+    loop {
+        let middle = left + 0.5 * (right - left);
+        if middle <= left || middle >= right {
+            break;
+        }
+        let here = value(middle)?;
+        if (here - value(left)?).abs() > (value(right)? - here).abs() {
+            right = middle;
+        } else {
+            left = middle;
+        }
+    }
+    ((value(right)? - value(left)?).abs() > 0.25 * whole).then_some((left, right))
 }
 
 fn branch_between(ends: &[(f64, Option<f64>)]) -> Option<Branch> {
@@ -154,4 +191,41 @@ fn highest(height: impl Fn(f64) -> Option<f64>, mut left: f64, mut right: f64) -
         if height(a) > height(b) { right = b } else { left = a }
     }
     0.5 * (left + right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn branches(map: impl Fn(f64) -> Option<f64>, left: f64, right: f64, samples: usize) -> Vec<Branch> {
+        monotone_branches(&map, Interval { left, right }, samples).unwrap()
+    }
+
+    #[test]
+    fn a_turn_between_equal_samples_is_found() {
+        for samples in [4, 8, 9] {
+            let found = branches(|x| Some(x * x), -3.0, 3.0, samples);
+            assert_eq!(found.len(), 2, "{samples}: {found:?}");
+            assert!(!found[0].increases() && found[1].increases());
+            assert!(found[0].domain.right.abs() < 1e-7);
+        }
+    }
+
+    #[test]
+    fn branches_end_at_jumps() {
+        let found = branches(|x| Some((3.0 * x).fract()), 0.01, 0.99, 101);
+        assert_eq!(found.len(), 3, "{found:?}");
+        for (branch, k) in found.iter().zip(1..) {
+            assert!(branch.increases());
+            assert!(k == 3 || (branch.domain.right - f64::from(k) / 3.0).abs() < 1e-15);
+            assert!(k == 3 || branch.at_right > 0.999_999);
+        }
+    }
+
+    #[test]
+    fn branches_end_where_the_map_does() {
+        let found = branches(|x| (x.abs() > 0.5).then_some(x), -1.0, 1.0, 50);
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].domain.right, found[1].domain.left), (-0.5f64.next_up(), 0.5f64.next_up()));
+    }
 }

@@ -42,8 +42,8 @@ pub struct LabelImage {
 impl LabelImage {
     /// The label of a pixel; rows count from below.
     pub fn at(&self, column: usize, row: usize) -> Option<u16> {
-        (column < self.grid.columns)
-            .then(|| self.labels.get(row * self.grid.columns + column).copied())?
+        let inside = column < self.grid.columns && row < self.grid.rows;
+        inside.then(|| self.labels.get(row * self.grid.columns + column).copied())?
     }
 
     /// How many pixels have each label, in increasing order of labels.

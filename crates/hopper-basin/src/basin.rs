@@ -37,7 +37,7 @@ impl Shares {
 /// intervals are averaged, whatever their lengths.
 ///
 /// # Errors
-/// As [`Fates::new`].
+/// As [`Fates::new`], and [`Error::NoPoints`] if there are none.
 pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Result<Shares, Error> {
     let fates = Fates::new(mass_ratio)?;
     let label = |alpha: f64| fates.fate(alpha).map_or(HopperFate::UNDECIDED, HopperFate::label);
@@ -48,8 +48,10 @@ pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Resul
             *counts.entry(label).or_insert(0) += count;
         }
     }
-    let points = counts.values().sum();
-    Ok(Shares { counts, points })
+    match counts.values().sum() {
+        0 => Err(Error::NoPoints { from, to, points }),
+        points => Ok(Shares { counts, points }),
+    }
 }
 
 /// The basins over a window of (M, α): M to the right, α upwards, labels as in
@@ -94,12 +96,12 @@ pub fn branches(fates: &Fates, from: u64, to: u64, samples: usize) -> Result<Vec
     let mu = fates.map().mass_ratio().mu();
     let mut branches = Vec::new();
     for n in from..to {
-        let hump = crate::hump::Hump::new(n);
+        let hump = crate::hump::Hump::new(n)?;
         let (left, end) = (hump.star.high.next_up(), (n + 1) as f64 * PI);
         let right = alpha_star(n + 1).high.next_down();
         let mut cuts = vec![left];
         if let Some((maximum, minimum)) = hump.critical(mu)? {
-            cuts.extend([hump.alpha(maximum), hump.alpha(minimum)]);
+            cuts.extend([maximum, minimum].map(|t| hump.star.high + hump.delta(t)));
         }
         cuts.push(end);
         for pair in cuts.windows(2) {

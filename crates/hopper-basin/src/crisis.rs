@@ -1,7 +1,7 @@
 //! The mass ratios at which a hump falls through its fixed point, or to the ground.
 
 use crate::Error;
-use crate::hump::Hump;
+use crate::hump::{Hump, Touch};
 
 /// A touch of the map's minimum on the contact part of a hump.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,10 +26,10 @@ pub struct Crisis {
 /// ```
 ///
 /// # Errors
-/// [`Error::Index`] for n = 0.
+/// [`Error::Index`] for n = 0, and for humps beyond the largest lift-off speed.
 pub fn crisis(n: u64) -> Result<Crisis, Error> {
     if n == 0 {
-        return Err(Error::Index { n });
+        return Err(Error::Index { n, smallest: 1, largest: crate::hump::LARGEST });
     }
     touch(n, false)
 }
@@ -38,13 +38,13 @@ pub fn crisis(n: u64) -> Result<Crisis, Error> {
 /// every hop from there is followed by another.
 ///
 /// # Errors
-/// [`Error::Root`] if a bracket that theory guarantees does not hold (none is known).
+/// [`Error::Index`] for humps beyond the largest lift-off speed.
 pub fn grounding(n: u64) -> Result<Crisis, Error> {
     touch(n, true)
 }
 
 fn touch(n: u64, target_is_zero: bool) -> Result<Crisis, Error> {
-    let (mu, alpha) = Hump::new(n).touch(target_is_zero)?;
+    let Touch { mu, alpha } = Hump::new(n)?.touch(target_is_zero)?;
     // M/(1+M)² = μ, the root below one, without cancellation.
     let mass_ratio = 2.0 * mu / (1.0 - 2.0 * mu + (1.0 - 4.0 * mu).sqrt());
     Ok(Crisis { n, mu, mass_ratio, alpha })

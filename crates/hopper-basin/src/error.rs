@@ -30,10 +30,24 @@ pub enum Error {
         /// Highest speed whose fixed points have labels.
         largest: f64,
     },
-    /// A hump on which the quantity is not defined.
-    #[error("the crisis of a fixed point needs n ≥ 1, not {n}")]
+    /// A measure by no points at all.
+    #[error("no points: {points} on each interval from α*_{from} to α*_{to}")]
+    NoPoints {
+        /// First fixed point.
+        from: u64,
+        /// Last fixed point.
+        to: u64,
+        /// Points asked for on each interval.
+        points: usize,
+    },
+    /// An index for which the quantity is not defined or not resolved.
+    #[error("the index of the hump must be from {smallest} to {largest}, not {n}")]
     Index {
         /// The index given.
         n: u64,
+        /// The smallest accepted.
+        smallest: u64,
+        /// The largest accepted.
+        largest: u64,
     },
 }

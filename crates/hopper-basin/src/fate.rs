@@ -3,6 +3,7 @@
 use crate::{Error, Trap};
 use basin_of_attraction::{Fate, Reason, classify};
 use passive_hopper::{LiftOffMap, MassRatio, index_below};
+use std::sync::OnceLock;
 
 /// What becomes of a hopper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +41,12 @@ impl HopperFate {
     }
 }
 
-/// Hops followed before a fate is given up as undecided. An orbit needs long only just left of a
-/// fixed point, where it leaves like 3/(10 λ) δ^{−1/3}: some 10⁵ hops from an ulp away.
-pub const HOP_BUDGET: usize = 10_000_000;
+/// Hops followed before a fate is given up as undecided, some seconds' work.
+///
+/// Just left of a fixed point an orbit leaves in 3/(10 λ) δ^{−1/3} hops, some 10⁵/(10λ) from an ulp
+/// away; λ is proportional to μ. For M so small that this would be more, the whole interval is a
+/// [trap](crate::TrapEdge::NextFixedPoint); for M above 10⁴ it may be undecided.
+pub const HOP_BUDGET: usize = 1_000_000;
 
 /// The fates at one mass ratio.
 ///
@@ -60,8 +64,8 @@ pub const HOP_BUDGET: usize = 10_000_000;
 #[derive(Debug, Clone)]
 pub struct Fates {
     map: LiftOffMap,
-    /// The traps of the first fixed points; those beyond are computed when asked for.
-    first: Vec<Trap>,
+    /// The traps of the first fixed points, computed when first asked for.
+    first: [OnceLock<Trap>; 64],
 }
 
 impl Fates {
@@ -70,8 +74,8 @@ impl Fates {
     /// # Errors
     /// As [`Trap::new`].
     pub fn new(mass_ratio: MassRatio) -> Result<Self, Error> {
-        let first = (0..8).map(|n| Trap::new(n, mass_ratio)).collect::<Result<_, _>>()?;
-        Ok(Fates { map: LiftOffMap::new(mass_ratio), first })
+        Trap::new(0, mass_ratio)?;
+        Ok(Fates { map: LiftOffMap::new(mass_ratio), first: [const { OnceLock::new() }; 64] })
     }
 
     /// The map.
@@ -84,10 +88,12 @@ impl Fates {
     /// # Errors
     /// As [`Trap::new`].
     pub fn trap(&self, n: u64) -> Result<Trap, Error> {
-        match self.first.get(n as usize) {
-            Some(&trap) => Ok(trap),
-            None => Trap::new(n, self.map.mass_ratio()),
+        let slot = self.first.get(usize::try_from(n).unwrap_or(usize::MAX));
+        if let Some(&trap) = slot.and_then(OnceLock::get) {
+            return Ok(trap);
         }
+        let trap = Trap::new(n, self.map.mass_ratio())?;
+        Ok(slot.map_or(trap, |slot| *slot.get_or_init(|| trap)))
     }
 
     /// The fate of the hopper that lifts off with speed `alpha`.
@@ -112,14 +118,14 @@ impl Fates {
                 HopperFate::Incessant { n: u64::from(label) }
             }
             // Higher indices share a label.
-            Fate::Trapped(_) => HopperFate::Incessant { n: self.last_index(alpha, hops) },
+            Fate::Trapped(_) => HopperFate::Incessant { n: self.last_index(alpha, hops)? },
             Fate::Undecided(reason) => HopperFate::Undecided(reason),
         };
         Ok((fate, hops))
     }
 
     /// The index of the fixed point below the orbit after `hops` hops.
-    fn last_index(&self, alpha: f64, hops: usize) -> u64 {
+    fn last_index(&self, alpha: f64, hops: usize) -> Result<u64, Error> {
         let mut speed = alpha;
         for _ in 0..hops {
             match self.map.image(speed) {
@@ -127,6 +133,6 @@ impl Fates {
                 Ok(None) | Err(_) => break,
             }
         }
-        index_below(speed)
+        Ok(index_below(speed)?)
     }
 }

@@ -16,7 +16,7 @@ impl ScalarMap for Fates {
 impl Traps for Fates {
     /// The index of the trap that holds `alpha`; indices above 65 000 share the last label.
     fn label(&self, alpha: f64) -> Option<u16> {
-        let n = index_below(alpha);
+        let n = index_below(alpha).ok()?;
         let trap = self.trap(n).ok()?;
         trap.contains(alpha).then_some(n.min(HopperFate::LARGEST_LABEL) as u16)
     }

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::hump::Hump;
-use passive_hopper::{DoubleDouble, MassRatio};
+use passive_hopper::{DoubleDouble, MassRatio, alpha_star};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
@@ -14,6 +14,34 @@ pub enum TrapEdge {
     /// f stays above α*_n on the whole contact interval; the trap is taken up to (n+1)π. Beyond,
     /// where the first landing is sudden, f may stay above as well.
     ContactEnd,
+    /// f stays above α*_n up to the next fixed point: no hop from there loses enough to reach it,
+    /// by a bound that needs no map.
+    NextFixedPoint,
+}
+
+/// For M up to this a hop has at most one sudden lift-off (theory: b.3): (α*_1² − 1)/(α*_1² + 1).
+const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
+
+/// Whether μ Σ Γ² of any hop from ((n+1)π, α*_{n+1}) is too small to reach α*_n.
+///
+/// From (Y, V) a flight has |ṡ| ≤ √(Y²+V²) = R and, since the stretch stays above −R,
+/// |Ṗ| ≤ √(V² + 2(Y+R)) = B; Γ = ṡ − Ṗ ≤ R + B, and after the landing Y' ≤ R and |V'| ≤ max(R, B).
+/// With at most one sudden lift-off there are two such terms.
+fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
+    if mass_ratio.value() > ONE_SUDDEN {
+        return false;
+    }
+    let (mut y, mut v) = (1.0f64, alpha_star(n + 1).high);
+    let mut loss = 0.0;
+    for _ in 0..2 {
+        let r = (y * y + v * v).sqrt();
+        let b = (v * v + 2.0 * (y + r)).sqrt();
+        loss += (r + b) * (r + b);
+        (y, v) = (r, r.max(b));
+    }
+    let (low, high) = (alpha_star(n).high, (n + 1) as f64 * PI);
+    // A thousandth to spare for the roundings of the bound itself.
+    1.001 * mass_ratio.mu() * loss < (high - low) * (high + low)
 }
 
 /// The trap of α*_n at one mass ratio: [α*_n, α*_n + Δ_n].
@@ -35,7 +63,8 @@ pub struct Trap {
 impl Trap {
     /// The trap of α*_n.
     ///
-    /// Δ_n is right to about 1e-15 absolutely, plus a few ulps.
+    /// Δ_n is right to a few ulps of itself where its edge is a [crossing](TrapEdge::Crossing), however
+    /// large n and small Δ_n are.
     ///
     /// ```
     /// use hopper_basin::{Trap, TrapEdge};
@@ -49,12 +78,15 @@ impl Trap {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Root`] if a bracket that theory guarantees does not hold (none is known).
+    /// [`Error::Index`] for humps beyond the largest lift-off speed.
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
-        let hump = Hump::new(n);
+        let hump = Hump::new(n)?;
         let trap = |delta, edge| Trap { n, star: hump.star, delta, edge };
         Ok(match hump.first_fall(mass_ratio.mu())? {
             Some(delta) => trap(delta, TrapEdge::Crossing),
+            None if cannot_fall(n, mass_ratio) => {
+                trap(hump.star.offset_of(alpha_star(n + 1).high), TrapEdge::NextFixedPoint)
+            }
             None => trap(hump.star.offset_of((n + 1) as f64 * PI), TrapEdge::ContactEnd),
         })
     }
@@ -62,7 +94,11 @@ impl Trap {
     /// Whether `alpha` > 0 lies in the trap; decided on 100 bits at its lower end, and to an ulp at
     /// the upper one.
     pub fn contains(&self, alpha: f64) -> bool {
-        self.star.compare(alpha) != Ordering::Less && alpha <= self.right()
+        let before_end = match self.edge {
+            TrapEdge::NextFixedPoint => alpha_star(self.n + 1).compare(alpha) == Ordering::Less,
+            TrapEdge::Crossing | TrapEdge::ContactEnd => alpha <= self.right(),
+        };
+        before_end && self.star.compare(alpha) != Ordering::Less
     }
 
     /// The upper end, α*_n + Δ_n.

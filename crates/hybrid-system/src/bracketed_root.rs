@@ -2,7 +2,7 @@
 //!
 //! This is the only file that calls the `roots` crate. Two of its habits are kept out: it decides
 //! signs by products, which underflow for values around 1e-166, and it may return an iterate older
-//! than its best one.
+//! than its last bracket.
 
 use crate::Error;
 use roots::{Convergency, SearchError, find_root_brent};
@@ -61,7 +61,10 @@ pub fn bracketed_root(
     }
 
     let scale = at_left.abs().max(at_right.abs());
-    let mut best = if at_left.abs() < at_right.abs() { (left, at_left) } else { (right, at_right) };
+    // The tightest bracket among all points seen: its ends are neighbours of the sign change, even
+    // where the function jumps.
+    let mut low = (left, at_left);
+    let mut high = (right, at_right);
     let mut broken = None;
     let scaled = |x: f64| {
         let value = function(x);
@@ -69,8 +72,12 @@ pub fn bracketed_root(
             broken.get_or_insert((x, value));
             return 0.0; // ends the search; reported below
         }
-        if value.abs() < best.1.abs() {
-            best = (x, value);
+        if (low.0.min(high.0)..=low.0.max(high.0)).contains(&x) {
+            if value.signum() == low.1.signum() && value != 0.0 {
+                low = (x, value);
+            } else {
+                high = (x, value);
+            }
         }
         let y = value / scale;
         if value == 0.0 { 0.0 } else { y.abs().max(SMALLEST_VALUE).copysign(value) }
@@ -80,7 +87,7 @@ pub fn bracketed_root(
         return Err(Error::NotFinite { at, value });
     }
     match outcome {
-        Ok(_) => Ok(best.0),
+        Ok(_) => Ok(if low.1.abs() < high.1.abs() { low.0 } else { high.0 }),
         Err(SearchError::NoConvergency) => {
             Err(Error::NoConvergence { left, right, iterations: ITERATIONS })
         }
@@ -97,6 +104,14 @@ mod tests {
     fn values_around_1e_minus_166_still_change_sign() {
         let root = bracketed_root(|x| 1e-166 * (x - 0.3), 0.0, 1.0).unwrap();
         assert_eq!(root, 0.3);
+    }
+
+    #[test]
+    fn a_jump_is_located() {
+        let sign = bracketed_root(|x| if x < 0.3 { -1.0 } else { 1.0 }, 0.0, 1.0).unwrap();
+        assert!((sign - 0.3).abs() < 1e-15);
+        let jump = |x: f64| if x < 0.3 { -(1.0 + x) } else { 1.0 };
+        assert!((bracketed_root(jump, 0.0, 1.0).unwrap() - 0.3).abs() < 1e-15);
     }
 
     #[test]

@@ -71,13 +71,17 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
         self.check_state()?;
-        let horizon = self.limits.time - self.time;
+        // An event at the limit may round beyond it.
+        let horizon = (self.limits.time - self.time).max(0.0);
         let crossing = self.system.first_crossing(
             self.mode,
             &self.state,
             horizon,
             self.limits.sampling_interval,
         )?;
+        if let Some(crossing) = crossing.filter(|crossing| !(crossing.time >= 0.0)) {
+            return Err(Error::BadLimit { what: "the time of a crossing", value: crossing.time });
+        }
         let mut arc = Arc {
             mode: self.mode,
             time: self.time,

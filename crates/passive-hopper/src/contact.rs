@@ -1,7 +1,7 @@
 //! The contact phase: a harmonic oscillation about y₁ = −1/M until the spring pulls with the
 //! lower mass's weight.
 
-use crate::{HopperState, MassRatio};
+use crate::{Error, HopperState, MassRatio};
 
 /// The state after `time` of contact, from `start` (with y₂ = ẏ₂ = 0).
 pub fn contact_flow(mass_ratio: MassRatio, start: &HopperState, time: f64) -> HopperState {
@@ -32,13 +32,25 @@ pub fn lift_off_energy(mass_ratio: MassRatio, excess: f64, velocity: f64) -> f64
 ///
 /// With a = y₁ + 1/M, c = 1 + 1/M, b = V/ν, q = √e/ν: a cos θ + b sin θ = c first rises at
 /// tan ½θ = (c − a)/(b + q) = (b − q)/(a + c).
-pub fn contact_time(mass_ratio: MassRatio, excess: f64, velocity: f64) -> Option<f64> {
-    if excess > 0.0 || (excess == 0.0 && velocity > 0.0) {
-        return Some(0.0);
-    }
+///
+/// # Errors
+/// [`Error::NotFinite`] unless both numbers, and the energy made of them, are finite.
+pub fn contact_time(
+    mass_ratio: MassRatio,
+    excess: f64,
+    velocity: f64,
+) -> Result<Option<f64>, Error> {
     let energy = lift_off_energy(mass_ratio, excess, velocity);
+    for (name, value) in [("the excess", excess), ("the velocity", velocity), ("the energy", energy)] {
+        if !value.is_finite() {
+            return Err(Error::NotFinite { name, value });
+        }
+    }
+    if excess > 0.0 || (excess == 0.0 && velocity > 0.0) {
+        return Ok(Some(0.0));
+    }
     if !(energy > 0.0) {
-        return None;
+        return Ok(None);
     }
     let nu = mass_ratio.contact_frequency();
     let (b, q) = (velocity / nu, energy.sqrt() / nu);
@@ -49,7 +61,7 @@ pub fn contact_time(mass_ratio: MassRatio, excess: f64, velocity: f64) -> Option
         let angle = pxfm::f_atan2(b - q, sum);
         if angle < 0.0 { angle + std::f64::consts::PI } else { angle }
     };
-    Some(2.0 * half_angle / nu)
+    Ok(Some(2.0 * half_angle / nu))
 }
 
 #[cfg(test)]
@@ -63,7 +75,7 @@ mod tests {
             let ratio = MassRatio::new(m).unwrap();
             let start = HopperState { upper_position: 1.0 + excess, upper_velocity: v, ..HopperState::RELAXED };
             let energy = lift_off_energy(ratio, excess, v);
-            match contact_time(ratio, excess, v) {
+            match contact_time(ratio, excess, v).unwrap() {
                 None => prop_assert!(energy <= 0.0),
                 Some(time) => {
                     let end = contact_flow(ratio, &start, time);

@@ -15,8 +15,8 @@ impl PhysicalHopper {
     /// m₁ (upper), m₂ (lower), k and g.
     ///
     /// # Errors
-    /// [`Error::Parameter`] unless all are positive and finite; [`Error::MassRatio`] for a ratio
-    /// out of range.
+    /// [`Error::Parameter`] unless all of them, and the units made of them, are positive and finite;
+    /// [`Error::MassRatio`] for a ratio out of range.
     pub fn new(
         upper_mass: f64,
         lower_mass: f64,
@@ -30,7 +30,17 @@ impl PhysicalHopper {
             }
         }
         MassRatio::new(lower_mass / upper_mass)?;
-        Ok(PhysicalHopper { upper_mass, lower_mass, stiffness, gravity })
+        let hopper = PhysicalHopper { upper_mass, lower_mass, stiffness, gravity };
+        let units = [
+            ("m2 g/k", hopper.length_unit()),
+            ("ω", hopper.angular_frequency()),
+            ("m2 g ω/k", hopper.speed_unit()),
+            ("m1 m2 g²/k", hopper.energy_unit()),
+        ];
+        match units.into_iter().find(|(_, unit)| !unit.is_normal()) {
+            Some((name, value)) => Err(Error::Parameter { name, value }),
+            None => Ok(hopper),
+        }
     }
 
     /// M = m₂/m₁.

@@ -67,6 +67,32 @@ pub enum Error {
         /// Its height.
         height: f64,
     },
+    /// A contact phase with the lower mass off the ground or moving.
+    #[error("in contact the lower mass rests on the ground: y2 = {height}, velocity {velocity}")]
+    NotInContact {
+        /// Its height.
+        height: f64,
+        /// Its velocity.
+        velocity: f64,
+    },
+    /// A hop on whose way a verdict is smaller than the rounding error of 106 bits.
+    #[error(
+        "the hop from {alpha} depends on less than 106 bits resolve, after {sudden} sudden lift-offs"
+    )]
+    Undecided {
+        /// The lift-off speed.
+        alpha: f64,
+        /// Sudden lift-offs, as far as they could be told.
+        sudden: usize,
+    },
+    /// A number that must be finite is not.
+    #[error("{name} must be finite, not {value}")]
+    NotFinite {
+        /// What it is.
+        name: &'static str,
+        /// The value given.
+        value: f64,
+    },
     /// More sudden lift-offs in one hop than the budget allows; the hop is left unfinished.
     #[error(
         "{sudden} sudden lift-offs and no gradual one: the hop is left at stretch 1 + {excess}, \

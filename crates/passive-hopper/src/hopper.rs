@@ -60,33 +60,6 @@ impl Hopper {
         self.mass_ratio
     }
 
-    fn landing(&self, start: &HopperState) -> Result<Crossing<HopperSurface, 4>, Error> {
-        if start.lower_position < 0.0 {
-            let reason = crate::Error::BelowGround { height: start.lower_position }.to_string();
-            return Err(Error::Model { reason });
-        }
-        let flight = Flight::new(self.mass_ratio, start);
-        if let Some(value) = flight.unresolved() {
-            let error = crate::Error::MotionTooLarge { value, largest: LARGEST_LIFT_OFF_SPEED };
-            return Err(Error::Model { reason: error.to_string() });
-        }
-        let excess = start.upper_position - 1.0;
-        let velocity = start.upper_velocity;
-        let on_ground = start.lower_position == 0.0 && start.lower_velocity == 0.0;
-        let (time, state) = if on_ground && (excess > 0.0 || (excess == 0.0 && velocity > 0.0)) {
-            self.landing_from_ground(TakeOff { excess, velocity })
-        } else {
-            let time = landing_time(&flight)?;
-            (time, HopperState { lower_position: 0.0, ..flight.state(time) })
-        };
-        Ok(Crossing {
-            surface: HopperSurface::Landing,
-            time,
-            state: state.into(),
-            certainty: Certainty::Exact,
-        })
-    }
-
     fn landing_from_ground(&self, start: TakeOff) -> (f64, HopperState) {
         let kappa = self.mass_ratio.kappa();
         let landing = if start.excess > 0.0 {
@@ -103,22 +76,64 @@ impl Hopper {
         (landing.time, state)
     }
 
-    fn lift_off(&self, start: &HopperState) -> Option<Crossing<HopperSurface, 4>> {
+    fn lift_off(
+        &self,
+        start: &HopperState,
+    ) -> Result<Option<Crossing<HopperSurface, 4>>, crate::Error> {
+        let (height, velocity) = (start.lower_position, start.lower_velocity);
+        if height != 0.0 || velocity != 0.0 {
+            return Err(crate::Error::NotInContact { height, velocity });
+        }
         let excess = start.upper_position - 1.0;
-        let time = contact_time(self.mass_ratio, excess, start.upper_velocity)?;
+        let Some(time) = contact_time(self.mass_ratio, excess, start.upper_velocity)? else {
+            return Ok(None);
+        };
         let state = if time > 0.0 {
             let energy = crate::lift_off_energy(self.mass_ratio, excess, start.upper_velocity);
             HopperState::lift_off(energy.sqrt())
         } else {
             *start
         };
-        Some(Crossing {
+        Ok(Some(Crossing {
             surface: HopperSurface::LiftOff,
             time,
             state: state.into(),
             certainty: Certainty::Exact,
+        }))
+    }
+
+    /// The first landing; the start itself if it lands at once.
+    fn landing(&self, start: &HopperState) -> Result<Crossing<HopperSurface, 4>, Error> {
+        if start.lower_position < 0.0 {
+            return Err(refused(crate::Error::BelowGround { height: start.lower_position }));
+        }
+        let flight = Flight::new(self.mass_ratio, start);
+        if let Some(value) = flight.unresolved() {
+            let largest = LARGEST_LIFT_OFF_SPEED;
+            return Err(refused(crate::Error::MotionTooLarge { value, largest }));
+        }
+        let excess = start.upper_position - 1.0;
+        let velocity = start.upper_velocity;
+        let on_ground = start.lower_position == 0.0 && start.lower_velocity == 0.0;
+        let (time, state) = if on_ground && (excess > 0.0 || (excess == 0.0 && velocity > 0.0)) {
+            self.landing_from_ground(TakeOff { excess, velocity })
+        } else {
+            let time = landing_time(&flight)?;
+            (time, HopperState { lower_position: 0.0, ..flight.state(time) })
+        };
+        // Bracketed by theory, then refined.
+        Ok(Crossing {
+            surface: HopperSurface::Landing,
+            time,
+            state: state.into(),
+            certainty: Certainty::Certain,
         })
     }
+}
+
+/// The hopper's own error, in the words of the hybrid system.
+fn refused(error: crate::Error) -> Error {
+    Error::Model { reason: error.to_string() }
 }
 
 impl HybridSystem<4> for Hopper {
@@ -168,7 +183,7 @@ impl HybridSystem<4> for Hopper {
         let start = HopperState::from(*start);
         let crossing = match phase {
             Phase::Flight => Some(self.landing(&start)?),
-            Phase::Contact => self.lift_off(&start),
+            Phase::Contact => self.lift_off(&start).map_err(refused)?,
         };
         Ok(crossing.filter(|crossing| crossing.time <= horizon))
     }

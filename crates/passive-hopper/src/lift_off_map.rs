@@ -71,9 +71,14 @@ impl LiftOffMap {
     /// f(α): the next lift-off speed, or nothing if the hopper is grounded.
     ///
     /// # Errors
-    /// As [`hop`](Self::hop).
+    /// As [`hop`](Self::hop), and [`Error::Undecided`] for a hop that is not
+    /// [certain](Hop::certain).
     pub fn image(&self, alpha: f64) -> Result<Option<f64>, Error> {
-        Ok(self.hop(alpha)?.next)
+        let hop = self.hop(alpha)?;
+        if !hop.certain {
+            return Err(Error::Undecided { alpha, sudden: hop.sudden });
+        }
+        Ok(hop.next)
     }
 
     /// The hop that starts with speed `alpha`.

@@ -63,13 +63,13 @@ impl LiftOffMap {
         if delta == 0.0 {
             return Ok(LocalHop { next: Some(0.0), sudden: 0, time_shift: 0.0 });
         }
-        let local = Local { a: star.high };
+        let local = LocalFlight { a: star.high };
         let t = local.time_shift(delta);
         self.fast(&local, delta, t).map_or_else(|| self.wide(star, delta), Ok)
     }
 
     /// In plain `f64`; nothing if the loss is not small against δ.
-    fn fast(&self, local: &Local, delta: f64, t: f64) -> Option<LocalHop> {
+    fn fast(&self, local: &LocalFlight, delta: f64, t: f64) -> Option<LocalHop> {
         let mu = self.mass_ratio().mu();
         let kappa = self.mass_ratio().kappa();
         let (excess, velocity, closing_speed) = local.landing(t, kappa);
@@ -113,12 +113,44 @@ fn ends(n: u64, star: DoubleDouble) -> (f64, f64) {
     (star.offset_of(n as f64 * PI), star.offset_of((n as f64 + 1.0) * PI))
 }
 
-/// The local functions in plain `f64`.
-struct Local {
+/// The first flight from near α*_n in plain `f64`, as functions of t = τ − 2α*_n.
+///
+/// Everything keeps its relative accuracy, however small t is.
+///
+/// ```
+/// use passive_hopper::LocalFlight;
+/// let flight = LocalFlight::new(1);
+/// let t = flight.time_shift(1e-30);
+/// assert!((flight.delta(t) / 1e-30 - 1.0).abs() < 1e-14);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LocalFlight {
     a: f64,
 }
 
-impl Local {
+impl LocalFlight {
+    /// The flights near α*_n, n ≥ 1. (At n = 0 the functions of [`crate::HalfFlight`] serve.)
+    pub fn new(n: u64) -> Self {
+        LocalFlight { a: alpha_star(n.max(1)).high }
+    }
+
+    /// δ(t), the offset of the lift-off speed from α*_n.
+    pub fn delta(&self, t: f64) -> f64 {
+        self.offset(t).0
+    }
+
+    /// Γ(t), the closing speed.
+    pub fn closing_speed(&self, t: f64) -> f64 {
+        self.landing(t, 0.0).2
+    }
+
+    /// W(t) = sin h (sin h − h cos h) of α′ dα′/dα = α (1 − 4μW).
+    pub fn w(&self, t: f64) -> f64 {
+        let eta = 0.5 * t;
+        let (sin, cos) = pxfm::f_sincos(eta);
+        (self.a * cos + sin) * (self.b(eta) / (1.0 + self.a * self.a))
+    }
+
     /// δ(t) and Q(t).
     fn offset(&self, t: f64) -> (f64, f64) {
         let a = self.a;
@@ -144,7 +176,7 @@ impl Local {
     /// t of δ, by Newton's method from its expansion in δ^{1/3}.
     ///
     /// On t³ ∝ δ it converges quadratically in relative terms, however small δ is.
-    fn time_shift(&self, delta: f64) -> f64 {
+    pub fn time_shift(&self, delta: f64) -> f64 {
         let square = self.a * self.a;
         let r2 = 1.0 + square;
         let w = pxfm::f_cbrt(delta) * pxfm::f_cbrt(12.0 * square / r2);
@@ -205,10 +237,10 @@ impl WideLocal {
 
     /// The first landing from α = a + `delta`.
     pub(crate) fn landing(&self, delta: DoubleDouble, kappa: DoubleDouble) -> WideLanding {
-        let mut t = DoubleDouble::from(Local { a: self.a.high }.time_shift(delta.high));
+        let mut t = DoubleDouble::from(LocalFlight { a: self.a.high }.time_shift(delta.high));
         for _ in 0..2 {
             let (offset, q) = self.offset(t);
-            let b = Local { a: self.a.high }.b(0.5 * t.high);
+            let b = LocalFlight { a: self.a.high }.b(0.5 * t.high);
             let slope = 4.0 * (b / q.high) * (b / q.high) / self.r2.high;
             let residual = offset - delta;
             if slope > 0.0 {

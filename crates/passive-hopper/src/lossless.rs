@@ -1,16 +1,15 @@
 //! The lossless hops: fixed points of every map, whatever the mass ratio.
 
 use crate::double_double::DoubleDouble;
+use crate::{Error, LARGEST_LIFT_OFF_SPEED};
 use std::cmp::Ordering;
 use std::sync::OnceLock;
-
-/// The largest index with an [`alpha_star`] of full precision, 2⁵⁰.
-const LARGEST_INDEX: u64 = 1 << 50;
 
 /// α*_n, the n-th positive root of tan α = α (paper, Eq. 3); α*_0 = 0.
 ///
 /// Lift-off at this speed lands after τ = 2α*_n with no speed at all: the hop repeats for ever.
-/// The value is right to 100 bits, so that its high part is the nearest `f64`.
+/// The value is right to 100 bits for n up to 2⁵⁰, so that its high part is the nearest `f64`; beyond,
+/// where an `f64` no longer tells neighbours apart, to an ulp.
 ///
 /// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²).
 ///
@@ -29,8 +28,7 @@ fn solve(n: u64) -> DoubleDouble {
     if n == 0 {
         return DoubleDouble::ZERO;
     }
-    // Beyond 2⁵⁰ an f64 does not even tell neighbouring α*_n apart: the last one is the answer.
-    let q = DoubleDouble::multiple_of_pi(n.min(LARGEST_INDEX) as f64 + 0.5);
+    let q = DoubleDouble::multiple_of_pi(n as f64 + 0.5);
     let mut alpha = q;
     // The error shrinks by at least 21 in a step; 24 steps take any start to 106 bits.
     for _ in 0..24 {
@@ -60,17 +58,26 @@ pub(crate) fn n_pi(n: u64) -> DoubleDouble {
     DoubleDouble::multiple_of_pi(n as f64)
 }
 
-/// The largest n with α*_n ≤ `alpha`, for `alpha` ≥ 0 up to 2⁵⁰.
+/// The largest n with α*_n ≤ `alpha`.
 ///
 /// Decided on 100 bits: an `alpha` one ulp below α*_n belongs to n − 1.
-pub fn index_below(alpha: f64) -> u64 {
-    // α*_n ∈ (nπ, (n+½)π): the candidate is ⌊α/π⌋, or one less.
-    let candidate = (alpha / std::f64::consts::PI) as u64;
-    let mut n = candidate + 1;
+///
+/// # Errors
+/// [`Error::LiftOffSpeed`] unless `alpha` is zero or positive and finite,
+/// [`Error::LiftOffSpeedTooLarge`] above 2⁴³.
+pub fn index_below(alpha: f64) -> Result<u64, Error> {
+    if !(alpha >= 0.0) || !alpha.is_finite() {
+        return Err(Error::LiftOffSpeed { value: alpha });
+    }
+    if alpha > LARGEST_LIFT_OFF_SPEED {
+        return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
+    }
+    // α*_n ∈ (nπ, (n+½)π): it is ⌊α/π⌋, or one off.
+    let mut n = (alpha / std::f64::consts::PI) as u64 + 1;
     while n > 0 && alpha_star(n).compare(alpha) == Ordering::Less {
         n -= 1;
     }
-    n
+    Ok(n)
 }
 
 #[cfg(test)]
@@ -115,11 +122,12 @@ mod tests {
             } else {
                 (star.high, star.high.next_up())
             };
-            assert_eq!(index_below(below), n - 1);
-            assert_eq!(index_below(above), n);
+            assert_eq!(index_below(below), Ok(n - 1));
+            assert_eq!(index_below(above), Ok(n));
         }
-        assert_eq!(index_below(0.0), 0);
-        assert_eq!(index_below(4.0), 0);
+        assert_eq!(index_below(0.0), Ok(0));
+        assert_eq!(index_below(4.0), Ok(0));
+        assert!(index_below(f64::NAN).is_err() && index_below(1e300).is_err());
     }
 
     #[test]

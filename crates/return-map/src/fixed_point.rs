@@ -30,7 +30,8 @@ const TOUCH_ULPS: f64 = 8.0;
 ///
 /// Sign changes of f(x) − x between neighbours are refined to full precision; extrema of it are
 /// refined by golden-section search and kept if they reach zero to rounding. Fixed points closer
-/// than a sample interval may be missed, and a jump through the diagonal is not a fixed point.
+/// than a sample interval may be missed, so may one beside a gap in the map's domain; a jump through
+/// the diagonal is not a fixed point.
 ///
 /// ```
 /// use return_map::{Meeting, fixed_points};

@@ -19,7 +19,7 @@ pub fn orbit(map: impl Fn(f64) -> Option<f64>, start: f64) -> impl Iterator<Item
 /// assert_eq!(web, [(1.0, 1.0), (1.0, 0.5), (0.5, 0.5)]);
 /// ```
 pub fn cobweb(map: impl Fn(f64) -> Option<f64>, start: f64, steps: usize) -> Vec<(f64, f64)> {
-    let points: Vec<f64> = orbit(map, start).take(steps + 1).collect();
+    let points: Vec<f64> = orbit(map, start).take(steps.saturating_add(1)).collect();
     let mut web = vec![(start, start)];
     for pair in points.windows(2) {
         web.extend([(pair[0], pair[1]), (pair[1], pair[1])]);

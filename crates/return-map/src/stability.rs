@@ -69,7 +69,7 @@ pub fn one_sided_stability(
     largest: f64,
     count: usize,
 ) -> OneSidedStability {
-    let mut approach = Vec::with_capacity(count);
+    let mut approach = Vec::new();
     let (mut nearer, mut farther, mut other) = (0, 0, 0);
     let mut distance = largest;
     for _ in 0..count {

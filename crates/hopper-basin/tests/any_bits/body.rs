@@ -1,0 +1,91 @@
+// Six arbitrary words to every public function of passive-hopper, hopper-asymptotics and
+// hopper-basin: no panic, no hang, f(α) ≤ α, and energy never grows.
+
+use hopper_asymptotics::{Coefficients, Form};
+use hopper_basin::{Fates, HopperFate, Trap, crisis, grounding};
+use hybrid_system::{Execution, Limits};
+use passive_hopper::{
+    HalfFlight, Hopper, HopperState, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
+    contact_flow, contact_time, energy, index_below, landing_loss, lift_off_energy, printed_image,
+};
+
+/// Hops with more sudden lift-offs than this take too long to try by the thousand.
+const HEAVIEST: f64 = 1e4;
+
+/// Everything, on one input.
+pub fn try_all(words: [u64; 6]) {
+    let [a, b, c, d, e, _] = words.map(f64::from_bits);
+    let n = words[5];
+    functions_of_numbers(n, [a, b, c, d, e]);
+    let _ = PhysicalHopper::new(a, b, c, d).map(|hopper| {
+        hopper.to_dimensionless(&hopper.to_physical(&HopperState::lift_off(e)))
+    });
+    let Ok(ratio) = MassRatio::new(a) else { return };
+    assert!(MassRatio::new(ratio.inverted().value()).is_ok());
+    let state = HopperState {
+        upper_position: b,
+        upper_velocity: c,
+        lower_position: d,
+        lower_velocity: e,
+    };
+    let _ = (contact_flow(ratio, &state, e), energy(ratio, &state), landing_loss(ratio, e));
+    let _ = (contact_time(ratio, b, c), lift_off_energy(ratio, b, c));
+    for form in [Form::Printed, Form::Corrected] {
+        let _ = Coefficients::new(n, ratio, form).map(|local| (local.delta(), local.image(b)));
+    }
+    let _ = (Trap::new(n, ratio).map(|trap| trap.contains(b)), Trap::new(n % 100, ratio));
+    if a < HEAVIEST {
+        hops(ratio, b, n % 2000, c);
+        motion(ratio, state);
+    }
+}
+
+fn functions_of_numbers(n: u64, values: [f64; 5]) {
+    let star = alpha_star(n);
+    assert!(star.high.is_finite());
+    let _ = (crisis(n), grounding(n), crisis(n % 1000), grounding(n % 1000));
+    for value in values {
+        let _ = (star.compare(value), star.offset_of(value));
+        if let Ok(index) = index_below(value) {
+            assert!(alpha_star(index).high <= value || index == 0);
+        }
+        let half = HalfFlight::at(value);
+        let _ = (half.w(), half.start_speed(values[0]), half.closing_speed(values[0]), half.start_speed_slope(values[0]));
+    }
+}
+
+fn hops(ratio: MassRatio, alpha: f64, n: u64, delta: f64) {
+    let map = LiftOffMap::new(ratio);
+    if let Ok(hop) = map.hop(alpha) {
+        assert!(hop.radicand <= alpha * alpha, "{hop:?}");
+        assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");
+        assert!(hop.loss.is_none_or(|loss| loss >= 0.0), "{hop:?}");
+        assert_eq!(hop.next.is_some(), hop.loss.is_some());
+        let _ = map.slopes(alpha);
+        let _ = printed_image(ratio, alpha);
+    }
+    if let Ok(hop) = map.hop_about(n, delta) {
+        assert!(hop.next.is_none_or(|next| next <= delta), "{hop:?} from {delta:e}");
+    }
+    if alpha < 1e3 {
+        let fate = Fates::new(ratio).and_then(|fates| fates.fate_within(alpha, 1000));
+        let label = fate.map(|(fate, _)| fate.label());
+        assert!(label.is_err() || label.is_ok_and(|label| label <= HopperFate::UNDECIDED));
+    }
+}
+
+fn motion(ratio: MassRatio, state: HopperState) {
+    let hopper = Hopper::new(ratio);
+    for phase in [Phase::Flight, Phase::Contact] {
+        let (mut before, mut size): (f64, f64) = (f64::INFINITY, 1.0);
+        for arc in Execution::new(&hopper, phase, state.into(), Limits::new(f64::INFINITY, 8)) {
+            let Ok(arc) = arc else { break };
+            let now = energy(ratio, &arc.start.into());
+            // Rounding is relative to the largest coordinate so far.
+            size = arc.start.iter().map(|x| x.abs()).fold(size, f64::max);
+            let rounding = 1e-9 * (1.0 + ratio.value()) * size * size;
+            assert!(!(now > before + rounding), "{now} after {before} from {state:?}, M = {ratio:?}");
+            before = now;
+        }
+    }
+}
