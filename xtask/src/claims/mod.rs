@@ -69,15 +69,26 @@ impl Claim {
         self.how = text.into();
         self
     }
-    fn holds(mut self, holds: bool) -> Self {
-        self.verdict = if holds { Verdict::Confirmed } else { Verdict::Fails };
-        self
+    fn holds(self, holds: bool) -> Self {
+        self.judged(if holds { Verdict::Confirmed } else { Verdict::Fails })
     }
     /// The paper's word differs from what holds; `evidence` says whether it does so as expected.
-    fn corrected(mut self, evidence: bool) -> Self {
-        self.verdict = if evidence { Verdict::Corrected } else { Verdict::Fails };
+    fn corrected(self, evidence: bool) -> Self {
+        self.judged(if evidence { Verdict::Corrected } else { Verdict::Fails })
+    }
+    /// A finding that was not found is not told as one.
+    fn judged(mut self, verdict: Verdict) -> Self {
+        if verdict == Verdict::Fails {
+            self.ours = format!("not found; expected was: {}", self.ours);
+        }
+        self.verdict = verdict;
         self
     }
+}
+
+/// The largest of some errors; not a number if one of them is not.
+fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
+    errors.into_iter().fold(0.0, |worst, error| if error > worst || error.is_nan() { error } else { worst })
 }
 
 /// A group of claims.
