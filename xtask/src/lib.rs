@@ -23,7 +23,8 @@ pub mod paper_map {}
 #[cfg(doctest)]
 pub mod readme {}
 
-use clap::{Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand};
 
 /// Figures, claims and rules of the hybrid-hopper workspace.
 #[derive(Debug, Parser)]
@@ -45,9 +46,23 @@ enum Command {
     Tidy,
 }
 
+/// The command line; an unknown command lists what exists.
+fn command() -> Result<Command, Error> {
+    match Cli::try_parse() {
+        Ok(cli) => Ok(cli.command),
+        Err(error) if error.kind() == ErrorKind::InvalidSubcommand => {
+            let name = std::env::args().nth(1).unwrap_or_default();
+            let commands = Cli::command();
+            let known: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
+            Err(Error::UnknownName { kind: "command", name, known: known.join(", ") })
+        }
+        Err(error) => error.exit(),
+    }
+}
+
 /// Runs the command line.
 pub fn run() -> Result<(), Error> {
-    match Cli::parse().command {
+    match command()? {
         Command::ReproducePaper(options) => commands::reproduce_paper::run(&options),
         Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
         Command::CheckReference(options) => commands::check_reference::run(&options),

@@ -37,8 +37,12 @@ impl Folder {
             let path = path.to_path_buf();
             move |source| Error::File { path, source }
         };
-        std::fs::write(&partial, bytes).map_err(at(&partial))?;
-        std::fs::rename(&partial, &path).map_err(at(&path))
+        let written = std::fs::write(&partial, bytes).map_err(at(&partial));
+        let moved = written.and_then(|()| std::fs::rename(&partial, &path).map_err(at(&path)));
+        if moved.is_err() {
+            let _ = std::fs::remove_file(&partial); // the first error is the one to tell
+        }
+        moved
     }
 }
 

@@ -7,7 +7,7 @@ use crate::plot::render::Rendered;
 use crate::plot::svg::base64;
 use std::fmt::Write;
 
-const STYLE: &str = "body{font:17px/1.5 'STIX Two Text','Times New Roman',serif;max-width:1060px;margin:2em auto;padding:0 1em;color:#111}\
+const STYLE: &str = "body{font:17px/1.5 'STIX Two Text','Times New Roman',serif;max-width:1180px;margin:2em auto;padding:0 1em;color:#111}\
 h1{font-size:1.7em;line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #999}figure{margin:2em 0}figure img{max-width:100%;display:block;margin:auto}\
 figcaption{font-size:.93em}.paper{border-left:3px solid #bbb;padding-left:.8em;color:#333}table{border-collapse:collapse;font-size:.86em;width:100%}\
 th,td{border-bottom:1px solid #ccc;padding:.35em .5em;text-align:left;vertical-align:top}th{border-bottom:2px solid #333}\
@@ -45,14 +45,14 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
         let _ = write!(
             out,
             "<figure id=\"{name}\"><img alt=\"{alt}\" src=\"data:image/svg+xml;base64,{image}\">\
-             <figcaption><b>{title}.</b><p class=\"paper\">The paper: {paper}</p><p>{notes}</p><p><small>Data: {data}</small></p></figcaption></figure>",
+             <figcaption><b>{title}.</b><p class=\"paper\">The paper: {paper}</p><p>{notes}</p>{data}</figcaption></figure>",
             name = figure.name,
             alt = figure.name,
             image = base64(rendered.svg.as_bytes()),
             title = html(&figure.title),
             paper = html(&figure.paper),
             notes = html(&figure.notes),
-            data = figure.data.iter().map(|file| file.name.as_str()).collect::<Vec<_>>().join(", "),
+            data = data(figure),
         );
     }
     out.push_str("<h2>What our copy of the paper lost, and what we chose</h2><ul>");
@@ -61,6 +61,14 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
     }
     out.push_str("</ul></body></html>\n");
     out
+}
+
+fn data(figure: &Figure) -> String {
+    let names: Vec<&str> = figure.data.iter().map(|file| file.name.as_str()).collect();
+    if names.is_empty() {
+        return String::new();
+    }
+    format!("<p><small>Data: {}</small></p>", names.join(", "))
 }
 
 fn word(verdict: Verdict) -> (&'static str, &'static str) {
@@ -84,18 +92,18 @@ fn summary(out: &mut String, claims: &[Claim]) {
 }
 
 fn table(out: &mut String, claims: &[Claim]) {
-    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>Verdict</th></tr>");
+    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>How computed</th><th>Verdict</th></tr>");
     for claim in claims {
         let (class, text) = word(claim.verdict);
         let _ = write!(
             out,
-            "<tr><td><b>{}</b><br><small>{}</small></td><td>{}</td><td>{}<br><small>{}</small></td><td>{}</td><td class=\"{class}\">{text}</td></tr>",
+            "<tr><td><b>{}</b><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td><small>{}</small></td><td class=\"{class}\">{text}</td></tr>",
             html(&claim.name),
             html(claim.place),
             html(&claim.paper),
             html(&claim.ours),
-            html(&claim.how),
-            html(&claim.error)
+            html(&claim.error),
+            html(&claim.how)
         );
     }
     out.push_str("</table>");

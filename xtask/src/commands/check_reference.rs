@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::output::read;
 use hopper_basin::{Fates, HopperFate};
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{LiftOffMap, MassRatio};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Options {
-    /// Allowed error, in units of the reference's K, per flight: K (1 + sudden)
+    /// Allowed error, in units of the reference's K, per flight: K (1 + sudden). For hops near a
+    /// fixed point, given as n and offset, the unit is two ulps of the next offset
     #[arg(long, value_name = "K", default_value_t = 4.0)]
     limit: f64,
     /// Files with one JSON object a line: hops, hops near a fixed point, or fates
@@ -23,12 +24,13 @@ pub struct Options {
 /// What a line asks and answers.
 enum Line {
     Hop(Hop),
-    Fate { mass_ratio: f64, alpha: f64, fate: HopperFate },
+    Local { mass_ratio: MassRatio, n: u64, offset: f64, sudden: usize, next: Option<f64> },
+    Fate { mass_ratio: MassRatio, alpha: f64, fate: HopperFate },
 }
 
 struct Hop {
     class: String,
-    mass_ratio: f64,
+    mass_ratio: MassRatio,
     alpha: f64,
     sudden: usize,
     next: Option<f64>,
@@ -96,11 +98,14 @@ fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
         let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
         lines.push((index + 1, line(&value).map_err(bad)?));
     }
+    if lines.is_empty() {
+        return Err(Error::ReferenceLine { path: path.into(), line: 1, reason: "no line at all".into() });
+    }
     Ok(lines)
 }
 
 fn line(value: &Value) -> Result<Line, String> {
-    let mass_ratio = number(value, "mass_ratio")?;
+    let mass_ratio = MassRatio::new(number(value, "mass_ratio")?).map_err(|e| e.to_string())?;
     if let Some(fate) = value.get("fate") {
         let fate = match fate.as_str() {
             Some("incessant") => HopperFate::Incessant { n: whole(value, "n")? },
@@ -110,25 +115,38 @@ fn line(value: &Value) -> Result<Line, String> {
         };
         return Ok(Line::Fate { mass_ratio, alpha: number(value, "alpha")?, fate });
     }
-    let alpha = match value.get("offset") {
-        Some(_) => alpha_star(whole(value, "n")?).high + number(value, "offset")?,
-        None => number(value, "alpha")?,
-    };
-    let next = match value.get("alpha_next") {
-        None => return Err("'alpha_next' is missing".into()),
-        Some(Value::Null) => None,
-        Some(_) => Some(number(value, "alpha_next")?),
-    };
+    if value.get("offset").is_some() {
+        return Ok(Line::Local {
+            mass_ratio,
+            n: whole(value, "n")?,
+            offset: number(value, "offset")?,
+            sudden: whole(value, "sudden")? as usize,
+            next: next(value, "offset_next")?,
+        });
+    }
+    let speed = next(value, "alpha_next")?;
+    if let Some(bad) = speed.filter(|speed| !(*speed > 0.0)) {
+        return Err(format!("'alpha_next' is {bad}, not positive"));
+    }
     let slope = |key| if value.get(key).is_some() { number(value, key) } else { Ok(0.0) };
     Ok(Line::Hop(Hop {
         class: value.get("class").and_then(Value::as_str).unwrap_or("hop").to_owned(),
         mass_ratio,
-        alpha,
+        alpha: number(value, "alpha")?,
         sudden: whole(value, "sudden")? as usize,
-        next,
+        next: speed,
         slope_alpha: slope("dalpha_next_dalpha")?.abs(),
         slope_mass_ratio: slope("dalpha_next_dM")?.abs(),
     }))
+}
+
+/// The result of a hop: a number, or null for a grounded hopper.
+fn next(value: &Value, key: &str) -> Result<Option<f64>, String> {
+    match value.get(key) {
+        None => Err(format!("'{key}' is missing")),
+        Some(Value::Null) => Ok(None),
+        Some(_) => number(value, key).map(Some),
+    }
 }
 
 /// A finite number, given as such or as a decimal string.
@@ -152,13 +170,23 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
             Line::Hop(hop) => {
                 judge_hop(tallies.entry(hop.class.clone()).or_default(), *at, hop, limit)
             }
+            Line::Local { mass_ratio, n, offset, sudden, next } => {
+                let tally = tallies.entry("near_fixed_point".into()).or_default();
+                tally.lines += 1;
+                let place = format!("M = {}, n = {n}, δ = {offset:e}", mass_ratio.value());
+                match LiftOffMap::new(*mass_ratio).hop_about(*n, *offset) {
+                    Err(error) => tally.is_wrong(*at, &error.to_string()),
+                    Ok(hop) => tally.judge(*at, &place, Verdict {
+                        found: (hop.sudden, hop.next),
+                        exact: (*sudden, *next),
+                        unit: next.map_or(0.0, |next| 2.0 * f64::EPSILON * next.abs()),
+                    }, limit),
+                }
+            }
             Line::Fate { mass_ratio, alpha, fate } => {
                 let tally = tallies.entry("fates".into()).or_default();
                 tally.lines += 1;
-                let found = MassRatio::new(*mass_ratio)
-                    .map_err(hopper_basin::Error::from)
-                    .and_then(Fates::new)
-                    .and_then(|fates| fates.fate(*alpha));
+                let found = Fates::new(*mass_ratio).and_then(|fates| fates.fate(*alpha));
                 if found.as_ref() != Ok(fate) {
                     tally.is_wrong(*at, &format!("{fate:?} expected, {found:?} found"));
                 }
@@ -170,36 +198,47 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
 
 fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
     tally.lines += 1;
-    let found =
-        MassRatio::new(hop.mass_ratio).and_then(|ratio| LiftOffMap::new(ratio).hop(hop.alpha));
-    let found = match found {
-        Ok(found) => found,
+    let found = match LiftOffMap::new(hop.mass_ratio).hop(hop.alpha) {
+        Ok(found) if found.certain => found,
+        Ok(_) => return tally.is_wrong(at, "undecided: it needs more than 106 bits"),
         Err(error) => return tally.is_wrong(at, &error.to_string()),
     };
-    if found.sudden != hop.sudden || found.next.is_some() != hop.next.is_some() {
-        let text = format!(
-            "{} sudden and next {:?} expected, {} and {:?} found",
-            hop.sudden, hop.next, found.sudden, found.next
-        );
-        return tally.is_wrong(at, &text);
-    }
-    let (Some(next), Some(exact)) = (found.next, hop.next) else { return };
-    let unit = exact.abs()
-        + hop.slope_alpha * hop.alpha
-        + hop.slope_mass_ratio * hop.mass_ratio
-        + hop.alpha * hop.alpha / exact.abs();
-    let k = (next - exact).abs() / (0.5 * f64::EPSILON * unit);
-    tally.over += usize::from(!(k <= limit * (1 + hop.sudden) as f64));
-    if k > tally.worst || tally.worst_place.is_empty() {
-        tally.worst = k;
-        tally.worst_place = format!(
-            "line {at}: M = {}, α = {}, sudden = {}",
-            hop.mass_ratio, hop.alpha, hop.sudden
-        );
-    }
+    let m = hop.mass_ratio.value();
+    let scale = hop.next.map_or(0.0, |next| {
+        next + hop.slope_alpha * hop.alpha + hop.slope_mass_ratio * m + hop.alpha * (hop.alpha / next)
+    });
+    let place = format!("M = {m}, α = {}", hop.alpha);
+    let verdict = Verdict {
+        found: (found.sudden, found.next),
+        exact: (hop.sudden, hop.next),
+        unit: 0.5 * f64::EPSILON * scale,
+    };
+    tally.judge(at, &place, verdict, limit);
+}
+
+/// A result beside the exact one: sudden lift-offs, and the next speed or offset.
+struct Verdict {
+    found: (usize, Option<f64>),
+    exact: (usize, Option<f64>),
+    unit: f64,
 }
 
 impl Tally {
+    fn judge(&mut self, at: usize, place: &str, verdict: Verdict, limit: f64) {
+        let Verdict { found, exact, unit } = verdict;
+        if found.0 != exact.0 || found.1.is_some() != exact.1.is_some() {
+            return self.is_wrong(at, &format!("{exact:?} sudden and next expected, {found:?} found"));
+        }
+        let (Some(next), Some(right)) = (found.1, exact.1) else { return };
+        let error = (next - right).abs();
+        let k = if error == 0.0 { 0.0 } else { error / unit };
+        self.over += usize::from(!(k <= limit * (1 + exact.0) as f64));
+        if !(k <= self.worst) || self.worst_place.is_empty() {
+            self.worst = k;
+            self.worst_place = format!("line {at}: {place}, sudden = {}", exact.0);
+        }
+    }
+
     fn is_wrong(&mut self, at: usize, text: &str) {
         self.wrong += 1;
         if self.first_wrong.is_empty() {
@@ -223,6 +262,8 @@ mod tests {
             (r#"{"mass_ratio": "x", "alpha": 1}"#, "'mass_ratio' is \"x\", not a number"),
             (r#"{"mass_ratio": 1, "alpha": 5, "fate": "lost"}"#, "not incessant"),
             (r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0}"#, "'alpha_next' is missing"),
+            (r#"{"mass_ratio": 0, "alpha": 5}"#, "not 0"),
+            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0, "alpha_next": "0"}"#, "is 0, not positive"),
             (r#"{"mass_ratio": 1, "alpha": 5, "sudden": -1, "alpha_next": "4"}"#, "'sudden' is -1"),
         ] {
             let error = parsed(text).err().unwrap();

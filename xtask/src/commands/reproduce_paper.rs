@@ -77,12 +77,10 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let seconds = begin.elapsed().as_secs_f64();
     folder.write("report.html", report::page(&made, claims.as_deref(), seconds).as_bytes())?;
     say(&format!("report     {}", folder.path().join("report.html").display()))?;
-    if options.bless {
-        bless(&made)?;
-    }
-    let differing = if options.check { compare(&made)? } else { Vec::new() };
+    let differing = if options.check { compare(&made, options.only.is_empty())? } else { Vec::new() };
     say(&format!("{:.1} s", begin.elapsed().as_secs_f64()))?;
-    verdict(claims.as_deref().unwrap_or(&[]), &differing)
+    verdict(claims.as_deref().unwrap_or(&[]), &differing)?;
+    if options.bless { bless(&made) } else { Ok(()) }
 }
 
 fn verdict(claims: &[Claim], differing: &[String]) -> Result<(), Error> {
@@ -111,16 +109,21 @@ fn digests(made: &[(Figure, Rendered)]) -> BTreeMap<String, String> {
     numbers.map(|file| (file.name.clone(), digest(&file.bytes))).collect()
 }
 
+/// The committed files of a figure: name and contents.
+fn committed<'a>(figure: &Figure, rendered: &'a Rendered) -> Vec<(String, &'a [u8])> {
+    let forms = COMMITTED.iter().filter(|(name, _)| *name == figure.name).map(|(_, form)| form);
+    let file = |form: &Form| match form {
+        Form::Svg => (format!("{}.svg", figure.name), rendered.svg.as_bytes()),
+        Form::Png => (format!("{}.png", figure.name), rendered.png.as_slice()),
+    };
+    forms.map(file).collect()
+}
+
 fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
     let folder = Folder::open(&repository().join("docs/figures"))?;
     for (figure, rendered) in made {
-        for (_, form) in COMMITTED.iter().filter(|(name, _)| *name == figure.name) {
-            match form {
-                Form::Svg => {
-                    folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?
-                }
-                Form::Png => folder.write(&format!("{}.png", figure.name), &rendered.png)?,
-            }
+        for (name, bytes) in committed(figure, rendered) {
+            folder.write(&name, bytes)?;
         }
     }
     let json = serde_json::to_string_pretty(&digests(made))
@@ -128,15 +131,23 @@ fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
     folder.write(DIGESTS, format!("{json}\n").as_bytes())
 }
 
-/// Names of the files whose digests differ from the committed ones.
-fn compare(made: &[(Figure, Rendered)]) -> Result<Vec<String>, Error> {
-    let path = repository().join("docs/figures").join(DIGESTS);
-    let committed: BTreeMap<String, String> = serde_json::from_str(&read(&path)?)
+/// Names of the data whose digests differ from the committed ones, and of the README's figures that
+/// are not what is drawn now; with `all` figures made, also of digests without data.
+fn compare(made: &[(Figure, Rendered)], all: bool) -> Result<Vec<String>, Error> {
+    let folder = repository().join("docs/figures");
+    let path = folder.join(DIGESTS);
+    let known: BTreeMap<String, String> = serde_json::from_str(&read(&path)?)
         .map_err(|e| Error::Render { what: path.display().to_string(), reason: e.to_string() })?;
     let ours = digests(made);
-    Ok(ours
-        .into_iter()
-        .filter(|(name, digest)| committed.get(name) != Some(digest))
-        .map(|(name, _)| name)
-        .collect())
+    let stale = known.keys().filter(|name| all && !ours.contains_key(*name)).cloned();
+    let changed = ours.iter().filter(|(name, digest)| known.get(*name) != Some(digest));
+    let mut differing: Vec<String> = stale.chain(changed.map(|(name, _)| name.clone())).collect();
+    for (figure, rendered) in made {
+        for (name, bytes) in committed(figure, rendered) {
+            if std::fs::read(folder.join(&name)).ok().as_deref() != Some(bytes) {
+                differing.push(name);
+            }
+        }
+    }
+    Ok(differing)
 }
