@@ -53,7 +53,8 @@ fn command() -> Result<Command, Error> {
         Err(error) if error.kind() == ErrorKind::InvalidSubcommand => {
             let name = std::env::args().nth(1).unwrap_or_default();
             let commands = Cli::command();
-            let known: Vec<&str> = commands.get_subcommands().map(clap::Command::get_name).collect();
+            let known: Vec<&str> =
+                commands.get_subcommands().map(clap::Command::get_name).collect();
             Err(Error::UnknownName { kind: "command", name, known: known.join(", ") })
         }
         Err(error) => error.exit(),

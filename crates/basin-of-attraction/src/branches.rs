@@ -197,7 +197,12 @@ fn highest(height: impl Fn(f64) -> Option<f64>, mut left: f64, mut right: f64) -
 mod tests {
     use super::*;
 
-    fn branches(map: impl Fn(f64) -> Option<f64>, left: f64, right: f64, samples: usize) -> Vec<Branch> {
+    fn branches(
+        map: impl Fn(f64) -> Option<f64>,
+        left: f64,
+        right: f64,
+        samples: usize,
+    ) -> Vec<Branch> {
         monotone_branches(&map, Interval { left, right }, samples).unwrap()
     }
 
@@ -226,6 +231,9 @@ mod tests {
     fn branches_end_where_the_map_does() {
         let found = branches(|x| (x.abs() > 0.5).then_some(x), -1.0, 1.0, 50);
         assert_eq!(found.len(), 2);
-        assert_eq!((found[0].domain.right, found[1].domain.left), (-0.5f64.next_up(), 0.5f64.next_up()));
+        assert_eq!(
+            (found[0].domain.right, found[1].domain.left),
+            (-0.5f64.next_up(), 0.5f64.next_up())
+        );
     }
 }

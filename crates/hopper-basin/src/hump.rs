@@ -7,9 +7,7 @@
 
 use crate::Error;
 use hybrid_system::bracketed_root;
-use passive_hopper::{
-    DoubleDouble, HalfFlight, LARGEST_LIFT_OFF_SPEED, LocalFlight, alpha_star,
-};
+use passive_hopper::{DoubleDouble, HalfFlight, LARGEST_LIFT_OFF_SPEED, LocalFlight, alpha_star};
 use std::f64::consts::PI;
 
 /// The last hump below the largest lift-off speed.

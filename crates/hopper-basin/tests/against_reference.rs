@@ -27,11 +27,7 @@ fn delta_agrees_with_forty_digits_on_the_contact_intervals() {
         let trap = Trap::new(n, ratio).unwrap();
         if row["edge"].as_str().unwrap().starts_with("contact") {
             assert_eq!(trap.edge, TrapEdge::Crossing);
-            assert_relative_eq!(
-                trap.delta,
-                number(&row["delta_exact"]),
-                max_relative = 2e-14
-            );
+            assert_relative_eq!(trap.delta, number(&row["delta_exact"]), max_relative = 2e-14);
             compared += 1;
         } else {
             assert_ne!(trap.edge, TrapEdge::Crossing, "{row}");
@@ -118,10 +114,13 @@ fn tiny_mass_ratios_are_decided_at_once() {
     for m in [0.005, 0.01, 0.02] {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
         for n in (1..6).filter(|&n| fates.trap(n).unwrap().edge == TrapEdge::NextFixedPoint) {
-            let (left, right) = ((n + 1) as f64 * std::f64::consts::PI, passive_hopper::alpha_star(n + 1).high);
+            let (left, right) =
+                ((n + 1) as f64 * std::f64::consts::PI, passive_hopper::alpha_star(n + 1).high);
             for k in 1..200 {
                 let alpha = left + (right - left) * f64::from(k) / 200.0;
-                assert!(fates.map().image(alpha).unwrap().unwrap() > fates.trap(n).unwrap().star.high);
+                assert!(
+                    fates.map().image(alpha).unwrap().unwrap() > fates.trap(n).unwrap().star.high
+                );
             }
         }
     }

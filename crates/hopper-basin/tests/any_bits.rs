@@ -1,6 +1,6 @@
 //! The body of the fuzz target as a property test.
 
-#![allow(missing_docs, clippy::panic, unreachable_pub)]
+#![allow(missing_docs, clippy::panic, clippy::disallowed_methods, unreachable_pub)]
 
 use proptest::prelude::*;
 

@@ -163,6 +163,33 @@ mod tests {
         }
     }
 
+    proptest! {
+        /// Flights from the ground that touch it at τ = 2V (tan V = V/Y), give or take a few ulps: the
+        /// two solvers agree, or one of them counts the touch, which loses nothing.
+        #[test]
+        fn grazing_flights(m in 1u32..8, part in 0.05..0.95f64, ulps in -4..5i64, ratio in 0.05..20f64) {
+            let v = (f64::from(m) + 0.5 * part) * std::f64::consts::PI;
+            let y = v * pxfm::f_cos(v) / pxfm::f_sin(v);
+            prop_assume!(y > 1.0);
+            let y = f64::from_bits(y.to_bits().wrapping_add_signed(ulps));
+            let ratio = MassRatio::new(ratio).unwrap();
+            let state = HopperState { upper_position: y, upper_velocity: v, ..HopperState::RELAXED };
+            let flight = Flight::new(ratio, &state);
+            let start = crate::TakeOff { excess: y - 1.0, velocity: v };
+            let solved = crate::landing::next_landing(start, ratio.kappa()).time;
+            for time in [landing_time(&flight).unwrap(), solved] {
+                let touch = (time - 2.0 * v).abs() < 1e-6 * v;
+                let (height, rate) = flight.height(time);
+                prop_assert!(height.abs() < 1e-12 * (1.0 + v * v));
+                prop_assert!(!touch || rate.abs() < 1e-5 * (1.0 + v), "{rate}");
+                for k in 1..500 {
+                    let earlier = time * f64::from(k) / 500.0;
+                    prop_assert!(flight.height(earlier).0 > -1e-12 * (1.0 + v * v));
+                }
+            }
+        }
+    }
+
     #[test]
     fn standing_still_lands_at_once() {
         let flight = Flight::new(MassRatio::ONE, &HopperState::RELAXED);

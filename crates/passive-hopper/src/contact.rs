@@ -41,7 +41,9 @@ pub fn contact_time(
     velocity: f64,
 ) -> Result<Option<f64>, Error> {
     let energy = lift_off_energy(mass_ratio, excess, velocity);
-    for (name, value) in [("the excess", excess), ("the velocity", velocity), ("the energy", energy)] {
+    for (name, value) in
+        [("the excess", excess), ("the velocity", velocity), ("the energy", energy)]
+    {
         if !value.is_finite() {
             return Err(Error::NotFinite { name, value });
         }

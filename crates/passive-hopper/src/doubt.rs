@@ -51,7 +51,8 @@ impl Doubt {
         if landing.sudden || !self.first {
             let by_excess = Variation { excess: self.error.excess, velocity: 0.0 };
             // A rounding in h acts like one in V: the residual is a backward error.
-            let by_velocity = Variation { excess: 0.0, velocity: self.error.velocity + self.epsilon };
+            let by_velocity =
+                Variation { excess: 0.0, velocity: self.error.velocity + self.epsilon };
             let (a, a_closing) = carry(self.start, landing, kappa, by_excess);
             let (b, b_closing) = carry(self.start, landing, kappa, by_velocity);
             self.loss += 2.0 * landing.closing_speed * (a_closing.abs() + b_closing.abs());

@@ -1,7 +1,7 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 
-use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
 use crate::doubt::Doubt;
+use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
 use crate::wide::{WideRatio, wide_hop};
 use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 

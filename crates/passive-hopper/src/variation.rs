@@ -29,7 +29,12 @@ pub(crate) struct Variation {
 }
 
 /// The changes that a flight makes of a change: of the state after it, and of Γ.
-pub(crate) fn carry(start: TakeOff, landing: &Landing, kappa: f64, change: Variation) -> (Variation, f64) {
+pub(crate) fn carry(
+    start: TakeOff,
+    landing: &Landing,
+    kappa: f64,
+    change: Variation,
+) -> (Variation, f64) {
     let tau = landing.time;
     let (sin, cos) = pxfm::f_sincos(tau);
     let sin_half = pxfm::f_sin(0.5 * tau);

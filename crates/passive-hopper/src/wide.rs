@@ -4,11 +4,11 @@
 //! A hop takes some tens of microseconds, so it is computed only where the fast one is in doubt.
 
 use crate::double_double::{DoubleDouble, inverse_factorials};
-use crate::landing::{Cell, TakeOff, next_root};
-use std::f64::consts::PI;
 use crate::doubt::Doubt;
+use crate::landing::{Cell, TakeOff, next_root};
 use crate::local::WideLocal;
 use crate::{Error, Landing, MassRatio, SUDDEN_LIFT_OFF_BUDGET};
+use std::f64::consts::PI;
 
 /// Relative rounding error of double-double operations, 2⁻¹⁰⁰ to be safe.
 const EPSILON: f64 = 7.9e-31;

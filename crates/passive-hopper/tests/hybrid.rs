@@ -4,7 +4,7 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use hybrid_system::{Event, Execution, HybridSystem, Limits, State, Stop};
+use hybrid_system::{Event, Execution, Guard, HybridSystem, Limits, Reset, State, Stop};
 use nalgebra::SVector;
 use passive_hopper::{
     Hopper, HopperState, HopperSurface, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
@@ -27,6 +27,71 @@ impl Section<Hopper, 4, 1> for GradualLiftOff {
     fn coordinates(&self, event: &Event<Phase, HopperSurface, 4>) -> Option<SVector<f64, 1>> {
         (event.surface == HopperSurface::LiftOff).then(|| SVector::<f64, 1>::new(event.before[1]))
     }
+}
+
+/// The hopper without its own landings and lift-offs: only flows, guards and resets, with crossings
+/// searched for.
+struct Searched(Hopper);
+
+impl HybridSystem<4> for Searched {
+    type Mode = Phase;
+    type Surface = HopperSurface;
+    fn flow(&self, phase: Phase, start: &State<4>, time: f64) -> State<4> {
+        self.0.flow(phase, start, time)
+    }
+    fn guards(&self, phase: Phase) -> &[Guard<HopperSurface>] {
+        self.0.guards(phase)
+    }
+    fn guard_value(&self, surface: HopperSurface, state: &State<4>) -> f64 {
+        self.0.guard_value(surface, state)
+    }
+    fn reset(&self, phase: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
+        self.0.reset(phase, surface, before)
+    }
+}
+
+impl Section<Searched, 4, 1> for GradualLiftOff {
+    fn point(&self, alpha: &SVector<f64, 1>) -> (Phase, State<4>) {
+        Section::<Hopper, 4, 1>::point(self, alpha)
+    }
+    fn coordinates(&self, event: &Event<Phase, HopperSurface, 4>) -> Option<SVector<f64, 1>> {
+        Section::<Hopper, 4, 1>::coordinates(self, event)
+    }
+}
+
+/// Independently of the half-time solver: landings by sampling y₂(τ) and Brent's method, contacts by
+/// sampling y₁(τ). The landing times differ in the fifth digit near fixed points; the map does not.
+#[test]
+fn a_search_that_knows_nothing_finds_the_same_map() {
+    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+    let (mut compared, mut undecided) = (0, 0);
+    for m in [0.05, 0.2, 0.7, 1.0, 2.0, 8.0, 20.0] {
+        let searched = Searched(hopper(m));
+        let limits = Limits::sampled(200.0, 100, 0.02);
+        let returns = ReturnMap::new(&searched, &GradualLiftOff, limits);
+        let exact = LiftOffMap::new(searched.0.mass_ratio());
+        for k in 0..150 {
+            let alpha = low + (high - low) * (f64::from(k) + 0.5) / 150.0;
+            let hop = exact.hop(alpha).unwrap();
+            let Some(next) = hop.next else { continue };
+            match returns.image(alpha) {
+                Ok(Some(image)) => {
+                    let scale = (alpha / next).powi(2).max(1.0) * 10f64.powi(hop.sudden as i32);
+                    assert!(
+                        (image - next).abs() < 1e-12 * scale,
+                        "M = {m}, α = {alpha}: {image} {next}"
+                    );
+                    compared += 1;
+                }
+                // A flight shorter than the interval, or one that dips below between samples.
+                Err(return_map::Error::Execution(hybrid_system::Error::UndecidedStart {
+                    ..
+                })) => undecided += 1,
+                other => panic!("M = {m}, α = {alpha}: {other:?}"),
+            }
+        }
+    }
+    assert!(compared > 700 && undecided < 20, "{compared} {undecided}");
 }
 
 /// Built as a return map of the hybrid system, the map agrees with the exact one to 1e-12 over the

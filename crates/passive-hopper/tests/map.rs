@@ -107,7 +107,11 @@ fn hops_in_the_fixed_points_own_coordinate() {
         let error = (hop.next.unwrap() / exact - 1.0).abs();
         worst = worst.max(error);
         let shift = number(&row["flight_time_minus_2alpha_star"]);
-        assert!((hop.time_shift / shift - 1.0).abs() < ULPS * f64::EPSILON, "{line}: {}", hop.time_shift);
+        assert!(
+            (hop.time_shift / shift - 1.0).abs() < ULPS * f64::EPSILON,
+            "{line}: {}",
+            hop.time_shift
+        );
     }
     assert!(worst <= ULPS * f64::EPSILON, "{worst:e}");
 }
@@ -136,11 +140,17 @@ fn slopes_agree_with_the_reference() {
             let (m, alpha) = (row["mass_ratio"].as_f64().unwrap(), row["alpha"].as_f64().unwrap());
             let slopes = map(m).slopes(alpha).unwrap();
             assert_eq!(slopes.is_none(), row["alpha_next"].is_null());
-            let (Some(slopes), Some(_)) = (slopes, row["dalpha_next_dalpha"].as_str()) else { continue };
-            let (by_speed, by_ratio) = (number(&row["dalpha_next_dalpha"]), number(&row["dalpha_next_dM"]));
+            let (Some(slopes), Some(_)) = (slopes, row["dalpha_next_dalpha"].as_str()) else {
+                continue;
+            };
+            let (by_speed, by_ratio) =
+                (number(&row["dalpha_next_dalpha"]), number(&row["dalpha_next_dM"]));
             // Long chains hand on the error of the state, magnified as the slope is.
             let scale = 1.0 + by_speed.abs();
-            assert!((slopes.by_speed - by_speed).abs() < 1e-11 * scale * scale, "{line}: {slopes:?}");
+            assert!(
+                (slopes.by_speed - by_speed).abs() < 1e-11 * scale * scale,
+                "{line}: {slopes:?}"
+            );
             let scale = (1.0 + by_speed.abs()) * (by_ratio.abs() + (1.0 + alpha) / (1.0 + m));
             assert!((slopes.by_mass_ratio - by_ratio).abs() < 1e-11 * scale, "{line}: {slopes:?}");
             compared += 1;

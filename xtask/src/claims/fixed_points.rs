@@ -58,7 +58,8 @@ fn found_from_the_map() -> Result<Claim, Error> {
     let map = LiftOffMap::new(MassRatio::new(0.2)?);
     let window = (alpha_star(1).high - 1.0, alpha_star(5).high + 1.0);
     let found = fixed_points(|x| map.image(x).ok().flatten(), window.0, window.1, 4001)?;
-    let distances = found.iter().zip(1..).map(|(point, n)| (point.location - alpha_star(n).high).abs());
+    let distances =
+        found.iter().zip(1..).map(|(point, n)| (point.location - alpha_star(n).high).abs());
     let worst = largest(distances);
     let touching = found.iter().all(|point| point.meeting == Meeting::Touching);
     Ok(Claim::new("Sec. III, Fig. 2", "the fixed points are touches")

@@ -34,7 +34,8 @@ fn compare(k: u64, contact: bool) -> Result<Comparison, passive_hopper::Error> {
     let ratio = MassRatio::new(pxfm::f_exp10(6.0 * uniform(3 * k) - 3.0))?;
     let n = (19.0 * uniform(3 * k + 1)) as u64;
     let turn = (n + 1) as f64 * PI;
-    let (left, right) = if contact { (alpha_star(n).high, turn) } else { (turn, alpha_star(n + 1).high) };
+    let (left, right) =
+        if contact { (alpha_star(n).high, turn) } else { (turn, alpha_star(n + 1).high) };
     let alpha = left + (right - left) * (1e-6 + (1.0 - 2e-6) * uniform(3 * k + 2));
     let here = LiftOffMap::new(ratio).hop(alpha)?;
     let there = LiftOffMap::new(ratio.inverted()).hop(alpha)?;
@@ -70,7 +71,8 @@ pub(super) fn check(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let worst = largest(contact.iter().map(|c| c.difference));
     let worst_image = largest(contact.iter().map(|c| c.image_difference));
     let agree = contact.iter().all(|c| c.verdicts_agree && !c.sudden);
-    let differing = sudden.iter().filter(|c| c.difference > 1e-9).count() as f64 / sudden.len() as f64;
+    let differing =
+        sudden.iter().filter(|c| c.difference > 1e-9).count() as f64 / sudden.len() as f64;
     Ok(vec![
         Claim::new("Sec. IV B, Eq. 23", "$M$ → 1/$M$ invariance")
             .paper("$f$($α$; $M$) = $f$($α$; 1/$M$) when no landing between is sudden")

@@ -88,7 +88,9 @@ impl Claim {
 
 /// The largest of some errors; not a number if one of them is not.
 fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
-    errors.into_iter().fold(0.0, |worst, error| if error > worst || error.is_nan() { error } else { worst })
+    errors
+        .into_iter()
+        .fold(0.0, |worst, error| if error > worst || error.is_nan() { error } else { worst })
 }
 
 /// A group of claims.

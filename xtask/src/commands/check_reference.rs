@@ -99,7 +99,11 @@ fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
         lines.push((index + 1, line(&value).map_err(bad)?));
     }
     if lines.is_empty() {
-        return Err(Error::ReferenceLine { path: path.into(), line: 1, reason: "no line at all".into() });
+        return Err(Error::ReferenceLine {
+            path: path.into(),
+            line: 1,
+            reason: "no line at all".into(),
+        });
     }
     Ok(lines)
 }
@@ -176,11 +180,16 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                 let place = format!("M = {}, n = {n}, δ = {offset:e}", mass_ratio.value());
                 match LiftOffMap::new(*mass_ratio).hop_about(*n, *offset) {
                     Err(error) => tally.is_wrong(*at, &error.to_string()),
-                    Ok(hop) => tally.judge(*at, &place, Verdict {
-                        found: (hop.sudden, hop.next),
-                        exact: (*sudden, *next),
-                        unit: next.map_or(0.0, |next| 2.0 * f64::EPSILON * next.abs()),
-                    }, limit),
+                    Ok(hop) => tally.judge(
+                        *at,
+                        &place,
+                        Verdict {
+                            found: (hop.sudden, hop.next),
+                            exact: (*sudden, *next),
+                            unit: next.map_or(0.0, |next| 2.0 * f64::EPSILON * next.abs()),
+                        },
+                        limit,
+                    ),
                 }
             }
             Line::Fate { mass_ratio, alpha, fate } => {
@@ -205,7 +214,9 @@ fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
     };
     let m = hop.mass_ratio.value();
     let scale = hop.next.map_or(0.0, |next| {
-        next + hop.slope_alpha * hop.alpha + hop.slope_mass_ratio * m + hop.alpha * (hop.alpha / next)
+        next + hop.slope_alpha * hop.alpha
+            + hop.slope_mass_ratio * m
+            + hop.alpha * (hop.alpha / next)
     });
     let place = format!("M = {m}, α = {}", hop.alpha);
     let verdict = Verdict {
@@ -227,7 +238,8 @@ impl Tally {
     fn judge(&mut self, at: usize, place: &str, verdict: Verdict, limit: f64) {
         let Verdict { found, exact, unit } = verdict;
         if found.0 != exact.0 || found.1.is_some() != exact.1.is_some() {
-            return self.is_wrong(at, &format!("{exact:?} sudden and next expected, {found:?} found"));
+            return self
+                .is_wrong(at, &format!("{exact:?} sudden and next expected, {found:?} found"));
         }
         let (Some(next), Some(right)) = (found.1, exact.1) else { return };
         let error = (next - right).abs();
@@ -263,7 +275,10 @@ mod tests {
             (r#"{"mass_ratio": 1, "alpha": 5, "fate": "lost"}"#, "not incessant"),
             (r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0}"#, "'alpha_next' is missing"),
             (r#"{"mass_ratio": 0, "alpha": 5}"#, "not 0"),
-            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0, "alpha_next": "0"}"#, "is 0, not positive"),
+            (
+                r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0, "alpha_next": "0"}"#,
+                "is 0, not positive",
+            ),
             (r#"{"mass_ratio": 1, "alpha": 5, "sudden": -1, "alpha_next": "4"}"#, "'sudden' is -1"),
         ] {
             let error = parsed(text).err().unwrap();

@@ -77,7 +77,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let seconds = begin.elapsed().as_secs_f64();
     folder.write("report.html", report::page(&made, claims.as_deref(), seconds).as_bytes())?;
     say(&format!("report     {}", folder.path().join("report.html").display()))?;
-    let differing = if options.check { compare(&made, options.only.is_empty())? } else { Vec::new() };
+    let differing =
+        if options.check { compare(&made, options.only.is_empty())? } else { Vec::new() };
     say(&format!("{:.1} s", begin.elapsed().as_secs_f64()))?;
     verdict(claims.as_deref().unwrap_or(&[]), &differing)?;
     if options.bless { bless(&made) } else { Ok(()) }

@@ -59,8 +59,8 @@ pub(super) fn basin_figure(
         let (x1, y0) = frame.at((m.1, alpha.1));
         svg.rect(x0, y0, x1 - x0, y1 - y0, Pen::solid("#ffffff", 3.0));
         svg.rect(x0, y0, x1 - x0, y1 - y0, Pen::solid("#000000", 1.4));
-        svg.fill_rect(x1 + 3.0, y0, 38.0, 15.0, "#ffffff");
-        svg.text(x1 + 6.0, y0 + 11.5, Anchor::Start, 11.5, name);
+        svg.fill_rect(x1 + 3.0, y1 - 16.0, 37.0, 15.0, "#ffffff");
+        svg.text(x1 + 5.0, y1 - 5.0, Anchor::Start, 11.5, name);
     }
     legend(&mut svg, frame.left, &image);
     let (title, paper, notes) = texts;

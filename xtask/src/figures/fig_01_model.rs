@@ -9,12 +9,12 @@ const INK: Pen = Pen::solid("#000", 1.1);
 const SPRING: Pen = Pen::solid("#444", 1.1);
 const FORCE: Pen = Pen::solid("#b02418", 1.4);
 const THIN: Pen = Pen::solid("#000", 0.6);
-const GROUND: f64 = 250.0;
+const GROUND: f64 = 215.0;
 const BLOCK: (f64, f64) = (52.0, 30.0);
 
 /// Draws the four states with their forces.
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
-    let mut svg = Svg::new(680.0, 330.0);
+    let mut svg = Svg::new(690.0, 310.0);
     let titles = ["(a) relaxed", "(b) flight", "(c) collision", "(d) contact"];
     let conditions =
         ["", "$x$_{2} > 0", "$x$_{2} = 0, $v$_{2} < 0", "$x$_{2} = 0, $kx$_{1} < $m$_{2}$g$"];
@@ -26,13 +26,14 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         spring(&mut svg, x, GROUND - lower - BLOCK.1, GROUND - upper);
         block(&mut svg, x, GROUND - lower, "$m$_{2}");
         block(&mut svg, x, GROUND - upper, "$m$_{1}");
-        svg.text(x, 292.0, Anchor::Middle, 13.0, titles[k]);
-        svg.text(x, 312.0, Anchor::Middle, 12.0, conditions[k]);
+        svg.text(x, 277.0, Anchor::Middle, 13.0, titles[k]);
+        svg.text(x, 297.0, Anchor::Middle, 12.0, conditions[k]);
         forces(&mut svg, k, x, GROUND - lower, GROUND - upper);
     }
-    svg.text(115.0, 190.0, Anchor::Start, 13.0, "$k$");
-    svg.arrow((30.0, 60.0), (30.0, 95.0), INK);
-    svg.text(22.0, 82.0, Anchor::End, 13.0, "$g$");
+    svg.text(78.0, 155.0, Anchor::End, 13.0, "$k$");
+    coordinates(&mut svg);
+    svg.arrow((30.0, 35.0), (30.0, 70.0), INK);
+    svg.text(22.0, 57.0, Anchor::End, 13.0, "$g$");
     Ok(Figure {
         name: "fig_01_model",
         title: "The passive hopper and its phases".into(),
@@ -46,6 +47,16 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         svg: svg.finish(),
         data: Vec::new(),
     })
+}
+
+/// x₁ and x₂, counted from the relaxed state upwards.
+fn coordinates(svg: &mut Svg) {
+    let x = 95.0 + BLOCK.0 / 2.0 + 10.0;
+    for (level, name) in [(GROUND - 110.0, "$x$_{1}"), (GROUND, "$x$_{2}")] {
+        svg.line((x - 8.0, level), (x + 12.0, level), THIN);
+        svg.arrow((x + 5.0, level), (x + 5.0, level - 26.0), THIN);
+        svg.text(x + 12.0, level - 14.0, Anchor::Start, 12.0, name);
+    }
 }
 
 fn ground(svg: &mut Svg, x: f64) {
@@ -104,7 +115,8 @@ fn forces(svg: &mut Svg, panel: usize, x: f64, lower: f64, upper: f64) {
             force(-side - 5.0, upper_middle, upper_middle + 30.0, weight1);
             force(side + 5.0, upper_middle, upper_middle + 30.0, "$kx$_{1}");
             force(-side - 5.0, lower_middle - 22.0, lower_middle + 10.0, weight2);
-            force(side + 5.0, lower_middle + 12.0, lower_middle - 20.0, "$m$_{2}$g$ − $kx$_{1}");
+            force(side + 5.0, lower_middle - 2.0, lower_middle - 34.0, "$kx$_{1}");
+            force(side + 5.0, lower_middle + 56.0, lower_middle + 17.0, "$m$_{2}$g$ − $kx$_{1}");
         }
         _ => {}
     }

@@ -69,7 +69,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         title: "The lift-off map for several mass ratios".into(),
         paper:
             "The one-dimensional map between gradual lift-offs is multimodal; curves differ in the \
-                mass ratio, and the fixed points, where α = tan α, are common to all. Shown up to \
+                mass ratio, and the fixed points, where $α$ = tan $α$, are common to all. Shown up to \
                 the fifth of them."
                 .into(),
         notes: format!(

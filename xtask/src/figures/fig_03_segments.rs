@@ -30,7 +30,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let segments = [
         Segment { name: "$α$_{L}", says: "sudden lift-off", alpha: 3.8 },
         Segment { name: "$α$_{S}", says: "incessant hopping", alpha: star + 0.6 * trap.delta },
-        Segment { name: "$α$_{R}", says: "some hops, ever lower", alpha: 5.1 },
+        Segment { name: "$α$_{R}", says: "a few hops, then rest", alpha: 5.1 },
         Segment { name: "$α$_{G}", says: "no further hop", alpha: 5.95 },
     ];
     let mut svg = Svg::new(760.0, 430.0);
@@ -83,7 +83,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         &ticks((3.0, 6.45), 4),
         &ticks((0.0, 5.2), 5),
         "$α$_{n} (dimensionless)",
-        "$α$_{n+1}",
+        "$α$_{n+1} (dimensionless)",
     );
     svg.text(
         frame.left,
@@ -93,6 +93,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         &format!("$M$ = {M}; shaded: the four segments"),
     );
 
+    inset(&mut svg, &map, &trap)?;
     let mut rows = Vec::new();
     for (k, segment) in segments.iter().enumerate() {
         let (column, row) = ((k % 2) as f64, (k / 2) as f64);
@@ -121,15 +122,14 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         name: "fig_03_segments",
         title: "Four segments around the first fixed point, and the motion in each".into(),
         paper:
-            "Around α*_1 the map has a left leg α_L, where landings are followed by an immediate \
-                take-off, the local basin α_S of incessant hopping, the right leg α_R with a few \
-                hops before the hopper settles, and a gap α_G without any further hop."
+            "Around $α$^{∗}_{1} the map has a left leg $α$_{L}, where landings are followed by an immediate \
+                take-off, the local basin $α$_{S} of incessant hopping, the right leg $α$_{R} with a few \
+                hops before the hopper settles, and a gap $α$_{G} without any further hop."
                 .into(),
         notes: format!(
-            "Mass ratio lost; $M$ = {M}, at which all four segments exist. Red dots: the lift-off \
+            "Mass ratio lost; $M$ = {M}, at which all four segments exist. The inset enlarges the peak. Red dots: the lift-off \
              speeds whose motions are shown, {:.3}, {:.4}, {:.2} and {:.2}. Times in units of 1/$ω$, \
-             displacements of $m$_{{2}}$g$/$k$. The motion on α_R need not come to rest: hops may \
-             die out without end (the decaying fate).",
+             displacements of $m$_{{2}}$g$/$k$. Elsewhere on $α$_{{R}} hops may also die out without end (the decaying fate).",
             segments[0].alpha, segments[1].alpha, segments[2].alpha, segments[3].alpha
         ),
         svg: svg.finish(),
@@ -142,6 +142,27 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
             csv_file("fig_03_motions.csv", &["alpha", "time", "upper", "lower"], rows)?,
         ],
     })
+}
+
+/// The peak, enlarged: α_S is a hundredth wide.
+fn inset(svg: &mut Svg, map: &LiftOffMap, trap: &Trap) -> Result<(), Error> {
+    let star = trap.star.high;
+    let range = (star - 0.012, trap.right() + 0.012);
+    let frame = Frame::linear(166.0, 226.0, 92.0, 92.0, range, (star - 0.016, star + 0.006));
+    svg.fill_rect(frame.left, frame.top, frame.width, frame.height, "#ffffff");
+    let (x0, x1) = (frame.at((star, star)).0, frame.at((trap.right(), star)).0);
+    svg.fill_rect(x0, frame.top, x1 - x0, frame.height, "#bfe6d4");
+    frame.clipped(svg, |svg| {
+        frame.polyline(svg, &[(4.0, 4.0), (5.0, 5.0)], Pen::dashed("#000", 0.7, "1.5 2.5"));
+        for piece in graph_pieces(map, &[range.0, star, range.1], 60) {
+            frame.curve(svg, &piece, Pen::solid("#000", 1.4));
+        }
+    });
+    svg.rect(frame.left, frame.top, frame.width, frame.height, Pen::solid("#000", 0.8));
+    svg.text(0.5 * (x0 + x1), frame.top + frame.height - 8.0, Anchor::Middle, 12.0, "$α$_{S}");
+    svg.text(x0, frame.top + frame.height + 11.0, Anchor::Middle, 9.5, "$α$^{∗}_{1}");
+    svg.text(x1 + 6.0, frame.top + frame.height + 11.0, Anchor::Middle, 9.5, "$α$^{∗}_{1} + $Δ$");
+    Ok(())
 }
 
 /// (τ, y₁, y₂) along an arc.
@@ -177,6 +198,12 @@ fn draw_motion(svg: &mut Svg, panel: &Frame, segment: &Segment, motion: &[Motion
     });
     let title = format!("{}: {}", segment.name, segment.says);
     svg.text(panel.left + panel.width / 2.0, panel.top - 6.0, Anchor::Middle, 11.5, &title);
-    let y_label = if panel.left < 500.0 { "$y$_{1}, $y$_{2}" } else { "" };
-    panel.axes(svg, &ticks((0.0, DURATION), 4), &ticks((-14.0, 15.0), 3), "time $τ$", y_label);
+    let y_label = if panel.left < 500.0 { "$y$_{1}, $y$_{2}  ($m$_{2}$g$/$k$)" } else { "" };
+    panel.axes(
+        svg,
+        &ticks((0.0, DURATION), 4),
+        &ticks((-14.0, 15.0), 3),
+        "time $τ$ (units of 1/$ω$)",
+        y_label,
+    );
 }

@@ -32,11 +32,15 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 alphas.iter().filter_map(|&a| Some((a, map.image(a).ok()??))).collect();
             frame.curve(svg, &exact, EXACT);
             for (local, pen) in [(&printed, PRINTED), (&corrected, CORRECTED)] {
+                if pen == PRINTED && alphas.iter().any(|&a| a < star) {
+                    continue; // the paper gives the right side only
+                }
                 let curve: Vec<_> = alphas.iter().map(|&a| (a, local.image(a))).collect();
                 frame.curve(svg, &curve, pen);
             }
             rows.extend(exact.iter().map(|&(a, f)| {
-                vec![Some(a), Some(f), Some(printed.image(a)), Some(corrected.image(a))]
+                let printed = (a >= star).then(|| printed.image(a));
+                vec![Some(a), Some(f), printed, Some(corrected.image(a))]
             }));
         }
     });
@@ -58,14 +62,14 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         &ticks(WINDOW, 5),
         &ticks((4.470, 4.500), 6),
         "$α$_{n} (dimensionless)",
-        "$α$_{n+1}",
+        "$α$_{n+1} (dimensionless)",
     );
     Ok(Figure {
         name: "fig_04_local_map",
         title: "Exact and approximate map near the first fixed point, $M$ = 1".into(),
-        paper: "The approximate map α*_1 + δ − λ δ^{4/3} against the exact one at M = 1.".into(),
-        notes: "Window of the paper, α ∈ [4.490, 4.515]. The paper's curve follows from its printed \
-                λ; the corrected one, ¾ of it, is the one the exact map is tangent to at this order. \
+        paper: "The approximate map $α$^{∗}_{1} + $δ$ − $λδ$^{4/3} against the exact one at $M$ = 1.".into(),
+        notes: "Window of the paper, $α$ ∈ [4.490, 4.515]. The paper's curve follows from its printed \
+                $λ$; the corrected one, ¾ of it, is the one the exact map is tangent to at this order. \
                 On the left, which the paper does not give, the loss is ten times as steep. Sampled \
                 at 162 points."
             .into(),

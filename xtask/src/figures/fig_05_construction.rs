@@ -37,7 +37,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         bars.top - 15.0,
         Anchor::Start,
         13.0,
-        "(b)  points that enter $A$ after $n$ hops",
+        "(b)  points that enter $A$ after $k$ hops (level $k$), with those before in grey",
     );
     for (k, level) in levels.iter().enumerate() {
         // One row a level, with those before it in grey, as in a construction that keeps its pieces.
@@ -57,18 +57,16 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
             (bars.left + bars.width, y + 28.0),
             Pen::solid("#000", 0.5),
         );
-        svg.text(bars.left - 8.0, y + 21.0, Anchor::End, 12.0, &format!("$n$ = {k}"));
-        let count = level.intervals().len();
+        svg.text(bars.left - 8.0, y + 21.0, Anchor::End, 12.0, &format!("$k$ = {k}"));
+        let shown = level.intervals().iter().filter(|i| i.left < window.1);
+        let (count, length) = (shown.clone().count(), shown.map(|i| i.length()).sum::<f64>());
         let parts = if count == 1 { "interval" } else { "intervals" };
         svg.text(
             bars.left + 58.0,
             y + 3.0,
             Anchor::Start,
             9.5,
-            &format!(
-                "{count} {parts} in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}], length {:.5}",
-                level.measure()
-            ),
+            &format!("{count} {parts}, length {length:.5}"),
         );
     }
     for n in 1..=3 {
@@ -85,13 +83,13 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         name: "fig_05_construction",
         title: "The basin of $α$^{∗}_{1}, level by level".into(),
         paper:
-            "(a) The local basin A of the first fixed point, its preimages A1 and A2 on the next \
+            "(a) The local basin $A$ of the first fixed point, its preimages $A$_{1} and $A$_{2} on the next \
                 hump, their preimages, and so on; (b) the pieces level by level, which the paper \
                 says tend to a Cantor set."
                 .into(),
         notes: format!(
             "Not a sketch but the real map at $M$ = {M}. Beside $A$_{{1}} and $A$_{{2}} on hump 2 the \
-             trap has one preimage, $A$_{{0}}, on the rising part of its own hump. Levels 0 to \
+             trap has one preimage, $A$_{{0}}, on the rising part of its own hump. Blue: the preimages of these three. Levels 0 to \
              {DEPTH} have {} intervals in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}]; ends are located to \
              one ulp. In a bounded window they do not tend to a Cantor set: $f$($α$) ≤ $α$ lets no orbit \
              return, so the boundary is the countable set of all preimages of $α$^{{∗}}_{{1}} and \
@@ -112,11 +110,24 @@ fn draw_map(svg: &mut Svg, frame: &Frame, map: &LiftOffMap, levels: &[IntervalSe
     svg.fill_rect(frame.left, band.0, frame.width, (band.1 - band.0).max(1.0), "#bfe6d4");
     let first: Vec<_> = levels[1].intervals().iter().filter(|i| i.right < frame.x.1).collect();
     frame.clipped(svg, |svg| {
-        for (k, level) in levels.iter().enumerate().take(2) {
+        for (k, level) in levels.iter().enumerate().take(3) {
             for part in level.intervals() {
                 let (x0, x1) = (frame.at((part.left, 0.0)).0, frame.at((part.right, 0.0)).0);
-                let y = band.0;
-                svg.fill_rect(x0, y, (x1 - x0).max(1.0), frame.top + frame.height - y, COLORS[k]);
+                // Level 2 reaches up to level 1's places on the graph.
+                let y = if k < 2 {
+                    band.0
+                } else {
+                    let middle = 0.5 * (part.left + part.right);
+                    frame.at((0.0, map.image(middle).ok().flatten().unwrap_or(0.0))).1
+                };
+                let bottom = frame.top + frame.height;
+                svg.fill_rect(
+                    x0,
+                    y,
+                    (x1 - x0).max(if k < 2 { 1.0 } else { 0.5 }),
+                    bottom - y,
+                    COLORS[k],
+                );
             }
         }
         frame.polyline(svg, &[(0.0, 0.0), (20.0, 20.0)], Pen::dashed("#000", 0.7, "1.5 2.5"));

@@ -28,9 +28,9 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
         texts(
             "Basins of attraction for small mass ratios",
             "Initial speeds by the fixed point they lead to: first green, second red, third blue and so \
-         on. At M = 0.1 most of the window is green; with growing M the share of incessant hopping \
+         on. At $M$ = 0.1 most of the window is green; with growing $M$ the share of incessant hopping \
          falls rapidly.",
-            "Window M ∈ [0.02, 1], α from α*_1 to α*_6 (the paper's lower limit of M is lost). What the \
+            "Window $M$ ∈ [0.02, 1], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6} (the paper's lower limit of $M$ is lost). What the \
          paper leaves blank is told apart: white decays (hops for ever, ever lower), grey is grounded.",
         ),
     )
@@ -50,9 +50,9 @@ pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
         progress,
         texts(
             "Basins of attraction for large mass ratios",
-            "M from 1 to 10: towards M = 10 the structure resembles that of small M.",
-            "Window M ∈ [1, 10], α from α*_1 to α*_6. The traps are those of 1/M, but the basins are not: \
-         the map between nπ and α*_n is not invariant.",
+            "$M$ from 1 to 10: towards $M$ = 10 the structure resembles that of small $M$.",
+            "Window $M$ ∈ [1, 10], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6}. The traps are those of 1/$M$, but the basins are not: \
+         the map between $nπ$ and $α$^{∗}_{n} is not invariant.",
         ),
     )
 }
@@ -72,7 +72,7 @@ pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
         texts(
             "The inset of Fig. 6",
             "The same basins at a finer scale.",
-            "Window M ∈ [0.1, 0.2], α from α*_4 to α*_6, chosen to hold Fig. 9; the paper's limits are lost.",
+            "Window $M$ ∈ [0.1, 0.2], $α$ from $α$^{∗}_{4} to $α$^{∗}_{6}, chosen to hold Fig. 9; the paper's limits are lost.",
         ),
     )
 }
@@ -92,7 +92,7 @@ pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
         texts(
             "The inset of Fig. 8",
             "Finer still, and structure again.",
-            "Window of the paper, M ∈ [0.17, 0.18], α ∈ [17.0, 17.8].",
+            "Window of the paper, $M$ ∈ [0.17, 0.18], $α$ ∈ [17.0, 17.8].",
         ),
     )
 }

@@ -37,7 +37,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
             }
         }
     });
-    top.axes(&mut svg, &ticks(window, 9), &ticks((0.0, 12.8), 6), "", "$α$_{n+1}");
+    top.axes(&mut svg, &ticks(window, 9), &ticks((0.0, 12.8), 6), "", "$α$_{n+1} (dimensionless)");
     for (k, (pen, name)) in [(LIGHT, "$M$ = 0.3"), (HEAVY, "$M$ = 1/0.3")].into_iter().enumerate() {
         let y = 36.0 + 18.0 * k as f64;
         svg.line((80.0, y), (112.0, y), pen);
@@ -60,10 +60,12 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
             svg.fill_rect(x - 0.5, y - 0.5, 1.0, 1.0, "#10386e");
         }
     }
+    let mut y_ticks = decades((1e-17, 1e2), 4);
+    y_ticks.push((2e-18, "0".into()));
     bottom.axes(
         &mut svg,
         &ticks(window, 9),
-        &decades((1e-18, 1e2), 4),
+        &y_ticks,
         "$α$_{n} (dimensionless)",
         "|$f$($α$; $M$) − $f$($α$; 1/$M$)|",
     );
@@ -73,9 +75,9 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         paper: "The map is invariant under inversion of the mass ratio when there is no sudden \
                 lift-off between two iterates (Eq. 23)."
             .into(),
-        notes: "Shaded: (nπ, α*_n), where the first landing is sudden and the invariance fails; \
+        notes: "Shaded: ($nπ$, $α$^{∗}_{n}), where the first landing is sudden and the invariance fails; \
                 elsewhere the two maps differ by rounding only (differences of exactly zero are \
-                drawn at the foot)."
+                drawn at the foot, marked 0)."
             .into(),
         svg: svg.finish(),
         data: vec![csv_file("invariance.csv", &["alpha", "next_light", "next_heavy"], rows)?],

@@ -3,17 +3,17 @@
 use hopper_basin::HopperFate;
 
 /// Colours of the basins of α*_1, α*_2, …: first green, second red, third blue as in the paper,
-/// with lightness falling from L* ≈ 72 to 8, so that grey print keeps the order.
+/// with lightness L* = 61, 48, 34, 19, 5, so that grey print keeps the order; the grounded grey has 80.
 const BASINS: [(&str, [u8; 3]); 6] = [
-    ("#45c38c", [0x45, 0xc3, 0x8c]),
-    ("#e0503c", [0xe0, 0x50, 0x3c]),
-    ("#2a62b8", [0x2a, 0x62, 0xb8]),
-    ("#5c2275", [0x5c, 0x22, 0x75]),
-    ("#3a2a10", [0x3a, 0x2a, 0x10]),
+    ("#22a672", [0x22, 0xa6, 0x72]),
+    ("#d03a2b", [0xd0, 0x3a, 0x2b]),
+    ("#1f4e96", [0x1f, 0x4e, 0x96]),
+    ("#4a1560", [0x4a, 0x15, 0x60]),
+    ("#15100a", [0x15, 0x10, 0x0a]),
     ("#000000", [0x00, 0x00, 0x00]),
 ];
 const DECAYING: (&str, [u8; 3]) = ("#ffffff", [0xff, 0xff, 0xff]);
-const GROUNDED: (&str, [u8; 3]) = ("#d8d8d2", [0xd8, 0xd8, 0xd2]);
+const GROUNDED: (&str, [u8; 3]) = ("#c8c8c0", [0xc8, 0xc8, 0xc0]);
 const UNDECIDED: (&str, [u8; 3]) = ("#ffd400", [0xff, 0xd4, 0x00]);
 
 fn entry(label: u16) -> (&'static str, [u8; 3]) {
