@@ -1,5 +1,5 @@
 //! Arbitrary bit patterns to every public function of the hopper's crates:
-//! `cargo +nightly fuzz run any_bits`.
+//! `cargo +nightly fuzz run any_bits`, in `crates/hopper-basin`.
 //!
 //! The body is shared with the property test `hopper-basin/tests/any_bits.rs`.
 
@@ -7,7 +7,7 @@
 
 use libfuzzer_sys::fuzz_target;
 
-#[path = "../../crates/hopper-basin/tests/any_bits/body.rs"]
+#[path = "../../tests/any_bits/body.rs"]
 mod body;
 
 fuzz_target!(|words: [u64; 6]| {
