@@ -12,4 +12,14 @@ pub enum Error {
         /// The index given.
         n: u64,
     },
+    /// Outside the range in which the error of the expansion was measured.
+    #[error("the expansion is for offsets from {left} to {right}, not {value}")]
+    OutsideRange {
+        /// The value given.
+        value: f64,
+        /// Lower end of the range.
+        left: f64,
+        /// Upper end of the range.
+        right: f64,
+    },
 }

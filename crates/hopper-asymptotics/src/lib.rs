@@ -11,6 +11,8 @@
 //! | [`Coefficients`] | β, λ, Δ and the approximate map of a fixed point at a mass ratio |
 //! | [`Form`] | the paper's λ, or the corrected one |
 //! | [`LEFT_FACTOR`] | the 10 |
+//! | [`Right`], [`Left`], [`Expansion`] | the map to higher orders on either side, with its error |
+//! | [`Decay`] | the algebraic approach: δ after k hops, hops until δ |
 //!
 //! ```
 //! use hopper_asymptotics::{Coefficients, Form};
@@ -24,20 +26,27 @@
 //! ```
 //!
 //! # Accuracy
-//! The coefficients are right to a few ulps; the truncated map errs by the next term, which each
-//! function states.
+//! The coefficients are right to a few ulps. [`Right`] and [`Left`] give every value with a bound on its
+//! error, measured against the exact map in (n, δ), and refuse what lies outside the range of that
+//! measurement; the leading-order map of [`Coefficients`] errs by the next term, which it states.
 //!
 //! # Not here
-//! Higher orders, orbit laws, the expansions about α*_0 = 0 and for n → ∞.
+//! The expansions about α*_0 = 0 and for n → ∞, higher orders of Δ.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
 //! Phys. Rev. E, Sec. IV; the factor ¾ and the left side are derived in `docs/model.md`.
 
 mod coefficients;
+mod decay;
 mod error;
+mod left;
 mod local_map;
+mod right;
 
 pub use coefficients::{Coefficients, Form};
+pub use decay::Decay;
 pub use error::Error;
+pub use left::{LEFT_RANGE, Left};
 pub use local_map::LEFT_FACTOR;
+pub use right::{Expansion, RIGHT_RANGE, Right};

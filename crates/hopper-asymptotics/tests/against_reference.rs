@@ -4,7 +4,7 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use hopper_asymptotics::{Coefficients, Form};
+use hopper_asymptotics::{Coefficients, Error, Form, Left, RIGHT_RANGE, Right};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 
 /// Computed with 50 to 130 digits (mpmath), independently of this project.
@@ -65,4 +65,71 @@ fn leading_terms_have_the_stated_error() {
             }
         }
     }
+}
+
+const RATIOS: [f64; 7] = [1e-3, 0.05, 0.3, 1.0, 3.0, 20.0, 1e3];
+const INDICES: [u64; 6] = [1, 2, 3, 10, 30, 100];
+
+/// Every value lies within its stated error of the exact map, over the whole range.
+#[test]
+fn expansions_keep_their_bounds() {
+    for n in INDICES {
+        for m in RATIOS {
+            let ratio = MassRatio::new(m).unwrap();
+            let map = LiftOffMap::new(ratio);
+            let right = Right::new(n, ratio).unwrap();
+            let left = Left::new(n, ratio).unwrap();
+            for k in 0..60 {
+                let part = 10f64.powf(-0.2 * f64::from(k));
+                let delta = RIGHT_RANGE * part;
+                if let Some(exact) = map.hop_about(n, delta).unwrap().next {
+                    let series = right.displacement(delta).unwrap();
+                    assert!(
+                        (series.value - exact).abs() <= series.error,
+                        "n={n} M={m} δ={delta:e}: {series:?} {exact}"
+                    );
+                }
+                let delta = -left.range() * part;
+                let exact = map.hop_about(n, delta).unwrap().next.unwrap();
+                let series = left.displacement(delta).unwrap();
+                assert!(
+                    (series.value - exact).abs() <= series.error,
+                    "n={n} M={m} δ={delta:e}: {series:?} {exact}"
+                );
+            }
+        }
+    }
+}
+
+/// The remainder falls with the stated exponent.
+#[test]
+fn remainders_have_the_stated_exponents() {
+    for n in [1, 2] {
+        let ratio = MassRatio::new(0.5).unwrap();
+        let map = LiftOffMap::new(ratio);
+        let (right, left) = (Right::new(n, ratio).unwrap(), Left::new(n, ratio).unwrap());
+        let right_rest = |d: f64| {
+            right.displacement(d).unwrap().value - map.hop_about(n, d).unwrap().next.unwrap()
+        };
+        let left_rest = |d: f64| {
+            left.displacement(d).unwrap().value - map.hop_about(n, d).unwrap().next.unwrap()
+        };
+        let slope = (right_rest(1e-3) / right_rest(1e-4)).abs().log10();
+        assert!((slope - Right::NEGLECTED_EXPONENT).abs() < 0.06, "n={n} right: {slope}");
+        let slope = (left_rest(-1e-7) / left_rest(-1e-9)).abs().log10() / 2.0;
+        assert!((slope - Left::NEGLECTED_EXPONENT).abs() < 0.06, "n={n} left: {slope}");
+    }
+}
+
+#[test]
+fn outside_is_an_error() {
+    let right = Right::new(1, MassRatio::ONE).unwrap();
+    let left = Left::new(1, MassRatio::ONE).unwrap();
+    for delta in [-1e-9, 0.2, f64::NAN, f64::INFINITY] {
+        assert!(matches!(right.displacement(delta), Err(Error::OutsideRange { .. })));
+    }
+    for delta in [1e-9, -0.2, f64::NAN] {
+        assert!(matches!(left.displacement(delta), Err(Error::OutsideRange { .. })));
+    }
+    assert!(Right::new(0, MassRatio::ONE).is_err() && Left::new(0, MassRatio::ONE).is_err());
 }

@@ -1,0 +1,83 @@
+//! The right side of a fixed point, to five orders.
+
+use crate::{Coefficients, Error, Form};
+use passive_hopper::MassRatio;
+
+/// A value of an expansion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expansion {
+    /// The truncated sum.
+    pub value: f64,
+    /// Bound on its distance from the exact map: the first neglected term, with its coefficient
+    /// measured, and the rounding of the sum.
+    pub error: f64,
+}
+
+/// δ′ = δ − λδ^{4/3} [1 + ℓ₅δ^{1/3} + ℓ₆δ^{2/3} + ℓ₇δ + ℓ₈δ^{4/3}] + O(δ³), δ > 0.
+///
+/// With a = α*, β³ = 12a²/(1+a²):
+///
+/// ```text
+///   ℓ₅ = β/a     ℓ₆ = −β² (4a² − 25)/(40a²)     ℓ₇ = −(24a² − 43)/(12a (1+a²))
+///   ℓ₈ = β [25200a⁴β³μ + 144a⁴β³ − 29400a²β³ − 403200a² + 83825β³]/(403200a⁴)
+/// ```
+///
+/// ```
+/// use hopper_asymptotics::Right;
+/// use passive_hopper::{LiftOffMap, MassRatio};
+/// let series = Right::new(1, MassRatio::ONE)?.displacement(1e-3)?;
+/// let exact = LiftOffMap::new(MassRatio::ONE).hop_about(1, 1e-3)?.next.expect("it hops again");
+/// assert!((series.value - exact).abs() <= series.error && series.error < 2e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Right {
+    /// λ, corrected.
+    pub lambda: f64,
+    /// ℓ₅, ℓ₆, ℓ₇, ℓ₈.
+    pub l: [f64; 4],
+}
+
+/// Largest δ at which the error was measured.
+pub const RIGHT_RANGE: f64 = 0.1;
+
+/// |ℓ₉| and what follows: at most 0.44 for n = 1…100, M = 10⁻³…10³, δ up to the range.
+const NEGLECTED: f64 = 0.5;
+
+impl Right {
+    /// Exponent of the first neglected term of δ′.
+    pub const NEGLECTED_EXPONENT: f64 = 3.0;
+
+    /// The expansion about α*_n.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for n = 0.
+    pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
+        let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
+        let (a, b, mu) = (local.alpha_star, local.beta, mass_ratio.mu());
+        let square = a * a;
+        let cube = b * b * b;
+        let l5 = b / a;
+        let l6 = -b * b * (4.0 - 25.0 / square) / 40.0;
+        let l7 = -(24.0 - 43.0 / square) / (12.0 * a * (1.0 + 1.0 / square));
+        let bracket = cube * (25_200.0 * mu + 144.0) - (29_400.0 * cube + 403_200.0) / square
+            + 83_825.0 * cube / (square * square);
+        Ok(Right { lambda: local.lambda, l: [l5, l6, l7, b * bracket / 403_200.0] })
+    }
+
+    /// δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`].
+    ///
+    /// # Errors
+    /// [`Error::OutsideRange`] elsewhere.
+    pub fn displacement(&self, delta: f64) -> Result<Expansion, Error> {
+        if !(0.0..=RIGHT_RANGE).contains(&delta) {
+            return Err(Error::OutsideRange { value: delta, left: 0.0, right: RIGHT_RANGE });
+        }
+        let root = pxfm::f_cbrt(delta);
+        let leading = self.lambda * delta * root;
+        let series = self.l.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
+        let rounding = 4.0 * f64::EPSILON * (delta + leading);
+        let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
+        Ok(Expansion { value: delta - leading * (1.0 + series), error })
+    }
+}
