@@ -12,8 +12,8 @@ pub enum Error {
         /// The index given.
         n: u64,
     },
-    /// Outside the range in which the error of the expansion was measured.
-    #[error("the expansion is for offsets from {left} to {right}, not {value}")]
+    /// Outside the range in which the error of the expansion was measured: of an offset, a speed, or λ.
+    #[error("the expansion holds from {left} to {right}, not at {value}")]
     OutsideRange {
         /// The value given.
         value: f64,

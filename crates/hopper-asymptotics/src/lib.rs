@@ -12,7 +12,9 @@
 //! | [`Form`] | the paper's λ, or the corrected one |
 //! | [`LEFT_FACTOR`] | the 10 |
 //! | [`Right`], [`Left`], [`Expansion`] | the map to higher orders on either side, with its error |
-//! | [`Decay`] | the algebraic approach: δ after k hops, hops until δ |
+//! | [`Decay`] | the law of the algebraic approach, and the number of hops it takes |
+//! | [`ladder`], [`interval_length`] | α*_n and Δ_n for large n |
+//! | [`small_hop_loss`] | the map about α*_0 = 0 |
 //!
 //! ```
 //! use hopper_asymptotics::{Coefficients, Form};
@@ -31,7 +33,7 @@
 //! measurement; the leading-order map of [`Coefficients`] errs by the next term, which it states.
 //!
 //! # Not here
-//! The expansions about α*_0 = 0 and for n → ∞, higher orders of Δ.
+//! Values where no expansion holds: the exact map is in `passive-hopper`, exact Δ in `hopper-basin`.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
@@ -40,13 +42,17 @@
 mod coefficients;
 mod decay;
 mod error;
+mod ladder;
 mod left;
 mod local_map;
 mod right;
+mod small_alpha;
 
 pub use coefficients::{Coefficients, Form};
 pub use decay::Decay;
 pub use error::Error;
+pub use ladder::{SMALLEST_LAMBDA, interval_length, ladder};
 pub use left::{LEFT_RANGE, Left};
 pub use local_map::LEFT_FACTOR;
 pub use right::{Expansion, RIGHT_RANGE, Right};
+pub use small_alpha::{SMALL_ALPHA_RANGE, small_hop_loss};

@@ -4,7 +4,10 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use hopper_asymptotics::{Coefficients, Error, Form, Left, RIGHT_RANGE, Right};
+use hopper_asymptotics::{
+    Coefficients, Error, Form, Left, RIGHT_RANGE, Right, SMALL_ALPHA_RANGE, interval_length,
+    ladder, small_hop_loss,
+};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 
 /// Computed with 50 to 130 digits (mpmath), independently of this project.
@@ -119,6 +122,39 @@ fn remainders_have_the_stated_exponents() {
         let slope = (left_rest(-1e-7) / left_rest(-1e-9)).abs().log10() / 2.0;
         assert!((slope - Left::NEGLECTED_EXPONENT).abs() < 0.06, "n={n} left: {slope}");
     }
+}
+
+/// Δ exact, of 40 digits, lies within the stated error; and so do α*_n and small hops.
+#[test]
+fn lengths_ladder_and_small_hops_keep_their_bounds() {
+    let rows: Vec<serde_json::Value> = serde_json::from_str(REFERENCE).unwrap();
+    let mut compared = 0;
+    for row in &rows {
+        let number = |key: &str| row[key].as_str().unwrap().parse::<f64>().unwrap();
+        let ratio = MassRatio::new(number("mass_ratio")).unwrap();
+        let Ok(length) = interval_length(row["n"].as_u64().unwrap(), ratio) else { continue };
+        assert!((length.value - number("delta_exact")).abs() <= length.error, "{row} {length:?}");
+        compared += 1;
+    }
+    assert!(compared > 50, "{compared}");
+    for n in [1, 2, 5, 20, 1000, 1_000_000] {
+        let series = ladder(n).unwrap();
+        assert!((series.value - alpha_star(n).high).abs() <= series.error, "{n} {series:?}");
+    }
+    for m in RATIOS {
+        let map = LiftOffMap::new(MassRatio::new(m).unwrap());
+        for k in 0..40 {
+            let alpha = SMALL_ALPHA_RANGE * 10f64.powf(-0.25 * f64::from(k));
+            let loss = small_hop_loss(map.mass_ratio(), alpha).unwrap();
+            let exact = map.hop(alpha).unwrap().loss.unwrap();
+            assert!(
+                (loss.value - exact).abs() <= loss.error,
+                "M={m} α={alpha}: {loss:?} {exact:e}"
+            );
+        }
+    }
+    assert!(small_hop_loss(MassRatio::ONE, 0.5).is_err() && ladder(0).is_err());
+    assert!(interval_length(1, MassRatio::new(0.1).unwrap()).is_err());
 }
 
 #[test]

@@ -1,0 +1,36 @@
+//! Small hops: the map about α*_0 = 0.
+
+use crate::{Error, Expansion};
+use passive_hopper::MassRatio;
+
+/// Largest α at which the error was measured.
+pub const SMALL_ALPHA_RANGE: f64 = 0.3;
+
+/// |c₄| and what follows in 1 − (8/5)α² + c₄α⁴ + …: at most 4.3, for μ up to ¼.
+const NEGLECTED: f64 = 5.0;
+
+/// The loss α − f(α) = (32/9) μ α⁵ [1 − (8/5) α²] + O(α⁹) of a small hop.
+///
+/// From h = 2α (1 − 4α²/15 + …) and Γ = h³/3 (1 + O(h⁴)): μΓ² = (64/9) μ α⁶ (1 − (8/5) α² + …), and
+/// the loss is μΓ²/(α + α′). Hops die out, α_k ~ (128 μk/9)^{−1/4}, and never stop.
+///
+/// ```
+/// use hopper_asymptotics::small_hop_loss;
+/// use passive_hopper::{LiftOffMap, MassRatio};
+/// let loss = small_hop_loss(MassRatio::ONE, 0.01)?;
+/// let exact = LiftOffMap::new(MassRatio::ONE).hop(0.01)?.loss.expect("it hops again");
+/// assert!((loss.value - exact).abs() <= loss.error && loss.error < 1e-7 * exact);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`Error::OutsideRange`] unless 0 ≤ α ≤ [`SMALL_ALPHA_RANGE`].
+pub fn small_hop_loss(mass_ratio: MassRatio, alpha: f64) -> Result<Expansion, Error> {
+    if !(0.0..=SMALL_ALPHA_RANGE).contains(&alpha) {
+        return Err(Error::OutsideRange { value: alpha, left: 0.0, right: SMALL_ALPHA_RANGE });
+    }
+    let square = alpha * alpha;
+    let leading = 32.0 / 9.0 * mass_ratio.mu() * alpha * square * square;
+    let error = leading * (NEGLECTED * square * square + 16.0 * f64::EPSILON);
+    Ok(Expansion { value: leading * (1.0 - 1.6 * square), error })
+}
