@@ -7,9 +7,12 @@ use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 
 /// Sudden lift-offs that one hop may have before it is given up with an error.
 ///
-/// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; at M = 3·10⁴ scans find some
-/// thousands. A hop that uses up the budget takes about 0.1 s.
+/// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. A hop
+/// that uses up the budget takes some tenths of a second.
 pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
+
+/// Sudden lift-offs up to which a hop in doubt is computed again with 106 bits, some seconds' work.
+const WIDE_BUDGET: usize = 100_000;
 
 /// The map from one gradual lift-off speed to the next, at a fixed mass ratio.
 ///
@@ -100,7 +103,8 @@ impl LiftOffMap {
             doubt.pass(&landing, self.kappa);
         }
         let t = self.mu * shares;
-        if doubt.is_real(1.0 - t, self.mu, alpha) {
+        let in_doubt = doubt.is_real(1.0 - t, self.mu, alpha);
+        if in_doubt && sudden <= WIDE_BUDGET {
             return self.hop_in_doubt(alpha);
         }
         // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
@@ -166,7 +170,7 @@ impl Iterator for Landings {
         if self.flights > SUDDEN_LIFT_OFF_BUDGET {
             self.start = None;
             let TakeOff { excess, velocity } = start;
-            let sudden = self.flights;
+            let sudden = self.flights - 1;
             return Some(Err(Error::SuddenLiftOffBudget { sudden, excess, velocity }));
         }
         let landing = if self.flights == 0 {
