@@ -41,7 +41,9 @@ impl HopperFate {
     }
 }
 
-/// Hops followed before a fate is given up as undecided, some seconds' work.
+/// Hops followed before a fate is given up as undecided: about a second's work where a hop has few
+/// sudden lift-offs. (At M above 10⁴ one hop may have thousands; give
+/// [`fate_within`](Fates::fate_within) a smaller budget there.)
 ///
 /// Just left of a fixed point an orbit leaves in 3/(10 λ) δ^{−1/3} hops, some 10⁵/(10λ) from an ulp
 /// away; λ is proportional to μ. For M so small that this would be more, the whole interval is a

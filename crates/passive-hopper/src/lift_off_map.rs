@@ -111,7 +111,7 @@ impl LiftOffMap {
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
         let radicand = alpha * alpha * (1.0 - t);
-        Ok(Hop { speed: alpha, next, loss, radicand, sudden, flight_time, certain: true })
+        Ok(Hop { speed: alpha, next, loss, radicand, sudden, flight_time, certain: !in_doubt })
     }
 
     /// The same in double-double arithmetic.
