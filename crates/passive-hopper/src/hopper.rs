@@ -119,7 +119,9 @@ impl Hopper {
             self.landing_from_ground(TakeOff { excess, velocity })
         } else {
             let time = landing_time(&flight)?;
-            (time, HopperState { lower_position: 0.0, ..flight.state(time) })
+            // On the ground y₁ is the stretch itself: P, which may be huge, has no part in it.
+            let upper_position = flight.stretch(time).0;
+            (time, HopperState { upper_position, lower_position: 0.0, ..flight.state(time) })
         };
         // Bracketed by theory, then refined.
         Ok(Crossing {

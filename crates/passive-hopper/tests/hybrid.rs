@@ -181,6 +181,24 @@ fn flight_times_agree_with_forty_digits() {
     }
 }
 
+/// Found by fuzzing: a fall from the air at the largest speeds, where P ~ 10²⁴ has an ulp of 10⁸.
+#[test]
+fn huge_falls_gain_no_energy() {
+    let hopper = hopper(2.375_217_873_208_651);
+    let ratio = hopper.mass_ratio();
+    let start = HopperState {
+        upper_velocity: 1_723_624_292_367.437_5,
+        lower_position: 2.000_006_519_228_990_4,
+        ..HopperState::RELAXED
+    };
+    let mut before = energy(ratio, &start) * (1.0 + 1e-12);
+    for arc in Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(f64::INFINITY, 8)) {
+        let now = energy(ratio, &arc.unwrap().start.into());
+        assert!(now <= before * (1.0 + 1e-12), "{now:e} after {before:e}");
+        before = now;
+    }
+}
+
 /// SciML DifferentialEquations.jl #647: g = 9.8, k = 500, natural length 1, masses 1, dropped from
 /// heights 5 and 6. Exact values in closed form; elsewhere it crashed.
 #[test]
