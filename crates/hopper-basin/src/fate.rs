@@ -76,8 +76,10 @@ impl Fates {
     /// # Errors
     /// As [`Trap::new`].
     pub fn new(mass_ratio: MassRatio) -> Result<Self, Error> {
-        Trap::new(0, mass_ratio)?;
-        Ok(Fates { map: LiftOffMap::new(mass_ratio), first: [const { OnceLock::new() }; 64] })
+        let map = LiftOffMap::new(mass_ratio);
+        let fates = Fates { map, first: [const { OnceLock::new() }; 64] };
+        fates.trap(0)?; // nearly every orbit asks for it
+        Ok(fates)
     }
 
     /// The map.

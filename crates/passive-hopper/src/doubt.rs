@@ -14,7 +14,6 @@ const LANDING_ULPS: f64 = 16.0;
 pub(crate) struct Doubt {
     start: TakeOff,
     error: Variation,
-    first: bool,
     doubtful: bool,
     flights: f64,
     /// Relative rounding error of the arithmetic.
@@ -29,7 +28,6 @@ impl Doubt {
         Doubt {
             start: TakeOff { excess: 0.0, velocity: alpha },
             error: Variation { excess: 0.0, velocity: 0.0 },
-            first: true,
             doubtful: false,
             flights: 0.0,
             epsilon,
@@ -39,16 +37,17 @@ impl Doubt {
 
     /// Takes the errors through a flight to its landing.
     pub(crate) fn pass(&mut self, landing: &Landing, kappa: f64) {
+        let first = self.flights == 0.0;
         self.flights += 1.0;
         let TakeOff { excess, velocity } = self.start;
         let size = 1.0 + excess + velocity.abs() + landing.time + landing.closing_speed;
         let rounding = LANDING_ULPS * self.epsilon * size;
-        if !self.first {
+        if !first {
             // On which branch it lands, for a flight that passes near a touch.
             let slack = rounding + self.error.excess + size * self.error.velocity;
             self.doubtful |= velocity >= PI && maximum_test(self.start).abs() <= slack;
         }
-        if landing.sudden || !self.first {
+        if landing.sudden || !first {
             let by_excess = Variation { excess: self.error.excess, velocity: 0.0 };
             // A rounding in h acts like one in V: the residual is a backward error.
             let by_velocity =
@@ -61,10 +60,9 @@ impl Doubt {
                 velocity: rounding + a.velocity.abs() + b.velocity.abs(),
             };
         }
-        if !self.first {
+        if !first {
             self.doubtful |= !(landing.excess.abs() > self.error.excess);
         }
-        self.first = false;
         self.start = TakeOff { excess: landing.excess, velocity: landing.velocity };
     }
 

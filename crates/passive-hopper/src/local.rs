@@ -52,7 +52,8 @@ impl LiftOffMap {
     ///
     /// # Errors
     /// [`Error::Offset`] unless n ≥ 1 and α lies in the cell of α*_n, outside 10⁻³⁰⁰ of α*_n (an
-    /// offset of zero is welcome); [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop).
+    /// offset of zero is welcome); [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop);
+    /// [`Error::Undecided`] where 106 bits do not give the verdicts.
     pub fn hop_about(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
         let star = alpha_star(n);
         let (left, right) = ends(n, star);
@@ -99,6 +100,10 @@ impl LiftOffMap {
         let hop = wide_chain(first, delta < 0.0, alpha.high, ratio)?;
         let loss = ratio.mu * hop.loss;
         let radicand = alpha.squared() - loss;
+        let share = (radicand / alpha.squared()).high;
+        if hop.doubt.is_real(share, ratio.mu.high, alpha.high) {
+            return Err(Error::Undecided { alpha: alpha.high, sudden: hop.sudden });
+        }
         let next = (radicand.high > 0.0).then(|| {
             let sum = alpha + radicand.sqrt();
             (DoubleDouble::from(delta) - loss / sum).high

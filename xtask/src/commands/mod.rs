@@ -5,8 +5,29 @@ pub mod reproduce_paper;
 pub mod tidy;
 pub mod verify_invariance;
 
+use crate::Error;
 use crate::claims::{Claim, Verdict};
+use crate::figures::{Build, Figure};
+use crate::output::{Folder, repository};
 use crate::plot::label::html;
+use crate::plot::render::{Rendered, render};
+use crate::progress::Progress;
+use std::path::Path;
+
+/// The folder for results: the one asked for, or target/paper in the repository.
+fn results_folder(out: Option<&Path>) -> Result<Folder, Error> {
+    out.map_or_else(|| Folder::open(&repository().join("target/paper")), Folder::open)
+}
+
+/// Builds a figure and writes it in both forms, with its data.
+fn make_figure(folder: &Folder, build: Build) -> Result<(Figure, Rendered), Error> {
+    let figure = build(&Progress)?;
+    let rendered = render(figure.name, &figure.svg, 2.0)?;
+    folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?;
+    folder.write(&format!("{}.png", figure.name), &rendered.png)?;
+    figure.data.iter().try_for_each(|file| folder.write(&file.name, &file.bytes))?;
+    Ok((figure, rendered))
+}
 
 /// A claim on a line of the terminal, without markup.
 fn line(claim: &Claim) -> String {
@@ -33,6 +54,10 @@ fn plain(markup: &str) -> String {
     text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
 }
 
-fn failed(claims: &[Claim]) -> usize {
-    claims.iter().filter(|claim| claim.verdict == Verdict::Fails).count()
+/// An error if a claim fails.
+fn all_hold(claims: &[Claim]) -> Result<(), Error> {
+    match claims.iter().filter(|claim| claim.verdict == Verdict::Fails).count() {
+        0 => Ok(()),
+        count => Err(Error::CheckFailed(format!("{count} claims fail"))),
+    }
 }

@@ -1,10 +1,10 @@
 //! `reproduce-paper`: every figure and every number, and a report.
 
-use super::{failed, line};
+use super::{all_hold, line, make_figure, results_folder};
 use crate::claims::{self, Claim};
 use crate::figures::{self, Figure};
 use crate::output::{Folder, digest, read, repository};
-use crate::plot::render::{Rendered, render};
+use crate::plot::render::Rendered;
 use crate::progress::Progress;
 use crate::{Error, report};
 use std::collections::BTreeMap;
@@ -49,8 +49,7 @@ const DIGESTS: &str = "digests.json";
 pub fn run(options: &Options) -> Result<(), Error> {
     let begin = Instant::now();
     let chosen = figures::named(&options.only)?;
-    let folder =
-        Folder::open(&options.out.clone().unwrap_or_else(|| repository().join("target/paper")))?;
+    let folder = results_folder(options.out.as_deref())?;
     let mut out = std::io::stdout().lock();
     let mut say = |text: &str| {
         writeln!(out, "{text}")
@@ -58,9 +57,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     };
     let mut made = Vec::new();
     for (name, build) in chosen {
-        let figure = build(&Progress)?;
-        let rendered = render(name, &figure.svg, 2.0)?;
-        write(&folder, &figure, &rendered)?;
+        let (figure, rendered) = make_figure(&folder, build)?;
         say(&format!(
             "{name:10} {}",
             folder.path().join(format!("{}.png", figure.name)).display()
@@ -91,16 +88,7 @@ fn verdict(claims: &[Claim], differing: &[String]) -> Result<(), Error> {
             differing.join(", ")
         )));
     }
-    match failed(claims) {
-        0 => Ok(()),
-        count => Err(Error::CheckFailed(format!("{count} claims fail"))),
-    }
-}
-
-fn write(folder: &Folder, figure: &Figure, rendered: &Rendered) -> Result<(), Error> {
-    folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?;
-    folder.write(&format!("{}.png", figure.name), &rendered.png)?;
-    figure.data.iter().try_for_each(|file| folder.write(&file.name, &file.bytes))
+    all_hold(claims)
 }
 
 /// Digests of all numbers; images of them depend on the encoder as well.

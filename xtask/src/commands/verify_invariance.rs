@@ -1,8 +1,6 @@
 //! `verify-invariance`: the claim of Eq. 23 alone, with its figure.
 
-use super::{failed, line};
-use crate::output::{Folder, repository};
-use crate::plot::render::render;
+use super::{all_hold, line, make_figure, results_folder};
 use crate::progress::Progress;
 use crate::{Error, claims, figures};
 use std::io::Write;
@@ -18,15 +16,10 @@ pub struct Options {
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
-    let folder =
-        Folder::open(&options.out.clone().unwrap_or_else(|| repository().join("target/paper")))?;
+    let folder = results_folder(options.out.as_deref())?;
     let claims = claims::invariance(&Progress)?;
     for (_, build) in figures::named(&["invariance".into()])? {
-        let figure = build(&Progress)?;
-        let rendered = render(figure.name, &figure.svg, 2.0)?;
-        folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?;
-        folder.write(&format!("{}.png", figure.name), &rendered.png)?;
-        figure.data.iter().try_for_each(|file| folder.write(&file.name, &file.bytes))?;
+        make_figure(&folder, build)?;
     }
     let mut out = std::io::stdout().lock();
     let write = |source| Error::File { path: "standard output".into(), source };
@@ -35,8 +28,5 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
     writeln!(out, "figure     {}", folder.path().join("invariance.svg").display())
         .map_err(write)?;
-    match failed(&claims) {
-        0 => Ok(()),
-        count => Err(Error::CheckFailed(format!("{count} claims fail"))),
-    }
+    all_hold(&claims)
 }
