@@ -75,9 +75,11 @@ pub enum Error {
         /// Its velocity.
         velocity: f64,
     },
-    /// A hop on whose way a verdict is smaller than the rounding error of 106 bits.
+    /// A hop on whose way a verdict is smaller than the rounding error of 1024 bits, or of fewer if
+    /// more would take minutes.
     #[error(
-        "the hop from {alpha} depends on less than 106 bits resolve, after {sudden} sudden lift-offs"
+        "the hop from {alpha}, with about {sudden} sudden lift-offs, depends on more digits than the \
+         longest arithmetic keeps"
     )]
     Undecided {
         /// The lift-off speed.

@@ -42,14 +42,13 @@
 //! backward error in the speed. Against 3010 reference hops of 40 digits, random ones and ones within
 //! 2⁻⁴⁸ of a change of branch, the error of α′ is at most 4 (1 + sudden lift-offs) of the unit
 //! ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³ (`cargo xtask check-reference`). Verdicts
-//! (sudden or not, grounded or not) that 53 bits cannot give are computed with 106; a hop that needs
-//! more says so ([`Hop::certain`]). Near a fixed point [`LiftOffMap::hop_about`] keeps 8 ulps of δ
+//! (sudden or not, grounded or not) that 53 bits cannot give are computed with 106 to 1024; a hop that
+//! needs more says so ([`Hop::certain`]). Near a fixed point [`LiftOffMap::hop_about`] keeps 8 ulps of δ
 //! itself. Sines and cosines are correctly rounded: the same bits on every machine.
 //!
 //! # Not here
 //! Integrators (every phase is closed-form), basins (`hopper-basin`), expansions
-//! (`hopper-asymptotics`), more than 106 bits: at speeds above 10⁶ a chain of four sudden lift-offs
-//! magnifies an error by 10²⁴ and may stay undecided.
+//! (`hopper-asymptotics`), lift-off speeds above 2⁴³, where an ulp of α is too coarse to name a phase.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
@@ -68,10 +67,12 @@ mod hopper;
 mod landing;
 mod lift_off_map;
 mod local;
+mod long;
 mod lossless;
 mod mass_ratio;
 mod motion;
 mod printed;
+mod real;
 mod state;
 mod variation;
 mod wide;

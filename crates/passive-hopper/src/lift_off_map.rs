@@ -2,7 +2,8 @@
 
 use crate::doubt::Doubt;
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
-use crate::wide::{WideRatio, wide_hop};
+use crate::real::Real;
+use crate::wide::{Start, wide_hop};
 use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 
 /// Sudden lift-offs that one hop may have before it is given up with an error.
@@ -10,9 +11,6 @@ use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 /// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. A hop
 /// that uses up the budget takes some tenths of a second.
 pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
-
-/// Sudden lift-offs up to which a hop in doubt is computed again with 106 bits, some seconds' work.
-const WIDE_BUDGET: usize = 100_000;
 
 /// The map from one gradual lift-off speed to the next, at a fixed mass ratio.
 ///
@@ -55,8 +53,8 @@ pub struct Hop {
     /// Total time of flight τ.
     pub flight_time: f64,
     /// Whether every verdict on the way (sudden or not, on which branch a flight lands, grounded or
-    /// not) is larger than its rounding error. What 53 bits leave open is computed with 106; false
-    /// means that these do not suffice either.
+    /// not) is larger than its rounding error. What 53 bits leave open is computed with 106, and then
+    /// with up to 1024; false means that these do not suffice either, or would take too long.
     pub certain: bool,
 }
 
@@ -104,7 +102,7 @@ impl LiftOffMap {
         }
         let t = self.mu * shares;
         let in_doubt = doubt.is_real(1.0 - t, self.mu, alpha);
-        if in_doubt && sudden <= WIDE_BUDGET {
+        if in_doubt && sudden <= DoubleDouble::SUDDEN_BUDGET {
             return self.hop_in_doubt(alpha);
         }
         // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
@@ -114,24 +112,17 @@ impl LiftOffMap {
         Ok(Hop { speed: alpha, next, loss, radicand, sudden, flight_time, certain: !in_doubt })
     }
 
-    /// The same in double-double arithmetic.
+    /// The same in longer arithmetic.
     fn hop_in_doubt(&self, alpha: f64) -> Result<Hop, Error> {
-        let ratio = WideRatio::new(self.mass_ratio);
-        let hop = wide_hop(alpha, ratio)?;
-        let start = DoubleDouble::from(alpha);
-        let taken = ratio.mu * hop.loss;
-        let radicand = start.squared() - taken;
-        let share = (radicand / start.squared()).high;
-        let certain = !hop.doubt.is_real(share, self.mu, alpha);
-        let root = (radicand.high > 0.0).then(|| radicand.sqrt());
+        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
         Ok(Hop {
             speed: alpha,
-            next: root.map(|root| root.high),
-            loss: root.map(|root| (taken / (start + root)).high),
-            radicand: radicand.high,
+            next: hop.next.as_ref().map(|next| next.speed),
+            loss: hop.next.as_ref().map(|next| next.loss),
+            radicand: hop.radicand,
             sudden: hop.sudden,
             flight_time: hop.flight_time,
-            certain,
+            certain: hop.certain,
         })
     }
 

@@ -9,11 +9,12 @@
 //! ```
 //!
 //! Nothing cancels but in δ − loss, near the end of an interval of attraction: there the hop is
-//! computed in double-double arithmetic.
+//! computed in longer arithmetic.
 
-use crate::double_double::{DoubleDouble, inverse_factorials};
+use crate::double_double::DoubleDouble;
 use crate::landing::next_landing;
-use crate::wide::{WideLanding, WideRatio, wide_chain};
+use crate::real::Real;
+use crate::wide::{Start, WideLanding, wide_hop};
 use crate::{Error, LiftOffMap, TakeOff, alpha_star};
 use std::f64::consts::PI;
 
@@ -53,7 +54,7 @@ impl LiftOffMap {
     /// # Errors
     /// [`Error::Offset`] unless n ≥ 1 and α lies in the cell of α*_n, outside 10⁻³⁰⁰ of α*_n (an
     /// offset of zero is welcome); [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop);
-    /// [`Error::Undecided`] where 106 bits do not give the verdicts.
+    /// [`Error::Undecided`] where 1024 bits do not give the verdicts.
     pub fn hop_about(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
         let star = alpha_star(n);
         let (left, right) = ends(n, star);
@@ -66,7 +67,7 @@ impl LiftOffMap {
         }
         let local = LocalFlight { a: star.high };
         let t = local.time_shift(delta);
-        self.fast(&local, delta, t).map_or_else(|| self.wide(star, delta), Ok)
+        self.fast(&local, delta, t).map_or_else(|| self.wide(n, delta, t), Ok)
     }
 
     /// In plain `f64`; nothing if the loss is not small against δ.
@@ -92,23 +93,13 @@ impl LiftOffMap {
         Some(LocalHop { next: Some(delta - change), sudden, time_shift: t })
     }
 
-    fn wide(&self, star: DoubleDouble, delta: f64) -> Result<LocalHop, Error> {
-        let ratio = WideRatio::new(self.mass_ratio());
-        let local = WideLocal::new(star);
-        let first = local.landing(delta.into(), ratio.kappa);
-        let alpha = star + delta;
-        let hop = wide_chain(first, delta < 0.0, alpha.high, ratio)?;
-        let loss = ratio.mu * hop.loss;
-        let radicand = alpha.squared() - loss;
-        let share = (radicand / alpha.squared()).high;
-        if hop.doubt.is_real(share, ratio.mu.high, alpha.high) {
-            return Err(Error::Undecided { alpha: alpha.high, sudden: hop.sudden });
+    fn wide(&self, n: u64, delta: f64, time_shift: f64) -> Result<LocalHop, Error> {
+        let hop = wide_hop(Start::Offset { n, delta }, self.mass_ratio())?;
+        if !hop.certain {
+            let alpha = alpha_star(n).high + delta;
+            return Err(Error::Undecided { alpha, sudden: hop.sudden });
         }
-        let next = (radicand.high > 0.0).then(|| {
-            let sum = alpha + radicand.sqrt();
-            (DoubleDouble::from(delta) - loss / sum).high
-        });
-        let time_shift = (first.time - star * 2.0).high;
+        let next = hop.next.map(|next| next.offset);
         Ok(LocalHop { next, sudden: hop.sudden, time_shift })
     }
 }
@@ -215,49 +206,59 @@ impl LocalFlight {
     }
 }
 
-/// The local functions in double-double arithmetic.
-pub(crate) struct WideLocal {
-    a: DoubleDouble,
-    r2: DoubleDouble,
+/// The local functions in longer arithmetic.
+pub(crate) struct WideLocal<R> {
+    a: R,
+    r2: R,
 }
 
-impl WideLocal {
-    pub(crate) fn new(star: DoubleDouble) -> Self {
+impl<R: Real> WideLocal<R> {
+    pub(crate) fn new(star: R) -> Self {
         WideLocal { a: star, r2: star.squared() + 1.0 }
     }
 
     /// δ(t), Q(t).
-    fn offset(&self, t: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
+    fn offset(&self, t: R) -> (R, R) {
         let (sin, cos) = t.sin_cos();
-        let (rest, bend) = if t.high.abs() < 1.0 {
+        let (rest, bend) = if t.nearest().abs() < 1.0 {
             remainders(t)
         } else {
-            (t - sin, t.squared() * 0.5 - DoubleDouble::ONE + cos)
+            (t - sin, t.squared() * 0.5 + cos + -1.0)
         };
         let a = self.a;
-        let sine = (a * cos * 2.0 + (DoubleDouble::ONE - a.squared()) * sin) / self.r2;
+        let sine = (a * cos * 2.0 + (-a.squared() + 1.0) * sin) / self.r2;
         let q = a * 2.0 + t - sine;
         ((a * rest + bend) / q, q)
     }
 
+    /// b(η).
+    fn b(&self, eta: R) -> (R, R, R) {
+        let (sin, cos) = eta.sin_cos();
+        ((self.a * (self.a + eta) + 1.0) * sin - eta * cos, sin, cos)
+    }
+
     /// The first landing from α = a + `delta`.
-    pub(crate) fn landing(&self, delta: DoubleDouble, kappa: DoubleDouble) -> WideLanding {
-        let mut t = DoubleDouble::from(LocalFlight { a: self.a.high }.time_shift(delta.high));
-        for _ in 0..2 {
+    pub(crate) fn landing(&self, delta: R, kappa: R) -> WideLanding<R> {
+        let start = LocalFlight { a: self.a.nearest() }.time_shift(delta.nearest());
+        let mut t = R::from(start);
+        for _ in 0..NEWTON_STEPS {
             let (offset, q) = self.offset(t);
-            let b = LocalFlight { a: self.a.high }.b(0.5 * t.high);
-            let slope = 4.0 * (b / q.high) * (b / q.high) / self.r2.high;
-            let residual = offset - delta;
-            if slope > 0.0 {
-                t = t - DoubleDouble::exact_sum(residual.high / slope, residual.low / slope);
+            let scaled = self.b(t * 0.5).0 / q;
+            let slope = scaled.squared() * 4.0 / self.r2;
+            if slope.nearest() == 0.0 {
+                break;
             }
+            let step = (offset - delta) / slope;
+            if !(step.nearest().abs() > R::EPSILON * t.nearest().abs()) {
+                break;
+            }
+            t = t - step;
         }
         let q = self.offset(t).1;
         let eta = t * 0.5;
-        let (sin, cos) = eta.sin_cos();
-        let b = (DoubleDouble::ONE + self.a * (self.a + eta)) * sin - eta * cos;
+        let (b, sin, cos) = self.b(eta);
         let scale = b / (q * self.r2);
-        let beyond = -(self.a * cos + sin) * scale * 2.0;
+        let beyond = (self.a * cos + sin) * scale * -2.0;
         let h = self.a + eta;
         let closing_speed = b * scale * 4.0;
         WideLanding {
@@ -269,14 +270,25 @@ impl WideLocal {
     }
 }
 
+/// From 15 digits each step doubles them.
+const NEWTON_STEPS: usize = 10;
+
 /// t − sin t and t²/2 − 1 + cos t by their series.
-fn remainders(t: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
-    let square = t.squared();
-    let inverse = inverse_factorials();
-    let (mut odd, mut even) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
-    for k in (0..15).rev() {
-        odd = inverse[2 * k + 3] - odd * square;
-        even = inverse[2 * k + 4] - even * square;
+fn remainders<R: Real>(t: R) -> (R, R) {
+    let minus_square = -t.squared();
+    let (mut odd, mut even) = (t * minus_square, minus_square.squared());
+    (odd, even) = (-odd.over(6), even.over(24));
+    let (mut rest, mut bend) = (odd, even);
+    for k in 2..=SERIES_TERMS {
+        odd = (odd * minus_square).over(2 * k * (2 * k + 1));
+        even = (even * minus_square).over((2 * k + 1) * (2 * k + 2));
+        (rest, bend) = (rest + odd, bend + even);
+        if !(odd.nearest().abs() > R::EPSILON * rest.nearest().abs()) {
+            break;
+        }
     }
-    (odd * square * t, even * square.squared())
+    (rest, bend)
 }
+
+/// 1/(2k+1)! is under 2⁻¹⁰²⁴ here.
+const SERIES_TERMS: u32 = 90;

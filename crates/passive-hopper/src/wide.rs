@@ -1,28 +1,27 @@
-//! A hop in double-double arithmetic: for verdicts and values that 53 bits cannot give.
+//! A hop in long arithmetic: for verdicts and values that 53 bits cannot give.
 //!
 //! The formulas are those of `flight.rs` and `landing.rs`; near a fixed point those of `local.rs`.
-//! A hop takes some tens of microseconds, so it is computed only where the fast one is in doubt.
+//! In 106 bits a hop takes some tens of microseconds, in 1024 bits milliseconds: longer numbers are
+//! taken only where shorter ones are in doubt.
 
-use crate::double_double::{DoubleDouble, inverse_factorials};
 use crate::doubt::Doubt;
 use crate::landing::{Cell, TakeOff, next_root};
 use crate::local::WideLocal;
-use crate::{Error, Landing, MassRatio, SUDDEN_LIFT_OFF_BUDGET};
+use crate::long::Long;
+use crate::real::Real;
+use crate::{DoubleDouble, Error, Landing, MassRatio, SUDDEN_LIFT_OFF_BUDGET};
 use std::f64::consts::PI;
 
-/// Relative rounding error of double-double operations, 2⁻¹⁰⁰ to be safe.
-const EPSILON: f64 = 7.9e-31;
-
-/// μ and κ to 106 bits.
+/// μ and κ.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct WideRatio {
-    pub(crate) mu: DoubleDouble,
-    pub(crate) kappa: DoubleDouble,
+pub(crate) struct WideRatio<R> {
+    pub(crate) mu: R,
+    pub(crate) kappa: R,
 }
 
-impl WideRatio {
-    pub(crate) fn new(mass_ratio: MassRatio) -> Self {
-        let m = DoubleDouble::from(mass_ratio.value());
+impl<R: Real> WideRatio<R> {
+    fn new(mass_ratio: MassRatio) -> Self {
+        let m = R::from(mass_ratio.value());
         let whole = m + 1.0;
         let kappa = m / whole;
         WideRatio { mu: kappa / whole, kappa }
@@ -31,105 +30,190 @@ impl WideRatio {
 
 /// The end of a flight.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct WideLanding {
-    pub(crate) closing_speed: DoubleDouble,
-    pub(crate) excess: DoubleDouble,
-    pub(crate) velocity: DoubleDouble,
-    pub(crate) time: DoubleDouble,
+pub(crate) struct WideLanding<R> {
+    pub(crate) closing_speed: R,
+    pub(crate) excess: R,
+    pub(crate) velocity: R,
+    pub(crate) time: R,
 }
 
-impl WideLanding {
+impl<R: Real> WideLanding<R> {
     fn rounded(&self, sudden: bool) -> Landing {
         Landing {
-            time: self.time.high,
-            closing_speed: self.closing_speed.high,
-            excess: self.excess.high,
-            velocity: self.velocity.high,
+            time: self.time.nearest(),
+            closing_speed: self.closing_speed.nearest(),
+            excess: self.excess.nearest(),
+            velocity: self.velocity.nearest(),
             sudden,
         }
     }
 }
 
-/// A whole hop.
-pub(crate) struct WideHop {
-    /// Σ Γ².
-    pub(crate) loss: DoubleDouble,
-    pub(crate) sudden: usize,
-    pub(crate) flight_time: f64,
-    /// What its rounding errors leave open.
-    pub(crate) doubt: Doubt,
+/// Where a hop starts.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Start {
+    /// At α.
+    Speed(f64),
+    /// At α*_n + δ.
+    Offset { n: u64, delta: f64 },
 }
 
-/// The hop that starts with `alpha`.
-pub(crate) fn wide_hop(alpha: f64, ratio: WideRatio) -> Result<WideHop, Error> {
-    let cell = Cell::of(alpha);
-    let first = if cell.n == 0 {
-        next_wide(DoubleDouble::ZERO, alpha.into(), ratio.kappa, cell.root(alpha).half.h)
-    } else {
-        let local = WideLocal::new(cell.star);
-        local.landing(DoubleDouble::from(alpha) - cell.star, ratio.kappa)
+/// A whole hop, rounded to `f64`.
+pub(crate) struct WideHop {
+    /// Nothing if grounded.
+    pub(crate) next: Option<Next>,
+    /// α′².
+    pub(crate) radicand: f64,
+    pub(crate) sudden: usize,
+    pub(crate) flight_time: f64,
+    /// Whether all verdicts exceed their rounding errors.
+    pub(crate) certain: bool,
+}
+
+/// The lift-off that ends a hop.
+pub(crate) struct Next {
+    /// α′.
+    pub(crate) speed: f64,
+    /// α − α′.
+    pub(crate) loss: f64,
+    /// α′ − α*_n, if the hop started at an offset from it; otherwise α′.
+    pub(crate) offset: f64,
+}
+
+/// The hop in as many bits as it needs, at most 1024.
+pub(crate) fn wide_hop(start: Start, mass_ratio: MassRatio) -> Result<WideHop, Error> {
+    let levels = [
+        (hop_with::<DoubleDouble> as HopWith, DoubleDouble::SUDDEN_BUDGET),
+        (hop_with::<Long<4>>, Long::<4>::SUDDEN_BUDGET),
+        (hop_with::<Long<8>>, Long::<8>::SUDDEN_BUDGET),
+        (hop_with::<Long<16>>, Long::<16>::SUDDEN_BUDGET),
+    ];
+    let [(first, _), longer @ ..] = levels;
+    let mut hop = first(start, mass_ratio)?;
+    for (longer, budget) in longer {
+        if hop.certain || hop.sudden > budget {
+            break;
+        }
+        hop = longer(start, mass_ratio)?;
+    }
+    Ok(hop)
+}
+
+type HopWith = fn(Start, MassRatio) -> Result<WideHop, Error>;
+
+fn hop_with<R: Real>(start: Start, mass_ratio: MassRatio) -> Result<WideHop, Error> {
+    let ratio = WideRatio::<R>::new(mass_ratio);
+    let (alpha, offset, first, first_is_sudden) = match start {
+        Start::Speed(speed) => {
+            let cell = Cell::of(speed);
+            let alpha = R::from(speed);
+            let first = if cell.n == 0 {
+                next_wide(R::from(0.0), alpha, ratio.kappa, cell.root(speed).half.h)
+            } else {
+                let star = R::alpha_star(cell.n);
+                WideLocal::new(star).landing(alpha - star, ratio.kappa)
+            };
+            (alpha, alpha, first, cell.sudden)
+        }
+        Start::Offset { n, delta } => {
+            let star = R::alpha_star(n);
+            let offset = R::from(delta);
+            let first = WideLocal::new(star).landing(offset, ratio.kappa);
+            (star + offset, offset, first, delta < 0.0)
+        }
     };
-    wide_chain(first, cell.sudden, alpha, ratio)
+    let chain = chain(first, first_is_sudden, alpha.nearest(), ratio)?;
+    let loss = ratio.mu * chain.loss;
+    let radicand = alpha.squared() - loss;
+    let share = (radicand / alpha.squared()).nearest();
+    let next = (radicand.nearest() > 0.0).then(|| {
+        let speed = radicand.sqrt();
+        let lost = loss / (alpha + speed);
+        Next { speed: speed.nearest(), loss: lost.nearest(), offset: (offset - lost).nearest() }
+    });
+    Ok(WideHop {
+        next,
+        radicand: radicand.nearest(),
+        sudden: chain.sudden,
+        flight_time: chain.flight_time,
+        certain: !chain.doubt.is_real(share, ratio.mu.nearest(), alpha.nearest()),
+    })
+}
+
+/// All flights of a hop.
+struct Chain<R> {
+    /// Σ Γ².
+    loss: R,
+    sudden: usize,
+    flight_time: f64,
+    /// What rounding errors leave open.
+    doubt: Doubt,
 }
 
 /// The rest of a hop whose first landing is known, with its verdict.
-pub(crate) fn wide_chain(
-    first: WideLanding,
+fn chain<R: Real>(
+    first: WideLanding<R>,
     first_is_sudden: bool,
     alpha: f64,
-    ratio: WideRatio,
-) -> Result<WideHop, Error> {
+    ratio: WideRatio<R>,
+) -> Result<Chain<R>, Error> {
     let mut landing = first;
     let mut sudden = first_is_sudden;
-    let mut hop = WideHop {
+    let mut hop = Chain {
         loss: first.closing_speed.squared(),
         sudden: 0,
-        flight_time: first.time.high,
-        doubt: Doubt::new(alpha, EPSILON),
+        flight_time: first.time.nearest(),
+        doubt: Doubt::new(alpha, R::EPSILON),
     };
-    hop.doubt.pass(&first.rounded(sudden), ratio.kappa.high);
+    let kappa = ratio.kappa.nearest();
+    hop.doubt.pass(&first.rounded(sudden), kappa);
     while sudden {
         hop.sudden += 1;
+        let (x, v) = (landing.excess, landing.velocity);
+        let start = TakeOff { excess: x.nearest(), velocity: v.nearest() };
         if hop.sudden > SUDDEN_LIFT_OFF_BUDGET {
-            let (excess, velocity) = (landing.excess.high, landing.velocity.high);
+            let TakeOff { excess, velocity } = start;
             return Err(Error::SuddenLiftOffBudget { sudden: hop.sudden - 1, excess, velocity });
         }
-        if !(landing.excess.high > 0.0) {
+        if !(start.excess > 0.0) {
             break; // a flight too short to see
         }
-        let (x, v) = (landing.excess, landing.velocity);
-        let start = TakeOff { excess: x.high, velocity: v.high };
-        let test = maximum_test(x, v);
-        let root = next_root(start, start.velocity >= PI && test >= 0.0);
+        let root = next_root(start, start.velocity >= PI && maximum_test(x, v) >= 0.0);
         landing = next_wide(x, v, ratio.kappa, root.half.h);
         hop.loss = hop.loss + landing.closing_speed.squared();
-        hop.flight_time += landing.time.high;
-        sudden = landing.excess.high > 0.0
-            || (landing.excess.high == 0.0 && landing.velocity.high > 0.0);
-        hop.doubt.pass(&landing.rounded(sudden), ratio.kappa.high);
+        let rounded = landing.rounded(false);
+        hop.flight_time += rounded.time;
+        sudden = rounded.excess > 0.0 || (rounded.excess == 0.0 && rounded.velocity > 0.0);
+        hop.doubt.pass(&Landing { sudden, ..rounded }, kappa);
     }
     Ok(hop)
 }
 
 /// (−1)^m (V cos V − Y sin V), as in `landing.rs`.
-fn maximum_test(x: DoubleDouble, v: DoubleDouble) -> f64 {
+fn maximum_test<R: Real>(x: R, v: R) -> f64 {
     let (sin, cos) = v.sin_cos();
-    let test = (v * cos - (x + 1.0) * sin).high;
-    if (v.high / PI).floor() % 2.0 == 0.0 { test } else { -test }
+    let test = (v * cos - (x + 1.0) * sin).nearest();
+    if (v.nearest() / PI).floor() % 2.0 == 0.0 { test } else { -test }
 }
 
+/// Most Newton steps: from a good `f64` start each doubles the digits, from a bad one it takes some.
+const NEWTON_STEPS: usize = 12;
+
 /// The landing of the flight from stretch 1 + `x` and speed `v`, by Newton's method from an `f64` h.
-fn next_wide(x: DoubleDouble, v: DoubleDouble, kappa: DoubleDouble, start: f64) -> WideLanding {
-    let mut h = DoubleDouble::from(start);
+fn next_wide<R: Real>(x: R, v: R, kappa: R, start: f64) -> WideLanding<R> {
+    let mut h = R::from(start);
     let mut half = WideHalf::at(h);
-    for _ in 0..4 {
+    for _ in 0..NEWTON_STEPS {
         let residual = (h - v) + half.sin * half.rho - x * half.sigma;
-        let slope = 2.0 * half.rho.high * (half.rho.high - x.high * (half.sin.high / half.d.high));
-        let step = residual.high / slope;
-        if !step.is_finite() || step.abs() <= 1e-31 * h.high {
+        let slope = half.rho * (half.rho - x * (half.sin / half.d)) * 2.0;
+        if slope.nearest() == 0.0 {
             break;
         }
-        h = h - DoubleDouble::exact_sum(step, residual.low / slope);
+        let step = residual / slope;
+        if !(step.nearest().abs() > R::EPSILON * h.nearest()) {
+            break;
+        }
+        h = h - step;
         half = WideHalf::at(h);
     }
     let closing_speed = half.rho * (half.u - x * half.sin) * 2.0;
@@ -142,32 +226,39 @@ fn next_wide(x: DoubleDouble, v: DoubleDouble, kappa: DoubleDouble, start: f64) 
 }
 
 /// The functions of h, as in [`crate::HalfFlight`].
-struct WideHalf {
-    sin: DoubleDouble,
-    d: DoubleDouble,
-    u: DoubleDouble,
-    rho: DoubleDouble,
-    sigma: DoubleDouble,
+struct WideHalf<R> {
+    sin: R,
+    d: R,
+    u: R,
+    rho: R,
+    sigma: R,
 }
 
-impl WideHalf {
-    fn at(h: DoubleDouble) -> Self {
+impl<R: Real> WideHalf<R> {
+    fn at(h: R) -> Self {
         let (sin, cos) = h.sin_cos();
-        let (d, u) = if h.high < 1.0 { series(h) } else { (h - sin * cos, h * cos - sin) };
+        let (d, u) = if h.nearest() < 1.0 { series(h) } else { (h - sin * cos, h * cos - sin) };
         WideHalf { sin, d, u, rho: u / d, sigma: sin.squared() / d }
     }
 }
 
-/// D and u by their series: the closed forms cancel at small h.
-fn series(h: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
-    let square = h.squared();
-    let inverse = inverse_factorials();
-    let (mut d, mut u) = (DoubleDouble::ZERO, DoubleDouble::ZERO);
-    for k in (1..=18i32).rev() {
-        let coefficient = inverse[2 * k as usize + 1];
-        d = coefficient * 4f64.powi(k) - d * square;
-        u = -coefficient * f64::from(2 * k) - u * square;
+/// D and u by their series, as in `flight.rs`: the closed forms cancel at small h.
+fn series<R: Real>(h: R) -> (R, R) {
+    let minus_square = -h.squared();
+    let (mut d, mut u) = (R::from(0.0), R::from(0.0));
+    let mut term = h; // (−1)^k h^{2k+1}/(2k+1)!
+    let mut power_of_four = 1.0;
+    for k in 1..=SERIES_TERMS {
+        term = (term * minus_square).over(2 * k * (2 * k + 1));
+        power_of_four *= 4.0;
+        d = d - term * power_of_four;
+        u = u + term * f64::from(2 * k);
+        if !(term.nearest().abs() * power_of_four > R::EPSILON * d.nearest()) {
+            break;
+        }
     }
-    let cube = square * h;
-    (d * cube, u * cube)
+    (d, u)
 }
+
+/// 4^k/(2k+1)! is under 2⁻¹⁰²⁴ here.
+const SERIES_TERMS: u32 = 110;

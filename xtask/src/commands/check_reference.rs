@@ -209,7 +209,7 @@ fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
     tally.lines += 1;
     let found = match LiftOffMap::new(hop.mass_ratio).hop(hop.alpha) {
         Ok(found) if found.certain => found,
-        Ok(_) => return tally.is_wrong(at, "undecided: it needs more than 106 bits"),
+        Ok(_) => return tally.is_wrong(at, "undecided"),
         Err(error) => return tally.is_wrong(at, &error.to_string()),
     };
     let m = hop.mass_ratio.value();
