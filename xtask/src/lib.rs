@@ -9,6 +9,7 @@ pub mod figures;
 pub mod output;
 pub mod plot;
 pub mod progress;
+mod reference;
 pub mod report;
 
 pub use error::Error;

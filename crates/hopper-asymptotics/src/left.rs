@@ -14,8 +14,14 @@ use passive_hopper::MassRatio;
 ///   c₁ = −β/a        c₂ = −β² (34/25 + 31/(80a²) − 9κ/10)
 /// ```
 ///
-/// c₁ mirrors ℓ₅ of the right side. c₂ was identified from the exact map: extrapolated values at n = 1,
-/// 2, 5, 20, 100 and three mass ratios fit these fractions to eight digits.
+/// c₁ mirrors ℓ₅ of the right side. With the exact local forms of `passive_hopper::LocalFlight` for the
+/// first landing and h₂ = 3x/(2a) + … from (h − V) D + S u = x S² for the second, both as series in
+/// t = τ − 2a,
+///
+/// ```text
+///   Γ₁² + Γ₂² = (5/2) a² t⁴ [1 + (9κ/10 − 107/75 − 283/(240a²)) t² + O(t³)]
+///   t = −s [1 − s/(4a) + (4a² + 25) s²/(240a²) − …],   s = β|δ|^{1/3}
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Left {
     /// λ, corrected; the leading coefficient is ten times it.

@@ -76,6 +76,20 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A tolerance that no integrator can meet.
+    #[error("a tolerance must be positive and finite, not {value}")]
+    BadTolerance {
+        /// The value given.
+        value: f64,
+    },
+    /// An integration that could not go on.
+    #[error("the integration stopped at time {time}: {reason}")]
+    Integration {
+        /// Why.
+        reason: &'static str,
+        /// Where, since its start.
+        time: f64,
+    },
     /// A state with a component that is infinite or not a number.
     #[error("the state is not finite after {time} time units and {jumps} jumps: {state:?}")]
     StateNotFinite {

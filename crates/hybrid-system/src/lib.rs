@@ -13,6 +13,7 @@
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how sure it is: exact, certain or sampled |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, bounded in time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | what an execution consists of, with both one-sided states |
+//! | `Integration`, `Tolerances` | flows given as ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`bracketed_root`] | Brent's method on a bracket that is certain |
 //!
 //! A ball that loses half of its speed at every bounce:
@@ -63,7 +64,7 @@
 //! a crossing found by sampling says so in its [`Certainty`].
 //!
 //! # Not here
-//! Flows given as differential equations, accumulation of events (Zeno), sensitivities. A start
+//! Guards along integrated flows, accumulation of events (Zeno), sensitivities. A start
 //! exactly on a surface that the flow then crosses within the first sample is an error here,
 //! not a guess.
 //!
@@ -77,6 +78,8 @@ mod crossing;
 mod error;
 mod execution;
 mod guard;
+#[cfg(feature = "ode")]
+mod ode;
 mod system;
 
 pub use arc::{Arc, ArcEnd, Event};
@@ -85,4 +88,6 @@ pub use crossing::{Certainty, Crossing};
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard};
+#[cfg(feature = "ode")]
+pub use ode::{Integration, Tolerances};
 pub use system::{HybridSystem, Reset, State};

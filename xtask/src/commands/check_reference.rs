@@ -1,41 +1,24 @@
 //! `check-reference`: the map and the fates against files of reference values.
 
 use crate::Error;
-use crate::output::read;
-use hopper_basin::{Fates, HopperFate};
-use passive_hopper::{LiftOffMap, MassRatio};
-use serde_json::Value;
+use crate::reference::{Hop, Line, Loss, parse};
+use hopper_basin::Fates;
+use passive_hopper::LiftOffMap;
 use std::collections::BTreeMap;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Options {
     /// Allowed error, in units of the reference's K, per flight: K (1 + sudden). For hops near a
-    /// fixed point, given as n and offset, the unit is two ulps of the next offset
+    /// fixed point, given as n and offset, the unit is two ulps of the next offset; for a loss
+    /// it is what half an ulp in the inputs causes
     #[arg(long, value_name = "K", default_value_t = 4.0)]
     limit: f64,
-    /// Files with one JSON object a line: hops, hops near a fixed point, or fates
+    /// Files with one JSON object a line: hops, losses, hops near a fixed point, or fates
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-}
-
-/// What a line asks and answers.
-enum Line {
-    Hop(Hop),
-    Local { mass_ratio: MassRatio, n: u64, offset: f64, sudden: usize, next: Option<f64> },
-    Fate { mass_ratio: MassRatio, alpha: f64, fate: HopperFate },
-}
-
-struct Hop {
-    class: String,
-    mass_ratio: MassRatio,
-    alpha: f64,
-    sudden: usize,
-    next: Option<f64>,
-    slope_alpha: f64,
-    slope_mass_ratio: f64,
 }
 
 /// The tally of a class.
@@ -89,84 +72,6 @@ pub fn run(options: &Options) -> Result<(), Error> {
     Ok(())
 }
 
-fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
-    let text = read(path)?;
-    let mut lines = Vec::new();
-    for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
-        let bad =
-            |reason: String| Error::ReferenceLine { path: path.into(), line: index + 1, reason };
-        let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
-        lines.push((index + 1, line(&value).map_err(bad)?));
-    }
-    if lines.is_empty() {
-        return Err(Error::ReferenceLine {
-            path: path.into(),
-            line: 1,
-            reason: "no line at all".into(),
-        });
-    }
-    Ok(lines)
-}
-
-fn line(value: &Value) -> Result<Line, String> {
-    let mass_ratio = MassRatio::new(number(value, "mass_ratio")?).map_err(|e| e.to_string())?;
-    if let Some(fate) = value.get("fate") {
-        let fate = match fate.as_str() {
-            Some("incessant") => HopperFate::Incessant { n: whole(value, "n")? },
-            Some("decaying") => HopperFate::Decaying,
-            Some("grounded") => HopperFate::Grounded,
-            _ => return Err(format!("'fate' is {fate}, not incessant, decaying or grounded")),
-        };
-        return Ok(Line::Fate { mass_ratio, alpha: number(value, "alpha")?, fate });
-    }
-    if value.get("offset").is_some() {
-        return Ok(Line::Local {
-            mass_ratio,
-            n: whole(value, "n")?,
-            offset: number(value, "offset")?,
-            sudden: whole(value, "sudden")? as usize,
-            next: next(value, "offset_next")?,
-        });
-    }
-    let speed = next(value, "alpha_next")?;
-    if let Some(bad) = speed.filter(|speed| !(*speed > 0.0)) {
-        return Err(format!("'alpha_next' is {bad}, not positive"));
-    }
-    let slope = |key| if value.get(key).is_some() { number(value, key) } else { Ok(0.0) };
-    Ok(Line::Hop(Hop {
-        class: value.get("class").and_then(Value::as_str).unwrap_or("hop").to_owned(),
-        mass_ratio,
-        alpha: number(value, "alpha")?,
-        sudden: whole(value, "sudden")? as usize,
-        next: speed,
-        slope_alpha: slope("dalpha_next_dalpha")?.abs(),
-        slope_mass_ratio: slope("dalpha_next_dM")?.abs(),
-    }))
-}
-
-/// The result of a hop: a number, or null for a grounded hopper.
-fn next(value: &Value, key: &str) -> Result<Option<f64>, String> {
-    match value.get(key) {
-        None => Err(format!("'{key}' is missing")),
-        Some(Value::Null) => Ok(None),
-        Some(_) => number(value, key).map(Some),
-    }
-}
-
-/// A finite number, given as such or as a decimal string.
-fn number(value: &Value, key: &str) -> Result<f64, String> {
-    let field = value.get(key).ok_or_else(|| format!("'{key}' is missing"))?;
-    let number = field.as_f64().or_else(|| field.as_str().and_then(|text| text.parse().ok()));
-    number
-        .filter(|n: &f64| n.is_finite())
-        .ok_or_else(|| format!("'{key}' is {field}, not a number"))
-}
-
-fn whole(value: &Value, key: &str) -> Result<u64, String> {
-    let field = value.get(key).ok_or_else(|| format!("'{key}' is missing"))?;
-    field.as_u64().ok_or_else(|| format!("'{key}' is {field}, not a whole number"))
-}
-
 fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
     let mut tallies: BTreeMap<String, Tally> = BTreeMap::new();
     for (at, line) in lines {
@@ -192,6 +97,9 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                     ),
                 }
             }
+            Line::Loss(loss) => {
+                judge_loss(tallies.entry("losses".into()).or_default(), *at, loss, limit)
+            }
             Line::Fate { mass_ratio, alpha, fate } => {
                 let tally = tallies.entry("fates".into()).or_default();
                 tally.lines += 1;
@@ -203,6 +111,20 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
         }
     }
     tallies
+}
+
+fn judge_loss(tally: &mut Tally, at: usize, line: &Loss, limit: f64) {
+    tally.lines += 1;
+    let Loss { mass_ratio, alpha, loss } = *line;
+    let found = match LiftOffMap::new(mass_ratio).hop(alpha) {
+        Ok(found) => found,
+        Err(error) => return tally.is_wrong(at, &error.to_string()),
+    };
+    let place = format!("M = {}, α = {alpha}", mass_ratio.value());
+    // Loss ∝ μα⁵: half an ulp in α is five in it, and two for M and the result.
+    let verdict =
+        Verdict { found: (0, found.loss), exact: (0, Some(loss)), unit: 3.5 * f64::EPSILON * loss };
+    tally.judge(at, &place, verdict, limit);
 }
 
 fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
@@ -262,37 +184,18 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn parsed(text: &str) -> Result<Line, String> {
-        line(&serde_json::from_str(text).unwrap())
-    }
-
-    #[test]
-    fn malformed_lines_say_what_is_wrong() {
-        for (text, words) in [
-            (r#"{"alpha": 1}"#, "'mass_ratio' is missing"),
-            (r#"{"mass_ratio": "x", "alpha": 1}"#, "'mass_ratio' is \"x\", not a number"),
-            (r#"{"mass_ratio": 1, "alpha": 5, "fate": "lost"}"#, "not incessant"),
-            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0}"#, "'alpha_next' is missing"),
-            (r#"{"mass_ratio": 0, "alpha": 5}"#, "not 0"),
-            (
-                r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0, "alpha_next": "0"}"#,
-                "is 0, not positive",
-            ),
-            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": -1, "alpha_next": "4"}"#, "'sudden' is -1"),
-        ] {
-            let error = parsed(text).err().unwrap();
-            assert!(error.contains(words), "{error}");
-        }
-    }
+    use crate::reference::line;
 
     #[test]
     fn a_wrong_value_and_a_wrong_verdict_are_counted() {
         let good = r#"{"class": "c", "mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "35.997158341573688180303069833057"}"#;
         let off = good.replace("35.9971583415", "35.9971583416");
         let verdict = good.replace("\"sudden\": 0", "\"sudden\": 1");
-        let lines: Vec<_> =
-            [good, &off, &verdict].iter().map(|text| parsed(text).unwrap()).enumerate().collect();
+        let lines: Vec<_> = [good, &off, &verdict]
+            .iter()
+            .map(|text| line(&serde_json::from_str(text).unwrap()).unwrap())
+            .enumerate()
+            .collect();
         let tally = judge(&lines, 4.0).remove("c").unwrap();
         assert_eq!((tally.lines, tally.over, tally.wrong), (3, 1, 1));
         assert!(tally.worst_place.starts_with("line 1"));

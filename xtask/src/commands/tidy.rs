@@ -84,7 +84,7 @@ fn check_file(file: &Path, text: &str, breaches: &mut Vec<Breach>) {
         for (index, line) in text.lines().enumerate() {
             if line.starts_with('[') {
                 in_dependencies = line.ends_with("dependencies]");
-            } else if in_dependencies && line.contains('=') && !line.contains(".workspace = true") {
+            } else if in_dependencies && line.contains('=') && !line.contains("workspace = true") {
                 breach(index + 1, "versions live in the workspace table");
             }
         }

@@ -3,8 +3,9 @@
 //! Every operation is truncated to 64 W bits; quotients and roots, by Newton's method, lose a few
 //! units more. Exponents have 64 bits: they do not overflow.
 
+mod functions;
+
 use crate::double_double::DoubleDouble;
-use crate::real::Real;
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -86,6 +87,42 @@ impl<const W: usize> Long<W> {
     fn compare_size(&self, other: &Self) -> Ordering {
         let words = self.words.iter().rev().cmp(other.words.iter().rev());
         self.exponent.cmp(&other.exponent).then(words)
+    }
+
+    /// The nearest `f64`.
+    fn nearest(self) -> f64 {
+        // 64 leading bits, the last one set if anything follows, round as the whole does.
+        let rest = self.words[..W - 1].iter().any(|&word| word != 0);
+        let leading = self.words[W - 1] | u64::from(rest);
+        // Below 2⁻¹⁰²² fewer bits remain: they are cut here, so that rounding happens once.
+        let kept = (self.exponent + 1074).clamp(-1, 64);
+        let size = if kept >= 53 {
+            scale(leading as f64, self.exponent - 64)
+        } else if kept < 0 {
+            0.0
+        } else {
+            let (leading, half) = (u128::from(leading), 1u128 << (63 - kept));
+            let (whole, part) = (leading >> (64 - kept), leading & (2 * half - 1));
+            let up = part > half || (part == half && whole % 2 == 1);
+            scale((whole + u128::from(up)) as f64, -1074)
+        };
+        if self.negative { -size } else { size }
+    }
+
+    /// self / `divisor`.
+    fn over(self, divisor: u32) -> Self {
+        if self.is_zero() {
+            return self;
+        }
+        let mut wide = [0; MOST + 1];
+        let mut rest: u64 = 0;
+        for (place, word) in wide[..=W].iter_mut().enumerate().rev() {
+            let digit = if place == 0 { 0 } else { self.words[place - 1] };
+            let dividend = (u128::from(rest) << 64) | u128::from(digit);
+            *word = (dividend / u128::from(divisor)) as u64;
+            rest = (dividend % u128::from(divisor)) as u64;
+        }
+        Self::normalised(self.negative, self.exponent, &wide[..=W])
     }
 
     /// 1/self, by x ← x + x (1 − self x) from 50 bits.
@@ -211,90 +248,6 @@ impl<const W: usize> Mul<f64> for Long<W> {
     }
 }
 
-impl<const W: usize> Real for Long<W> {
-    /// 2^(12 − 64 W).
-    const EPSILON: f64 = power_of_two(12 - 64 * W as i32);
-    const SUDDEN_BUDGET: usize = 100_000 / (W * W);
-
-    fn nearest(self) -> f64 {
-        // 64 leading bits, the last one set if anything follows, round as the whole does.
-        let rest = self.words[..W - 1].iter().any(|&word| word != 0);
-        let leading = self.words[W - 1] | u64::from(rest);
-        // Below 2⁻¹⁰²² fewer bits remain: they are cut here, so that rounding happens once.
-        let kept = (self.exponent + 1074).clamp(-1, 64);
-        let size = if kept >= 53 {
-            scale(leading as f64, self.exponent - 64)
-        } else if kept < 0 {
-            0.0
-        } else {
-            let (leading, half) = (u128::from(leading), 1u128 << (63 - kept));
-            let (whole, part) = (leading >> (64 - kept), leading & (2 * half - 1));
-            let up = part > half || (part == half && whole % 2 == 1);
-            scale((whole + u128::from(up)) as f64, -1074)
-        };
-        if self.negative { -size } else { size }
-    }
-
-    fn over(self, divisor: u32) -> Self {
-        if self.is_zero() {
-            return self;
-        }
-        let mut wide = [0; MOST + 1];
-        let mut rest: u64 = 0;
-        for (place, word) in wide[..=W].iter_mut().enumerate().rev() {
-            let digit = if place == 0 { 0 } else { self.words[place - 1] };
-            let dividend = (u128::from(rest) << 64) | u128::from(digit);
-            *word = (dividend / u128::from(divisor)) as u64;
-            rest = (dividend % u128::from(divisor)) as u64;
-        }
-        Self::normalised(self.negative, self.exponent, &wide[..=W])
-    }
-
-    fn sqrt(self) -> Self {
-        if self.negative || self.is_zero() {
-            return Self::ZERO;
-        }
-        // An even exponent outside; r ← (r + x/r)/2 from 50 bits.
-        let half = self.exponent.div_euclid(2);
-        let mantissa = Long { exponent: self.exponent - 2 * half, ..self };
-        let mut root = Self::from(mantissa.nearest().sqrt());
-        for _ in 0..doublings(W) {
-            root = (root + mantissa / root) * 0.5;
-        }
-        Long { exponent: root.exponent + half, ..root }
-    }
-
-    fn sin_cos(self) -> (Self, Self) {
-        let turns = (self.nearest() / std::f64::consts::PI).round();
-        let rest = self - Self::pi() * turns;
-        let minus_square = -rest.squared();
-        let (mut sin, mut cos) = (rest, Self::from(1.0));
-        let (mut odd, mut even) = (sin, cos);
-        for k in 1.. {
-            even = (even * minus_square).over((2 * k - 1) * 2 * k);
-            odd = (odd * minus_square).over(2 * k * (2 * k + 1));
-            (sin, cos) = (sin + odd, cos + even);
-            if even.is_zero() || even.exponent < -64 * W as i64 {
-                break;
-            }
-        }
-        if turns % 2.0 == 0.0 { (sin, cos) } else { (-sin, -cos) }
-    }
-
-    /// Newton's method on sin a = a cos a, whose slope is a sin a, from 106 bits.
-    fn alpha_star(n: u64) -> Self {
-        let mut a = Self::from(crate::alpha_star(n));
-        if n == 0 {
-            return a;
-        }
-        for _ in 0..doublings(W) {
-            let (sin, cos) = a.sin_cos();
-            a = a - (sin - a * cos) / (a * sin);
-        }
-        a
-    }
-}
-
 const fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((1023 + exponent) as u64) << 52)
 }
@@ -318,16 +271,6 @@ mod tests {
 
     type Four = Long<4>;
 
-    fn long(high: f64, low: f64) -> Four {
-        Four::from(high) + low
-    }
-
-    /// |a − b| relative to |b|, in units of 2^−256.
-    fn apart(a: Four, b: Four) -> f64 {
-        let difference = a - b;
-        if difference.is_zero() { 0.0 } else { ((difference / b) * 2f64.powi(256)).nearest().abs() }
-    }
-
     proptest! {
         #[test]
         fn f64_there_and_back(bits in any::<u64>()) {
@@ -346,26 +289,6 @@ mod tests {
             prop_assert!((Four::from(a) - Four::from(b) + b - Four::from(a)).is_zero());
         }
 
-        #[test]
-        fn quotients_and_roots_go_back(a in 1e-3..1e6f64, b in -1e6..1e6f64, low in -1e-20..1e-20f64) {
-            prop_assume!(b != 0.0);
-            let (x, y) = (long(a, low), long(b, 1e-3 * low));
-            prop_assert!(apart(x / y * y, x) < 16.0);
-            prop_assert!(apart(x.sqrt().squared(), x) < 16.0);
-            prop_assert!(apart(x.over(7) * 7.0, x) < 16.0);
-        }
-
-        #[test]
-        fn sines_are_on_the_circle_and_add(x in -1e6..1e6f64, y in -3.0..3.0f64) {
-            let (sin, cos) = Four::from(x).sin_cos();
-            prop_assert!(apart(sin.squared() + cos.squared(), Four::from(1.0)) < 256.0);
-            prop_assert!((sin.nearest() - pxfm::f_sin(x)).abs() <= f64::EPSILON);
-            let (sin_y, cos_y) = Four::from(y).sin_cos();
-            let sum = (Four::from(x) + y).sin_cos().0;
-            let error = sum - (sin * cos_y + cos * sin_y);
-            prop_assert!(error.nearest().abs() < 1e-76 * (1.0 + x.abs()));
-        }
-
         /// Subnormal results are rounded once.
         #[test]
         fn small_numbers_round_once(bits in 1u64..1 << 53, shift in 1i64..60) {
@@ -375,32 +298,6 @@ mod tests {
             let part = bits & ((1u64 << shift) - 1);
             let up = part > half || (part == half && whole % 2 == 1);
             prop_assert_eq!(small.nearest(), f64::from_bits(whole + u64::from(up)));
-        }
-    }
-
-    #[test]
-    fn more_words_agree_with_fewer() {
-        for x in [0.3, 4.5, 1e5 + 0.7, 8e12] {
-            let (few, many) = (Long::<4>::from(x).sin_cos(), Long::<16>::from(x).sin_cos());
-            let error = |a: Long<4>, b: Long<16>| -> f64 {
-                let mut words = [0; 16];
-                words[12..].copy_from_slice(&a.words);
-                (Long::<16> { negative: a.negative, exponent: a.exponent, words } - b).nearest()
-            };
-            assert!(error(few.0, many.0).abs() < 1e-74 * (1.0 + x), "{x}");
-            assert!(error(few.1, many.1).abs() < 1e-74 * (1.0 + x), "{x}");
-        }
-    }
-
-    /// tan α* = α* to the last digits of 1024 bits.
-    #[test]
-    fn fixed_points_to_a_thousand_bits() {
-        for n in [1, 2, 1000, 1 << 40] {
-            let a = Long::<16>::alpha_star(n);
-            let (sin, cos) = a.sin_cos();
-            let rest = ((sin - a * cos) / (a * a)).nearest().abs();
-            assert!(rest < Long::<16>::EPSILON, "{n}: {rest:e}");
-            assert_eq!(a.nearest(), crate::alpha_star(n).high);
         }
     }
 }

@@ -1,0 +1,146 @@
+//! Files of reference values, one JSON object a line.
+
+use crate::Error;
+use crate::output::read;
+use hopper_basin::HopperFate;
+use passive_hopper::MassRatio;
+use serde_json::Value;
+use std::path::Path;
+
+/// What a line asks and answers.
+pub(crate) enum Line {
+    Hop(Hop),
+    Loss(Loss),
+    Local { mass_ratio: MassRatio, n: u64, offset: f64, sudden: usize, next: Option<f64> },
+    Fate { mass_ratio: MassRatio, alpha: f64, fate: HopperFate },
+}
+
+/// A hop, with what its error is judged by.
+pub(crate) struct Hop {
+    pub(crate) class: String,
+    pub(crate) mass_ratio: MassRatio,
+    pub(crate) alpha: f64,
+    pub(crate) sudden: usize,
+    pub(crate) next: Option<f64>,
+    pub(crate) slope_alpha: f64,
+    pub(crate) slope_mass_ratio: f64,
+}
+
+/// The loss of a small hop.
+pub(crate) struct Loss {
+    pub(crate) mass_ratio: MassRatio,
+    pub(crate) alpha: f64,
+    pub(crate) loss: f64,
+}
+
+/// All lines of a file, each with its number.
+pub(crate) fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
+    let text = read(path)?;
+    let mut lines = Vec::new();
+    for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
+        let bad =
+            |reason: String| Error::ReferenceLine { path: path.into(), line: index + 1, reason };
+        let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
+        lines.push((index + 1, line(&value).map_err(bad)?));
+    }
+    if lines.is_empty() {
+        return Err(Error::ReferenceLine {
+            path: path.into(),
+            line: 1,
+            reason: "no line at all".into(),
+        });
+    }
+    Ok(lines)
+}
+
+/// What one JSON object asks and answers.
+pub(crate) fn line(value: &Value) -> Result<Line, String> {
+    let mass_ratio = MassRatio::new(number(value, "mass_ratio")?).map_err(|e| e.to_string())?;
+    if let Some(fate) = value.get("fate") {
+        let fate = match fate.as_str() {
+            Some("incessant") => HopperFate::Incessant { n: whole(value, "n")? },
+            Some("decaying") => HopperFate::Decaying,
+            Some("grounded") => HopperFate::Grounded,
+            _ => return Err(format!("'fate' is {fate}, not incessant, decaying or grounded")),
+        };
+        return Ok(Line::Fate { mass_ratio, alpha: number(value, "alpha")?, fate });
+    }
+    if value.get("offset").is_some() {
+        return Ok(Line::Local {
+            mass_ratio,
+            n: whole(value, "n")?,
+            offset: number(value, "offset")?,
+            sudden: whole(value, "sudden")? as usize,
+            next: next(value, "offset_next")?,
+        });
+    }
+    if value.get("class").and_then(Value::as_str) == Some("tiny_alpha_loss") {
+        let (alpha, loss) = (number(value, "alpha")?, number(value, "loss")?);
+        return Ok(Line::Loss(Loss { mass_ratio, alpha, loss }));
+    }
+    let speed = next(value, "alpha_next")?;
+    if let Some(bad) = speed.filter(|speed| !(*speed > 0.0)) {
+        return Err(format!("'alpha_next' is {bad}, not positive"));
+    }
+    let slope = |key| if value.get(key).is_some() { number(value, key) } else { Ok(0.0) };
+    Ok(Line::Hop(Hop {
+        class: value.get("class").and_then(Value::as_str).unwrap_or("hop").to_owned(),
+        mass_ratio,
+        alpha: number(value, "alpha")?,
+        sudden: whole(value, "sudden")? as usize,
+        next: speed,
+        slope_alpha: slope("dalpha_next_dalpha")?.abs(),
+        slope_mass_ratio: slope("dalpha_next_dM")?.abs(),
+    }))
+}
+
+/// The result of a hop: a number, or null for a grounded hopper.
+fn next(value: &Value, key: &str) -> Result<Option<f64>, String> {
+    match value.get(key) {
+        None => Err(format!("'{key}' is missing")),
+        Some(Value::Null) => Ok(None),
+        Some(_) => number(value, key).map(Some),
+    }
+}
+
+/// A finite number, given as such or as a decimal string.
+pub(crate) fn number(value: &Value, key: &str) -> Result<f64, String> {
+    let field = value.get(key).ok_or_else(|| format!("'{key}' is missing"))?;
+    let number = field.as_f64().or_else(|| field.as_str().and_then(|text| text.parse().ok()));
+    number
+        .filter(|n: &f64| n.is_finite())
+        .ok_or_else(|| format!("'{key}' is {field}, not a number"))
+}
+
+pub(crate) fn whole(value: &Value, key: &str) -> Result<u64, String> {
+    let field = value.get(key).ok_or_else(|| format!("'{key}' is missing"))?;
+    field.as_u64().ok_or_else(|| format!("'{key}' is {field}, not a whole number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(text: &str) -> Result<Line, String> {
+        line(&serde_json::from_str(text).unwrap())
+    }
+
+    #[test]
+    fn malformed_lines_say_what_is_wrong() {
+        for (text, words) in [
+            (r#"{"alpha": 1}"#, "'mass_ratio' is missing"),
+            (r#"{"mass_ratio": "x", "alpha": 1}"#, "'mass_ratio' is \"x\", not a number"),
+            (r#"{"mass_ratio": 1, "alpha": 5, "fate": "lost"}"#, "not incessant"),
+            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0}"#, "'alpha_next' is missing"),
+            (r#"{"mass_ratio": 0, "alpha": 5}"#, "not 0"),
+            (
+                r#"{"mass_ratio": 1, "alpha": 5, "sudden": 0, "alpha_next": "0"}"#,
+                "is 0, not positive",
+            ),
+            (r#"{"mass_ratio": 1, "alpha": 5, "sudden": -1, "alpha_next": "4"}"#, "'sudden' is -1"),
+        ] {
+            let error = parsed(text).err().unwrap();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+}
