@@ -25,6 +25,12 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
+    /// Reference values of the repository that lack something.
+    #[error("the reference values: {reason}")]
+    Reference {
+        /// What.
+        reason: String,
+    },
     /// A name that does not exist.
     #[error("there is no {kind} '{name}'; there are: {known}")]
     UnknownName {

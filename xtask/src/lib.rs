@@ -11,6 +11,7 @@ pub mod plot;
 pub mod progress;
 mod reference;
 pub mod report;
+mod work_precision;
 
 pub use error::Error;
 
@@ -43,6 +44,8 @@ enum Command {
     VerifyInvariance(commands::verify_invariance::Options),
     /// Compare the map and the fates with files of reference values
     CheckReference(commands::check_reference::Options),
+    /// Measure time against error of every way to compute a hop
+    WorkPrecision(commands::work_precision::Options),
     /// Check the repository's rules
     Tidy,
 }
@@ -68,6 +71,7 @@ pub fn run() -> Result<(), Error> {
         Command::ReproducePaper(options) => commands::reproduce_paper::run(&options),
         Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
         Command::CheckReference(options) => commands::check_reference::run(&options),
+        Command::WorkPrecision(options) => commands::work_precision::run(&options),
         Command::Tidy => commands::tidy::run(),
     }
 }

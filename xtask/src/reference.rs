@@ -35,22 +35,29 @@ pub(crate) struct Loss {
 
 /// All lines of a file, each with its number.
 pub(crate) fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
+    let rows = numbered_rows(path)?;
+    let bad = |at: usize, reason| Error::ReferenceLine { path: path.into(), line: at, reason };
+    rows.iter()
+        .map(|(at, row)| line(row).map(|line| (*at, line)).map_err(|e| bad(*at, e)))
+        .collect()
+}
+
+/// The objects of a file.
+pub(crate) fn parse_rows(path: &Path) -> Result<Vec<Value>, Error> {
+    Ok(numbered_rows(path)?.into_iter().map(|(_, row)| row).collect())
+}
+
+fn numbered_rows(path: &Path) -> Result<Vec<(usize, Value)>, Error> {
     let text = read(path)?;
-    let mut lines = Vec::new();
-    for (index, text) in text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty()) {
-        let bad =
-            |reason: String| Error::ReferenceLine { path: path.into(), line: index + 1, reason };
-        let value: Value = serde_json::from_str(text).map_err(|e| bad(e.to_string()))?;
-        lines.push((index + 1, line(&value).map_err(bad)?));
-    }
-    if lines.is_empty() {
-        return Err(Error::ReferenceLine {
-            path: path.into(),
-            line: 1,
-            reason: "no line at all".into(),
-        });
-    }
-    Ok(lines)
+    let bad = |at: usize, reason| Error::ReferenceLine { path: path.into(), line: at, reason };
+    let filled = text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty());
+    let rows: Vec<_> = filled
+        .map(|(index, text)| {
+            let row = serde_json::from_str(text).map_err(|e| bad(index + 1, e.to_string()))?;
+            Ok((index + 1, row))
+        })
+        .collect::<Result<_, Error>>()?;
+    if rows.is_empty() { Err(bad(1, "no line at all".into())) } else { Ok(rows) }
 }
 
 /// What one JSON object asks and answers.

@@ -61,6 +61,15 @@ impl Left {
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<Expansion, Error> {
+        let Expansion { value, error } = self.loss(delta)?;
+        Ok(Expansion { value: delta - value, error: error + f64::EPSILON * delta.abs() })
+    }
+
+    /// The loss δ − δ′ for −[`range`](Self::range) ≤ δ ≤ 0, without cancellation.
+    ///
+    /// # Errors
+    /// [`Error::OutsideRange`] elsewhere.
+    pub fn loss(&self, delta: f64) -> Result<Expansion, Error> {
         let range = self.range();
         if !(-range..=0.0).contains(&delta) {
             return Err(Error::OutsideRange { value: delta, left: -range, right: 0.0 });
@@ -69,8 +78,8 @@ impl Left {
         let root = pxfm::f_cbrt(size);
         let leading = LEFT_FACTOR * self.lambda * size * root;
         let series = (self.c[0] + self.c[1] * root) * root;
-        let rounding = 4.0 * f64::EPSILON * (size + leading);
+        let rounding = 8.0 * f64::EPSILON * leading;
         let neglected = NEGLECTED * (1.0 + self.lambda) * leading * size;
-        Ok(Expansion { value: delta - leading * (1.0 + series), error: neglected + rounding })
+        Ok(Expansion { value: leading * (1.0 + series), error: neglected + rounding })
     }
 }

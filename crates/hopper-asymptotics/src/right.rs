@@ -70,14 +70,23 @@ impl Right {
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<Expansion, Error> {
+        let Expansion { value, error } = self.loss(delta)?;
+        Ok(Expansion { value: delta - value, error: error + f64::EPSILON * delta })
+    }
+
+    /// The loss δ − δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`], without cancellation.
+    ///
+    /// # Errors
+    /// [`Error::OutsideRange`] elsewhere.
+    pub fn loss(&self, delta: f64) -> Result<Expansion, Error> {
         if !(0.0..=RIGHT_RANGE).contains(&delta) {
             return Err(Error::OutsideRange { value: delta, left: 0.0, right: RIGHT_RANGE });
         }
         let root = pxfm::f_cbrt(delta);
         let leading = self.lambda * delta * root;
         let series = self.l.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
-        let rounding = 4.0 * f64::EPSILON * (delta + leading);
+        let rounding = 8.0 * f64::EPSILON * leading;
         let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
-        Ok(Expansion { value: delta - leading * (1.0 + series), error })
+        Ok(Expansion { value: leading * (1.0 + series), error })
     }
 }

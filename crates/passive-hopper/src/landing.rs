@@ -187,17 +187,19 @@ pub(crate) struct Root {
 
 /// Newton's method inside a bracket on which V(h) increases.
 ///
-/// It stops when the residual, which is a backward error in V, is about an ulp of V: then the map
-/// is right, even where h is not (at α*_n it is a triple root). What is left is handed on and
-/// corrected to first order.
+/// It stops when the residual, which is a backward error in V, is about an ulp of V, or of V − h where
+/// that is much smaller: then the map is right, even where h is not (at α*_n it is a triple root). What
+/// is left is handed on and corrected to first order, which is not enough for an ulp of a huge V.
 fn solve(excess: f64, velocity: f64, bracket: (f64, f64), start: f64) -> Root {
     const ENOUGH: usize = 200; // bisection alone ends within 64 + 53 steps of any bracket
+    const LARGE: f64 = 8.0; // below, an ulp of V is one of V − h, or nearly
     let (mut left, mut right) = bracket;
     let mut h = if start > left && start < right { start } else { 0.5 * (left + right) };
     let mut half = HalfFlight::at(h);
     let mut residual = (h - velocity) + half.speed_beyond_h(excess);
     for _ in 0..ENOUGH {
-        if residual.abs() <= f64::EPSILON * velocity.abs().min(h) {
+        let scale = velocity.abs().min(h).min((h - velocity).abs() + LARGE);
+        if residual.abs() <= f64::EPSILON * scale {
             break;
         }
         if residual > 0.0 {

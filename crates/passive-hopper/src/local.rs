@@ -26,6 +26,8 @@ const SMALL_LOSS: f64 = 1.0 / 16.0;
 pub struct LocalHop {
     /// δ′ = α′ − α*_n; nothing if the hopper is grounded.
     pub next: Option<f64>,
+    /// δ − δ′, without cancellation; nothing if grounded.
+    pub loss: Option<f64>,
     /// Number of sudden lift-offs.
     pub sudden: usize,
     /// By how much the first flight is longer than 2α*_n.
@@ -44,10 +46,8 @@ impl LiftOffMap {
     /// let map = LiftOffMap::new(MassRatio::ONE);
     /// let hop = map.hop_about(1, 1e-60)?;
     /// // f(α* + δ) = α* + δ − λδ^{4/3}: far below the spacing of α.
-    /// let loss = (1e-60 - hop.next.expect("it hops again")) / 1e-80;
-    /// assert!(loss == 0.0);
-    /// let loss = (1e-30 - map.hop_about(1, 1e-30)?.next.expect("it hops again")) / 1e-40;
-    /// assert!((loss - 3.6169).abs() < 1e-3);
+    /// let lambda = hop.loss.expect("it hops again") / 1e-80;
+    /// assert!((lambda - 3.616949794602146).abs() < 1e-14);
     /// # Ok::<(), passive_hopper::Error>(())
     /// ```
     ///
@@ -63,7 +63,7 @@ impl LiftOffMap {
             return Err(Error::Offset { n, delta, left, right });
         }
         if delta == 0.0 {
-            return Ok(LocalHop { next: Some(0.0), sudden: 0, time_shift: 0.0 });
+            return Ok(LocalHop { next: Some(0.0), loss: Some(0.0), sudden: 0, time_shift: 0.0 });
         }
         let local = LocalFlight { a: star.high };
         let t = local.time_shift(delta);
@@ -84,13 +84,14 @@ impl LiftOffMap {
             }
             loss += next.closing_speed * next.closing_speed;
         }
-        let change = mu * loss / (2.0 * local.a);
-        if !(change <= SMALL_LOSS * delta.abs()) {
+        let taken = mu * loss;
+        if !(taken <= SMALL_LOSS * 2.0 * local.a * delta.abs()) {
             return None;
         }
-        // δ′ = δ − μ Σ Γ²/(α + α′), α + α′ = 2α − change to far beyond rounding.
-        let change = mu * loss / (2.0 * (local.a + delta) - change);
-        Some(LocalHop { next: Some(delta - change), sudden, time_shift: t })
+        // δ′ = δ − μ Σ Γ²/(α + α′)
+        let alpha = local.a + delta;
+        let change = taken / (alpha + (alpha * alpha - taken).sqrt());
+        Some(LocalHop { next: Some(delta - change), loss: Some(change), sudden, time_shift: t })
     }
 
     fn wide(&self, n: u64, delta: f64, time_shift: f64) -> Result<LocalHop, Error> {
@@ -99,8 +100,8 @@ impl LiftOffMap {
             let alpha = alpha_star(n).high + delta;
             return Err(Error::Undecided { alpha, sudden: hop.sudden });
         }
-        let next = hop.next.map(|next| next.offset);
-        Ok(LocalHop { next, sudden: hop.sudden, time_shift })
+        let (next, loss) = hop.next.map(|next| (next.offset, next.loss)).unzip();
+        Ok(LocalHop { next, loss, sudden: hop.sudden, time_shift })
     }
 }
 

@@ -4,6 +4,7 @@ pub mod check_reference;
 pub mod reproduce_paper;
 pub mod tidy;
 pub mod verify_invariance;
+pub mod work_precision;
 
 use crate::Error;
 use crate::claims::{Claim, Verdict};

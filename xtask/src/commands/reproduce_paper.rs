@@ -35,6 +35,7 @@ const COMMITTED: &[(&str, Form)] = &[
     ("fig_03_segments", Form::Svg),
     ("fig_06_basin", Form::Png),
     ("invariance", Form::Svg),
+    ("printed_against_stable", Form::Svg),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -8,11 +8,15 @@ mod fig_04_local_map;
 mod fig_05_construction;
 mod fig_06_to_09_basins;
 mod invariance;
+mod printed_against_stable;
+mod work_precision;
 
 /// The construction of Fig. 5, for the claims about it.
 pub(crate) mod construction {
     pub(crate) use super::fig_05_construction::{DEPTH, M, levels};
 }
+
+pub(crate) use work_precision::work_precision_figure;
 
 use crate::Error;
 use crate::progress::Progress;
@@ -58,6 +62,7 @@ pub const ALL: &[(&str, Build)] = &[
     ("fig8", fig_06_to_09_basins::figure_8),
     ("fig9", fig_06_to_09_basins::figure_9),
     ("invariance", invariance::build),
+    ("printed", printed_against_stable::build),
 ];
 
 /// The figures with these names; all of them if none is named.

@@ -122,6 +122,23 @@ impl Svg {
         );
     }
 
+    /// A filled outline with a thin white rim.
+    pub fn fill_path(&mut self, d: &str, color: &str) {
+        let _ = writeln!(
+            self.body,
+            "<path d=\"{d}\" fill=\"{color}\" stroke=\"white\" stroke-width=\"0.5\"/>"
+        );
+    }
+
+    /// A white disc with a rim.
+    pub fn ring(&mut self, x: f64, y: f64, radius: f64, pen: Pen) {
+        let _ = writeln!(
+            self.body,
+            "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"{radius:.2}\" fill=\"white\" stroke=\"{}\" stroke-width=\"{:.2}\"/>",
+            pen.color, pen.width
+        );
+    }
+
     /// A label; see [`super::label`] for its markup.
     pub fn text(&mut self, x: f64, y: f64, anchor: Anchor, size: f64, markup: &str) {
         self.rotated_text(x, y, 0.0, anchor, size, markup);

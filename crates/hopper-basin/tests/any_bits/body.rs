@@ -83,9 +83,11 @@ fn motion(ratio: MassRatio, state: HopperState) {
         for arc in Execution::new(&hopper, phase, state.into(), Limits::new(f64::INFINITY, 8)) {
             let Ok(arc) = arc else { break };
             let now = energy(ratio, &arc.start.into());
-            // Rounding is relative to the largest coordinate so far.
+            // Rounding is relative to the largest coordinate so far; landings are corrected to first
+            // order in what an ulp of their time leaves.
             size = arc.start.iter().map(|x| x.abs()).fold(size, f64::max);
-            let rounding = 1e-9 * (1.0 + ratio.value()) * size * size;
+            let ulp = 4.0 * f64::EPSILON * size;
+            let rounding = (1e-9 + ulp * ulp) * (1.0 + ratio.value()) * size * size;
             assert!(!(now > before + rounding), "{now} after {before} from {state:?}, M = {ratio:?}");
             before = now;
         }

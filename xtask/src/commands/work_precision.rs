@@ -1,0 +1,50 @@
+//! `work-precision`: time against error of every way to compute a hop.
+
+use crate::Error;
+use crate::figures::work_precision_figure;
+use crate::output::{Folder, read, repository};
+use crate::plot::render::render;
+use crate::progress::Progress;
+use crate::work_precision::{measure, scenes, sin_cos_time, table};
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// Folder for the results [default: target/work-precision in the repository]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Renew the tables and the figure of docs/accuracy.md with what is measured
+    #[arg(long)]
+    bless: bool,
+}
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let default = repository().join("target/work-precision");
+    let folder = Folder::open(options.out.as_deref().unwrap_or(&default))?;
+    let unit = sin_cos_time();
+    let scores = measure(&Progress)?;
+    let scenes = scenes::scenes(&scores)?;
+    let svg = work_precision_figure(&scores, unit);
+    let rendered = render("work_precision", &svg, 2.0)?;
+    folder.write("work_precision.csv", &table::csv(&scores, unit)?)?;
+    folder.write("work_precision.svg", rendered.svg.as_bytes())?;
+    folder.write("work_precision.png", &rendered.png)?;
+    let (methods, scenes) = (table::methods(&scores, unit), table::scenes(&scenes));
+    let sin_cos = table::duration(unit);
+    let mut out = std::io::stdout().lock();
+    writeln!(out, "f64::sin_cos: {sin_cos}\n\n{methods}\n{scenes}\n{}", folder.path().display())
+        .map_err(|source| Error::File { path: "standard output".into(), source })?;
+    if !options.bless {
+        return Ok(());
+    }
+    let docs = Folder::open(&repository().join("docs"))?;
+    let text = read(&docs.path().join("accuracy.md"))?;
+    let unit = format!("One `f64::sin_cos` took {sin_cos} in the same run.");
+    let text = table::replace_block(&text, "methods", &format!("{unit}\n\n{methods}"))?;
+    let text = table::replace_block(&text, "scenes", &scenes)?;
+    docs.write("accuracy.md", text.as_bytes())?;
+    docs.write("figures/work_precision.svg", rendered.svg.as_bytes())
+}

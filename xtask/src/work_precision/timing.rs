@@ -1,0 +1,37 @@
+//! Times, as medians over repeats.
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+/// Repeats of which the median is taken.
+const REPEATS: usize = 7;
+
+/// A repeat takes at least this long, or one pass.
+const LEAST: Duration = Duration::from_millis(4);
+
+/// The time of one call of `call`, over the inputs 0, …, `count` − 1.
+pub(crate) fn median_time<T>(count: usize, call: impl Fn(usize) -> T) -> Duration {
+    let pass = || (0..count).for_each(|k| drop(black_box(call(black_box(k)))));
+    let begin = Instant::now();
+    pass();
+    let once = begin.elapsed();
+    let passes = (LEAST.as_secs_f64() / once.as_secs_f64().max(1e-9)).ceil().max(1.0) as u32;
+    // Slow methods are timed fewer times.
+    let repeats = if once > 50 * LEAST { 1 } else { REPEATS };
+    let mut times: Vec<Duration> = (0..repeats)
+        .map(|_| {
+            let begin = Instant::now();
+            (0..passes).for_each(|_| pass());
+            begin.elapsed() / passes
+        })
+        .collect();
+    times.sort();
+    times[repeats / 2].div_f64(count.max(1) as f64)
+}
+
+/// The time of one `f64::sin_cos` on arguments in [0, 50]: the unit of speed.
+#[allow(clippy::disallowed_methods)] // the comparison is with std's
+pub(crate) fn sin_cos_time() -> Duration {
+    let arguments: Vec<f64> = (0..10_000).map(|k| 0.005 * f64::from(k)).collect();
+    median_time(arguments.len(), |k| arguments[k].sin_cos())
+}
