@@ -136,7 +136,7 @@ pub(crate) fn duration(time: Duration) -> String {
         s if s < 1.0 => (s * 1e3, "ms"),
         s => (s, "s"),
     };
-    let digits = usize::from(value < 10.0);
+    let digits = usize::from(value < 9.95);
     format!("{value:.digits$} {unit}")
 }
 
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn durations_have_two_digits_and_a_unit() {
         let text = |seconds: f64| duration(Duration::from_secs_f64(seconds));
-        assert_eq!(text(9.24e-9), "9.2 ns");
+        assert_eq!(text(9.0e-9), "9.0 ns");
         assert_eq!(text(7.4e-7), "740 ns");
         assert_eq!(text(2.1e-6), "2.1 µs");
         assert_eq!(text(0.013), "13 ms");
