@@ -48,4 +48,38 @@ pub enum Error {
         /// Samples asked for.
         samples: usize,
     },
+    /// A proportion of nothing, or of more than everything.
+    #[error("{successes} of {trials} is no proportion")]
+    BadTrials {
+        /// Successes.
+        successes: usize,
+        /// Trials.
+        trials: usize,
+    },
+    /// An interval from replicates needs at least two.
+    #[error("{replicates} replicates are too few for an interval")]
+    TooFewReplicates {
+        /// Replicates.
+        replicates: usize,
+    },
+    /// A size of boxes, or a distance, that cannot be used.
+    #[error("a size or distance of {size} cannot be used here")]
+    BadBoxSize {
+        /// The size given.
+        size: f64,
+    },
+    /// Points through which no power law can be fitted.
+    #[error(
+        "no power law through {points} points: three are needed, positive and at different scales"
+    )]
+    BadFit {
+        /// Points given.
+        points: usize,
+    },
+    /// The Wada test needs three basins.
+    #[error("{labels} labels: the Wada property needs three basins")]
+    TooFewLabels {
+        /// Labels found.
+        labels: usize,
+    },
 }

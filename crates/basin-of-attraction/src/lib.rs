@@ -12,7 +12,13 @@
 //! | [`Interval`], [`IntervalSet`] | disjoint intervals: union, difference, measure |
 //! | [`monotone_branches`], [`Branch`] | where a map is monotone, and preimages on a branch to 1 ulp |
 //! | [`preimage_levels`] | the basin of a trap, level by level |
-//! | [`equally_spaced_counts`] | labels of equally spaced points, counted |
+//! | [`interval_basins`], [`IntervalBasins`] | all basins in a window as intervals, with what is left undecided |
+//! | [`PreimageTree`], [`Remainder`], [`geometric_limit`] | which branch leads where; a Cantor set left over, or a countable one |
+//! | [`equally_spaced_shares`], [`random_shares`], [`low_discrepancy_shares`] | measures by points, each with an interval |
+//! | [`Estimate`], [`wilson`], [`student`] | a value with its interval |
+//! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, dimensions with local slopes and warnings |
+//! | [`uncertain_share`], [`IntervalBasins::uncertain_share`] | final-state uncertainty, by pairs of points or exactly |
+//! | [`LabelImage::wada`] | do all basins share one boundary? |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //!
 //! ```
@@ -30,24 +36,49 @@
 //! located to one ulp of the map as it is computed. The same input gives the same labels with any
 //! number of threads.
 //!
+//! A slope between two scales is no dimension: [`PowerLaw`] shows all local slopes and warns when they
+//! drift.
+//!
 //! # Not here
-//! Dimensions, entropies and confidence intervals; maps of more than one variable (a raster takes
-//! any labelling of the plane).
+//! Maps of more than one variable (a raster takes any labelling of the plane); finding attractors.
+//!
+//! # References
+//! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent;
+//! A. Daza et al., Sci. Rep. 6, 31416 (2016), basin entropy; A. Daza, A. Wagemakers, M. A. F. Sanjuán,
+//! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927).
 
+mod boxes;
 mod branches;
+mod entropy;
 mod error;
 mod fate;
 mod interval;
-mod measure;
+mod interval_basins;
+mod power_law;
 mod preimage;
+mod preimage_tree;
 mod raster;
+mod sampling;
 mod scalar_map;
+mod statistics;
+mod uncertainty;
+mod wada;
 
+pub use boxes::{BoxCount, occupied_boxes};
 pub use branches::{Branch, monotone_branches};
+pub use entropy::entropy;
 pub use error::Error;
 pub use fate::{Fate, Reason, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
-pub use measure::equally_spaced_counts;
+pub use interval_basins::{IntervalBasins, Part, Refinement, interval_basins};
+pub use power_law::{PowerLaw, Warning, power_law};
 pub use preimage::preimage_levels;
-pub use raster::{Grid, LabelImage, raster};
+pub use preimage_tree::{Node, PreimageTree, Remainder, geometric_limit};
+pub use raster::{Grid, LabelImage, LegendEntry, raster};
+pub use sampling::{
+    equally_spaced_counts, equally_spaced_shares, low_discrepancy_shares, random_shares,
+};
 pub use scalar_map::{Image, ScalarMap};
+pub use statistics::{Estimate, student, wilson};
+pub use uncertainty::uncertain_share;
+pub use wada::WadaTest;

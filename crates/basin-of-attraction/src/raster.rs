@@ -54,6 +54,23 @@ impl LabelImage {
         }
         counts.into_iter().collect()
     }
+
+    /// The labels that occur, each with its name and number of pixels.
+    pub fn legend(&self, name: impl Fn(u16) -> String) -> Vec<LegendEntry> {
+        let entry = |(label, pixels)| LegendEntry { label, name: name(label), pixels };
+        self.counts().into_iter().map(entry).collect()
+    }
+}
+
+/// What a label of an image stands for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LegendEntry {
+    /// The label.
+    pub label: u16,
+    /// Its name.
+    pub name: String,
+    /// How many pixels have it.
+    pub pixels: usize,
 }
 
 /// Labels every pixel of `grid` by its middle.

@@ -1,0 +1,253 @@
+//! Basins of a scalar map as intervals, with all that is left undecided.
+
+use crate::{Branch, Error, Estimate, Interval, IntervalSet, ScalarMap};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// An interval of a basin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Part {
+    /// Where.
+    pub interval: Interval,
+    /// The label of the trap that it enters.
+    pub label: u16,
+    /// After how many steps.
+    pub level: usize,
+}
+
+/// When to stop refining.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refinement {
+    /// Intervals shorter than this are kept, but their own preimages are left undecided.
+    pub shortest: f64,
+    /// Stop when less than this is undecided.
+    pub undecided: f64,
+    /// Most levels.
+    pub levels: usize,
+    /// Most intervals.
+    pub intervals: usize,
+}
+
+impl Default for Refinement {
+    /// Down to intervals of 10⁻⁹, a million of them, until a millionth of the unit is undecided.
+    fn default() -> Self {
+        Refinement { shortest: 1e-9, undecided: 1e-6, levels: 100_000, intervals: 1_000_000 }
+    }
+}
+
+/// The basins in a window.
+#[derive(Debug, Clone, PartialEq)]
+pub struct IntervalBasins {
+    window: Interval,
+    parts: Vec<Part>,
+}
+
+/// The basins of labelled intervals in `window`, level by level of preimages.
+///
+/// `traps` are sets that orbits do not leave, and, with labels of their own, parts on which the map
+/// has no value. `branches` must be all monotone branches of the map in the window: that they are is
+/// the caller's knowledge. Ends are located to one ulp of the map as it is computed; every point
+/// enters at one level only, so that the parts are disjoint.
+///
+/// ```
+/// use basin_of_attraction::{Branch, Interval, Refinement, interval_basins};
+/// // x + x²: everything in (−1, 0) goes to 0, ever more slowly.
+/// let map = |x: f64| Some(x + x * x);
+/// let trap = (Interval::new(-0.1, 0.0)?, 1);
+/// let left = Branch { domain: Interval::new(-1.0, -0.5)?, at_left: 0.0, at_right: -0.25 };
+/// let right = Branch { domain: Interval::new(-0.5, 0.0)?, at_left: -0.25, at_right: 0.0 };
+/// let window = Interval::new(-1.0, 0.0)?;
+/// let basins = interval_basins(&map, &[trap], &[left, right], window, Refinement::default())?;
+/// assert!(basins.undecided() < 1e-6 && basins.measure(1).covers(1.0));
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::OverlappingTraps`] if two traps overlap.
+pub fn interval_basins(
+    map: &(impl ScalarMap + Sync),
+    traps: &[(Interval, u16)],
+    branches: &[Branch],
+    window: Interval,
+    refinement: Refinement,
+) -> Result<IntervalBasins, Error> {
+    crate::TrapSet::new(traps.to_vec())?;
+    let known = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
+    let inside = |&(trap, label): &(Interval, u16)| {
+        let interval = trap.intersection(&window)?;
+        Some(Part { interval, label, level: 0 })
+    };
+    let mut parts: Vec<Part> = traps.iter().filter_map(inside).collect();
+    // Orbits may leave the window and come back: targets are whole traps.
+    let mut frontier: Vec<Part> =
+        traps.iter().map(|&(interval, label)| Part { interval, label, level: 0 }).collect();
+    let mut left = window.length() - length(&parts);
+    for level in 1..=refinement.levels {
+        if left <= refinement.undecided || frontier.is_empty() || parts.len() > refinement.intervals
+        {
+            break;
+        }
+        frontier = frontier
+            .par_iter()
+            .filter(|part| part.interval.length() >= refinement.shortest)
+            .flat_map_iter(|part| preimages(map, branches, part, &known, level))
+            .collect();
+        left -= length(&frontier);
+        parts.extend_from_slice(&frontier);
+    }
+    Ok(IntervalBasins { window, parts: apart(parts) })
+}
+
+/// Sorted, with the ulp or two cut off that neighbours share where the map has equal values.
+fn apart(mut parts: Vec<Part>) -> Vec<Part> {
+    parts.sort_by(|a, b| a.interval.left.total_cmp(&b.interval.left));
+    let mut end = f64::NEG_INFINITY;
+    for part in &mut parts {
+        part.interval.left = part.interval.left.max(end);
+        end = end.max(part.interval.right);
+    }
+    parts.retain(|part| part.interval.left < part.interval.right);
+    parts
+}
+
+fn length(parts: &[Part]) -> f64 {
+    parts.iter().map(|part| part.interval.length()).sum()
+}
+
+/// The preimages of a part outside the traps.
+fn preimages(
+    map: &impl ScalarMap,
+    branches: &[Branch],
+    part: &Part,
+    known: &IntervalSet,
+    level: usize,
+) -> Vec<Part> {
+    let found = branches.iter().filter_map(|branch| branch.preimage(map, &part.interval)).collect();
+    let fresh = IntervalSet::union(found).minus(known);
+    let label = part.label;
+    fresh.intervals().iter().map(|&interval| Part { interval, label, level }).collect()
+}
+
+impl IntervalBasins {
+    /// The window.
+    pub fn window(&self) -> Interval {
+        self.window
+    }
+
+    /// All parts, from left to right.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The labels that occur.
+    pub fn labels(&self) -> Vec<u16> {
+        let mut labels: Vec<u16> = self.parts.iter().map(|part| part.label).collect();
+        labels.sort_unstable();
+        labels.dedup();
+        labels
+    }
+
+    /// The basin with a label, as a set.
+    pub fn set(&self, label: u16) -> IntervalSet {
+        let own = self.parts.iter().filter(|part| part.label == label);
+        IntervalSet::union(own.map(|part| part.interval).collect())
+    }
+
+    /// The label of a point, if it is decided.
+    pub fn label(&self, x: f64) -> Option<u16> {
+        let at = self.parts.partition_point(|part| part.interval.right < x);
+        self.parts.get(at).filter(|part| part.interval.contains(x)).map(|part| part.label)
+    }
+
+    /// The length that is left undecided.
+    pub fn undecided(&self) -> f64 {
+        let rest = self.window.length() - length(&self.parts);
+        rest.max(0.0)
+    }
+
+    /// The length of the basin with a label: what is resolved, and bounds that hold whatever the
+    /// undecided rest is and with every end an ulp off.
+    pub fn measure(&self, label: u16) -> Estimate {
+        self.measure_of(|other| other == label)
+    }
+
+    /// The same for all labels that fulfil a condition, together.
+    pub fn measure_of(&self, condition: impl Fn(u16) -> bool) -> Estimate {
+        let own = self.parts.iter().filter(|part| condition(part.label));
+        let value: f64 = own.map(|part| part.interval.length()).sum();
+        // Two ends an ulp off for every part of any label, and the rounding of the sum.
+        let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
+        let ends = 3.0 * self.parts.len() as f64 * ulp;
+        let upper = (value + self.undecided() + ends).min(self.window.length());
+        Estimate { value, lower: (value - ends).max(0.0), upper }
+    }
+
+    /// Counts and lengths of the parts of a label, by level.
+    pub fn levels(&self, label: u16) -> BTreeMap<usize, (usize, f64)> {
+        let mut levels = BTreeMap::new();
+        for part in self.parts.iter().filter(|part| part.label == label) {
+            let (count, length) = levels.entry(part.level).or_insert((0, 0.0));
+            *count += 1;
+            *length += part.interval.length();
+        }
+        levels
+    }
+
+    /// The places where a label ends: between neighbours of different labels the common end, beside
+    /// an undecided gap longer than `resolution` both of its ends.
+    pub fn boundary(&self, resolution: f64) -> Vec<f64> {
+        let mut points = Vec::new();
+        for pair in self.parts.windows(2) {
+            let (before, after) = (pair[0].interval.right, pair[1].interval.left);
+            if after - before > resolution {
+                points.extend([before, after]);
+            } else if pair[0].label != pair[1].label {
+                points.push(after);
+            }
+        }
+        points
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Fate, TrapSet, classify};
+
+    fn logistic() -> (impl Fn(f64) -> Option<f64> + Sync, Vec<Branch>, Vec<(Interval, u16)>) {
+        // 3x(1 − x)-like with two attractors: a cubic with two stable fixed points ±1.
+        let map = |x: f64| Some(1.5 * x - 0.5 * x * x * x);
+        let at = |x: f64| 1.5 * x - 0.5 * x * x * x;
+        let branch = |left: f64, right: f64| Branch {
+            domain: Interval { left, right },
+            at_left: at(left),
+            at_right: at(right),
+        };
+        let branches = vec![branch(-2.2, -1.0), branch(-1.0, 1.0), branch(1.0, 2.2)];
+        let traps = vec![
+            (Interval { left: -1.2, right: -0.8 }, 1),
+            (Interval { left: 0.8, right: 1.2 }, 2),
+        ];
+        (map, branches, traps)
+    }
+
+    #[test]
+    fn parts_are_disjoint_symmetric_and_right() {
+        let (map, branches, traps) = logistic();
+        let window = Interval { left: -2.2, right: 2.2 };
+        let basins =
+            interval_basins(&map, &traps, &branches, window, Refinement::default()).unwrap();
+        for pair in basins.parts().windows(2) {
+            assert!(pair[0].interval.right <= pair[1].interval.left);
+        }
+        assert!((basins.measure(1).value - basins.measure(2).value).abs() < 1e-12);
+        assert!(basins.undecided() < 1e-6);
+        let set = TrapSet::new(traps).unwrap();
+        for k in 0..1000 {
+            let x = -2.19 + 4.38 * (f64::from(k) + 0.37) / 1000.0;
+            let (fate, steps) = classify(&map, &set, x, 1000);
+            let part = basins.parts().iter().find(|part| part.interval.contains(x));
+            assert_eq!(part.map(|p| (Fate::Trapped(p.label), p.level)), Some((fate, steps)));
+        }
+    }
+}

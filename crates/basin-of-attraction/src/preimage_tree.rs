@@ -1,0 +1,178 @@
+//! The preimages of a trap as a tree, and what the tree leaves over.
+
+use crate::power_law::line;
+use crate::{Branch, Interval, IntervalSet, ScalarMap};
+
+/// An interval of the tree, mapped onto its parent by one branch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Node {
+    /// Where.
+    pub interval: Interval,
+    /// After how many steps it enters the trap.
+    pub level: usize,
+    /// The node it is mapped into; none for the trap.
+    pub parent: Option<usize>,
+    /// The branch that maps it there, by its place in the list; 0 for the trap.
+    pub branch: usize,
+}
+
+/// The trap, its preimages, theirs, …
+#[derive(Debug, Clone, PartialEq)]
+pub struct PreimageTree {
+    window: Interval,
+    nodes: Vec<Node>,
+    /// Where each level begins among the nodes, and an end.
+    starts: Vec<usize>,
+}
+
+/// What remains of the window outside all levels, as far as the growth of the counts tells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Remainder {
+    /// Counts grow exponentially, by this logarithm a level: orbits that never enter form a Cantor set.
+    Cantor {
+        /// ln of the factor from level to level.
+        growth: f64,
+    },
+    /// Counts grow like a power of the level, so that boundaries are countable.
+    Countable {
+        /// The power.
+        power: f64,
+    },
+    /// Too few levels, or neither fits better.
+    Undecided,
+}
+
+impl PreimageTree {
+    /// Grows `depth` levels in `window`, or until one is empty or there are a million nodes.
+    ///
+    /// `branches` must be all monotone branches of the map there.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Branch, Interval, PreimageTree, Remainder};
+    /// // The tent map of slope 3: what never leaves [0, 1] is Cantor's set.
+    /// let tent = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * (1.0 - x) });
+    /// let left = Branch { domain: Interval::new(0.0, 0.5)?, at_left: 0.0, at_right: 1.5 };
+    /// let right = Branch { domain: Interval::new(0.5, 1.0)?, at_left: 1.5, at_right: 0.0 };
+    /// let (window, hole) = (Interval::new(0.0, 1.0)?, Interval::new(1.0 + 1e-12, 1.5)?);
+    /// let tree = PreimageTree::grow(&tent, &[left, right], hole, window, 12);
+    /// let Remainder::Cantor { growth } = tree.remainder() else { panic!() };
+    /// assert!((growth - 2f64.ln()).abs() < 1e-12);
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    pub fn grow(
+        map: &impl ScalarMap,
+        branches: &[Branch],
+        trap: Interval,
+        window: Interval,
+        depth: usize,
+    ) -> Self {
+        const MOST: usize = 1_000_000;
+        let known = IntervalSet::union(vec![trap]);
+        let root = Node { interval: trap, level: 0, parent: None, branch: 0 };
+        let mut tree = PreimageTree { window, nodes: vec![root], starts: vec![0, 1] };
+        for level in 1..=depth {
+            let last = tree.starts[level - 1]..tree.starts[level];
+            if last.is_empty() || tree.nodes.len() > MOST {
+                break;
+            }
+            for parent in last {
+                let target = tree.nodes[parent].interval;
+                for (branch, piece) in branches.iter().enumerate() {
+                    let Some(found) = piece.preimage(map, &target) else { continue };
+                    let fresh = IntervalSet::union(vec![found]).minus(&known);
+                    let node = |&interval| Node { interval, level, parent: Some(parent), branch };
+                    tree.nodes.extend(fresh.intervals().iter().map(node));
+                }
+            }
+            tree.starts.push(tree.nodes.len());
+        }
+        tree
+    }
+
+    /// All nodes, level by level.
+    pub fn nodes(&self) -> &[Node] {
+        &self.nodes
+    }
+
+    /// The nodes of one level.
+    pub fn level(&self, level: usize) -> &[Node] {
+        match (self.starts.get(level), self.starts.get(level + 1)) {
+            (Some(&from), Some(&to)) => &self.nodes[from..to],
+            _ => &[],
+        }
+    }
+
+    /// Number of levels, the trap included.
+    pub fn levels(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// How many intervals each level has.
+    pub fn counts(&self) -> Vec<usize> {
+        (0..self.levels()).map(|level| self.level(level).len()).collect()
+    }
+
+    /// The length of each level inside the window.
+    pub fn lengths(&self) -> Vec<f64> {
+        let inside =
+            |node: &Node| node.interval.intersection(&self.window).map_or(0.0, |i| i.length());
+        (0..self.levels()).map(|level| self.level(level).iter().map(inside).sum()).collect()
+    }
+
+    /// What of the window no level up to `level` covers.
+    pub fn gaps(&self, level: usize) -> IntervalSet {
+        let end = self.starts.get(level + 1).copied().unwrap_or(self.nodes.len());
+        let covered = IntervalSet::union(self.nodes[..end].iter().map(|n| n.interval).collect());
+        IntervalSet::union(vec![self.window]).minus(&covered)
+    }
+
+    /// How the counts grow over the later half of the levels: exponentially, which leaves a Cantor
+    /// set, or like a power of the level, which leaves a countable one.
+    pub fn remainder(&self) -> Remainder {
+        let counts = self.counts();
+        let late: Vec<(f64, f64)> = counts
+            .iter()
+            .enumerate()
+            .skip(counts.len() / 2)
+            .filter(|(_, count)| **count > 0)
+            .map(|(level, &count)| (level as f64, pxfm::f_log(count as f64)))
+            .collect();
+        if late.len() < 4 {
+            return Remainder::Undecided;
+        }
+        let exponential = line(&late);
+        let logarithmic: Vec<_> = late.iter().map(|&(k, n)| (pxfm::f_log(k), n)).collect();
+        let power = line(&logarithmic);
+        // An exact fit may have no residual at all.
+        let tiny = 1e-12;
+        if exponential.residual + tiny < 0.25 * power.residual {
+            Remainder::Cantor { growth: exponential.slope }
+        } else if power.residual + tiny < 0.25 * exponential.residual {
+            Remainder::Countable { power: power.slope }
+        } else {
+            Remainder::Undecided
+        }
+    }
+}
+
+/// The limit of a sum whose terms fall geometrically in the end, by Aitken's extrapolation, with its
+/// change under one more term as error; nothing for fewer than four terms or if they do not fall.
+///
+/// ```
+/// let terms: Vec<f64> = (0..12).map(|k| 0.5f64.powi(k)).collect();
+/// let (limit, error) = basin_of_attraction::geometric_limit(&terms).unwrap();
+/// assert!((limit - 2.0).abs() < 1e-14 && error < 1e-14);
+/// ```
+pub fn geometric_limit(terms: &[f64]) -> Option<(f64, f64)> {
+    let limit = |terms: &[f64]| {
+        let [.., before, last] = *terms else { return None };
+        let ratio = last / before;
+        let sum: f64 = terms.iter().sum();
+        (ratio.abs() < 1.0).then(|| sum + last * ratio / (1.0 - ratio))
+    };
+    if terms.len() < 4 {
+        return None;
+    }
+    let (value, before) = (limit(terms)?, limit(&terms[..terms.len() - 1])?);
+    Some((value, (value - before).abs()))
+}

@@ -1,0 +1,356 @@
+//! Basins that are known exactly, each by the name of its case.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use basin_of_attraction::{
+    BoxCount, Branch, Fate, Grid, Interval, IntervalBasins, LabelImage, PreimageTree, Refinement,
+    Remainder, TrapSet, classify, entropy, equally_spaced_shares, geometric_limit, interval_basins,
+    low_discrepancy_shares, occupied_boxes, power_law, random_shares, raster, uncertain_share,
+};
+use std::ops::ControlFlow::Continue;
+
+fn interval(left: f64, right: f64) -> Interval {
+    Interval::new(left, right).unwrap()
+}
+
+const THIRD: f64 = 1.0 / 3.0;
+
+/// Distance of 2x − 1 … as a label: which of `colours` the middle gap has in which x falls, by the
+/// number of steps of x → 3x mod 1 that lead to it.
+fn cantor_label(x: f64, colours: u16) -> u16 {
+    let mut x = x;
+    for step in 0..60u16 {
+        if x > THIRD && x < 2.0 * THIRD {
+            return step % colours;
+        }
+        x = if x <= THIRD { 3.0 * x } else { 3.0 * x - 2.0 };
+    }
+    colours
+}
+
+/// The gap (1/3, 2/3) and its preimages, with the level as label.
+fn cantor_levels(depth: usize) -> IntervalBasins {
+    let map = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * x - 2.0 });
+    let branches = [
+        Branch { domain: interval(0.0, THIRD), at_left: 0.0, at_right: 1.0 },
+        Branch { domain: interval(2.0 * THIRD, 1.0), at_left: 0.0, at_right: 1.0 },
+    ];
+    let gap = (interval(THIRD, 2.0 * THIRD), 0);
+    let refinement =
+        Refinement { shortest: 0.0, undecided: 0.0, levels: depth, intervals: 1 << 20 };
+    interval_basins(&map, &[gap], &branches, interval(0.0, 1.0), refinement).unwrap()
+}
+
+/// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the one before.
+fn extrapolated(levels: &IntervalBasins, colours: usize, label: usize) -> f64 {
+    let lengths: Vec<f64> = levels.levels(0).values().map(|(_, length)| *length).collect();
+    // More levels would add more rounding than digits.
+    let own: Vec<f64> = lengths.into_iter().take(12).skip(label).step_by(colours).collect();
+    let (value, error) = geometric_limit(&own).unwrap();
+    assert!(error < 1e-12, "{error:e}");
+    value
+}
+
+#[test]
+fn b1_two_colour_cantor_basin() {
+    let levels = cantor_levels(16);
+    assert!((extrapolated(&levels, 2, 0) - 0.6).abs() < 1e-12);
+    assert!((extrapolated(&levels, 2, 1) - 0.4).abs() < 1e-12);
+    // Boxes of size 3^−n: 2^n are mixed, and each mixed box is a copy of the whole.
+    let points: Vec<(f64, f64)> = (1..=10)
+        .map(|n| {
+            let count = coloured(&levels, 2).boxes(3f64.powi(-n), 1e-4).unwrap();
+            assert_eq!(count.mixed, 1 << n, "3^-{n}");
+            (count.size, count.mixed as f64)
+        })
+        .collect();
+    let law = power_law(&points).unwrap();
+    assert!((law.exponent.value + 2f64.ln() / 3f64.ln()).abs() < 1e-12);
+    assert_eq!(law.warning, None);
+    // The uncertainty exponent is what is left of the dimension of the line.
+    assert!((1.0 + law.exponent.value - 0.369_070_246_428_543).abs() < 1e-12);
+    let shares = [extrapolated(&levels, 2, 0), extrapolated(&levels, 2, 1)];
+    assert!((entropy(shares) - 0.673_011_667_009_256_5).abs() < 1e-12);
+}
+
+#[test]
+fn b1_leaves_a_cantor_set() {
+    let map = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * x - 2.0 });
+    let branches = [
+        Branch { domain: interval(0.0, THIRD), at_left: 0.0, at_right: 1.0 },
+        Branch { domain: interval(2.0 * THIRD, 1.0), at_left: 0.0, at_right: 1.0 },
+    ];
+    let gap = interval(THIRD, 2.0 * THIRD);
+    let tree = PreimageTree::grow(&map, &branches, gap, interval(0.0, 1.0), 12);
+    for (level, (count, length)) in tree.counts().into_iter().zip(tree.lengths()).enumerate() {
+        assert_eq!(count, 1 << level);
+        assert!((length - (2.0f64 / 3.0).powi(level as i32) / 3.0).abs() < 1e-12);
+        let gaps = tree.gaps(level);
+        assert_eq!(gaps.intervals().len(), 2 << level);
+        assert!((gaps.measure() - (2.0f64 / 3.0).powi(level as i32 + 1)).abs() < 1e-12);
+    }
+    let Remainder::Cantor { growth } = tree.remainder() else { panic!() };
+    assert!((growth - 2f64.ln()).abs() < 1e-12);
+}
+
+/// The levels as `colours` basins.
+fn coloured(levels: &IntervalBasins, colours: usize) -> IntervalBasins {
+    let traps: Vec<_> =
+        levels.parts().iter().map(|part| (part.interval, (part.level % colours) as u16)).collect();
+    let nothing = |_: f64| None;
+    interval_basins(&nothing, &traps, &[], levels.window(), Refinement::default()).unwrap()
+}
+
+#[test]
+fn b2_three_colour_cantor_basin() {
+    let levels = cantor_levels(18);
+    let exact = [9.0 / 19.0, 6.0 / 19.0, 4.0 / 19.0];
+    let shares = [0, 1, 2].map(|label| extrapolated(&levels, 3, label));
+    for (share, exact) in shares.into_iter().zip(exact) {
+        assert!((share - exact).abs() < 1e-12, "{share} {exact}");
+    }
+    assert!((entropy(shares) - 1.045_978_165_699_395).abs() < 1e-12);
+    for n in 1..=9 {
+        let count = coloured(&levels, 3).boxes(3f64.powi(-n), 1e-4).unwrap();
+        assert_eq!(count.mixed, 1 << n, "3^-{n}");
+        // What is decided of a mixed box is above ln 2: fractal.
+        assert!(count.boundary_entropy().unwrap() > 2f64.ln());
+    }
+    // One boundary for all three.
+    let pixels = 729;
+    let window = interval(0.0, 1.0);
+    let grid = Grid { x: window, y: window, columns: pixels, rows: 3 };
+    let image = raster(grid, |x| cantor_label(x, 3), |&label, _| label, |_| Continue(())).unwrap();
+    let test = image.wada(4).unwrap();
+    assert!(test.apart < 0.05, "{test:?}");
+}
+
+#[test]
+fn b4_one_way_fixed_point() {
+    let map = |x: f64| (x.abs() < 10.0).then_some(x + x * x);
+    let traps = TrapSet::new(vec![(interval(-0.5, 0.0), 1)]).unwrap();
+    let label = |x: f64| u16::from(classify(&map, &traps, x, 100_000).0 == Fate::Trapped(1));
+    let window = interval(-1.5, 0.5);
+    // The basin is [−1, 0]. Points just right of 0 pass slowly and leave.
+    assert_eq!(label(-1.0 + 1e-12), 1);
+    assert_eq!(label(-1.0 - 1e-12), 0);
+    assert_eq!((label(0.0), label(1e-4)), (1, 0));
+    let shares = equally_spaced_shares(window, 1000, label).unwrap();
+    assert!(shares[&1].covers(0.5) && shares[&1].half_width() < 2e-3);
+    // From −½ the distance to 0 falls under these after so many steps.
+    let mut x = -0.5;
+    let mut marks = [(1e-2, 94), (1e-3, 992), (1e-4, 9990), (1e-5, 99_987)].into_iter();
+    let mut mark = marks.next();
+    for step in 1..=100_000 {
+        x += x * x;
+        if let Some((distance, steps)) = mark
+            && -x < distance
+        {
+            assert_eq!(step, steps);
+            mark = marks.next();
+        }
+    }
+    assert_eq!(mark, None);
+}
+
+fn stripes() -> LabelImage {
+    let window = interval(0.0, 12.0);
+    let grid = Grid { x: window, y: window, columns: 12, rows: 12 };
+    raster(grid, |_| (), |(), y| (y / 4.0) as u16, |_| Continue(())).unwrap()
+}
+
+#[test]
+fn b6_stripes() {
+    let image = stripes();
+    let boxes = image.boxes(3).unwrap();
+    assert!((boxes.basin_entropy() - 0.318_257_084_147_406_4).abs() < 1e-15);
+    assert!((boxes.boundary_entropy().unwrap() - 0.636_514_168_294_812_8).abs() < 1e-15);
+    let test = image.wada(1).unwrap();
+    assert!((test.apart - 1.0 / 6.0).abs() < 1e-15, "{test:?}");
+    assert_eq!(image.wada(4).unwrap().apart, 0.0);
+    let legend = image.legend(|label| format!("basin {label}"));
+    assert_eq!(legend.len(), 3);
+    assert_eq!((legend[1].name.as_str(), legend[1].pixels), ("basin 1", 48));
+}
+
+/// The entropy of a ball that a smooth boundary cuts at a random distance from its middle.
+#[test]
+fn b7_smooth_boundaries() {
+    // Shares of a ball on one side of a cut at distance t.
+    let one = |t: f64| 0.5 * (1.0 - t);
+    let two = |t: f64| (t.acos() - t * (1.0 - t * t).sqrt()) / std::f64::consts::PI;
+    let three = |t: f64| 0.25 * (1.0 - t) * (1.0 - t) * (2.0 + t);
+    let mean = |share: &dyn Fn(f64) -> f64| {
+        let steps = 200_000;
+        let at = |k: u32| -1.0 + 2.0 * (f64::from(k) + 0.5) / f64::from(steps);
+        (0..steps).map(|k| entropy([share(at(k)), 1.0 - share(at(k))])).sum::<f64>()
+            / f64::from(steps)
+    };
+    let known: [(&dyn Fn(f64) -> f64, f64); 3] =
+        [(&one, 0.5), (&two, 0.439_509_330_638), (&three, 0.396_091_762_873)];
+    for (share, exact) in known {
+        assert!((mean(share) - exact).abs() < 1e-9, "{} {exact}", mean(share));
+    }
+    // And by boxes on intervals: one smooth boundary, boxes laid at many offsets.
+    let offsets = 2000;
+    let sum: f64 = (0..offsets)
+        .map(|k| {
+            let cut = 0.25 + 0.1 * (f64::from(k) + 0.5) / f64::from(offsets);
+            let traps = [(interval(0.0, cut), 1), (interval(cut.next_up(), 1.0), 2)];
+            let nothing = |_: f64| None;
+            let window = interval(0.0, 1.0);
+            let basins =
+                interval_basins(&nothing, &traps, &[], window, Refinement::default()).unwrap();
+            let count: BoxCount = basins.boxes(0.1, 1e-6).unwrap();
+            assert_eq!((count.mixed, count.open), (1, 0));
+            count.entropy
+        })
+        .sum();
+    assert!((sum / f64::from(offsets) - 0.5).abs() < 1e-5);
+}
+
+/// θ → θ + a sin 2θ − b sin 4θ − x sin θ, x → −J cos θ: does the orbit end at θ = 0 or π?
+#[test]
+fn b8_grebogi_mcdonald_ott_yorke() {
+    const A: f64 = 1.32;
+    const B: f64 = 0.9;
+    const J: f64 = 0.3;
+    let label = |theta: f64| {
+        let (mut theta, mut x) = (theta, 0.1);
+        for _ in 0..2000 {
+            let next = theta + A * (2.0 * theta).sin() - B * (4.0 * theta).sin() - x * theta.sin();
+            x = -J * theta.cos();
+            theta = next.rem_euclid(std::f64::consts::TAU);
+            // Both fixed points attract from well beyond a thousandth.
+            if theta.sin().abs() < 1e-3 && (x.abs() - J).abs() < 1e-3 {
+                return if theta.cos() > 0.0 { 1 } else { 2 };
+            }
+        }
+        3
+    };
+    let window = interval(0.0, std::f64::consts::TAU);
+    let points: Vec<(f64, f64)> = (2..=7)
+        .map(|k| {
+            let epsilon = 10f64.powi(-k);
+            let share = uncertain_share(window, epsilon, 20_000, 7, label).unwrap();
+            (epsilon, share.value)
+        })
+        .collect();
+    let law = power_law(&points).unwrap();
+    assert!(law.exponent.upper > 0.2 && law.exponent.lower < 0.3, "{law:?}");
+    assert_eq!(law.warning, None);
+}
+
+#[test]
+fn b9_newtons_method_for_three_roots() {
+    let label = |x: f64, y: f64| {
+        let (mut x, mut y) = (x, y);
+        for _ in 0..60 {
+            // z − (z³ − 1)/(3z²) = (2z + 1/z²)/3.
+            let (square_x, square_y) = (x * x - y * y, 2.0 * x * y);
+            let size = square_x * square_x + square_y * square_y;
+            if size == 0.0 {
+                return 0;
+            }
+            (x, y) = ((2.0 * x + square_x / size) / 3.0, (2.0 * y - square_y / size) / 3.0);
+            // Within ¼ of a root Newton's method contracts towards it.
+            for (k, angle) in [0.0, 2.0, 4.0].into_iter().enumerate() {
+                let (sin, cos) = (angle * std::f64::consts::PI / 3.0).sin_cos();
+                if (x - cos).hypot(y - sin) < 0.25 {
+                    return k as u16 + 1;
+                }
+            }
+        }
+        0
+    };
+    let window = interval(-1.5, 1.5);
+    let grid = Grid { x: window, y: window, columns: 1024, rows: 1024 };
+    let image = raster(grid, |x| x, |&x, y| label(x, y), |_| Continue(())).unwrap();
+    let pixels = (1024 * 1024) as f64;
+    for ((found, count), (label, share)) in
+        image.counts().into_iter().zip([(1, 0.3452), (2, 0.3274), (3, 0.3274)])
+    {
+        assert_eq!(found, label);
+        assert!((count as f64 / pixels - share).abs() < 5e-4, "{label}: {}", count as f64 / pixels);
+    }
+    // Under eight pixels boxes see the pixels, not the boundary.
+    let points: Vec<(f64, f64)> = [8, 12, 16, 24, 32, 48, 64]
+        .into_iter()
+        .map(|side| image.boxes(side).map(|b| (b.size, b.mixed as f64)).unwrap())
+        .collect();
+    let law = power_law(&points).unwrap();
+    assert!((1.35..1.5).contains(&-law.exponent.value), "{law:?}");
+    // Wada: all three share one boundary, to a pixel or two.
+    assert!(image.wada(3).unwrap().boundary_apart < 0.05);
+    let exponents: Vec<(f64, f64)> = [-2, -3, -4]
+        .into_iter()
+        .map(|k| {
+            let epsilon = 10f64.powi(k);
+            // On the line y = 0.3 the boundary has one dimension less.
+            let share = uncertain_share(window, epsilon, 100_000, 3, |x| label(x, 0.3)).unwrap();
+            (epsilon, share.value)
+        })
+        .collect();
+    let exponent = power_law(&exponents).unwrap().exponent.value;
+    assert!((0.5..0.7).contains(&exponent), "{exponent}");
+}
+
+/// {k^−3}: countable, of dimension 1/4.
+#[test]
+fn the_cubes_of_one_over_k_have_dimension_one_quarter() {
+    let points: Vec<f64> = (1..=200_000u32).map(|k| f64::from(k).powi(-3)).collect();
+    let count = |size: f64| (size, occupied_boxes(&points, 0.0, size).unwrap() as f64);
+    let fine: Vec<_> = (24..=40).map(|k| count(10f64.powf(-f64::from(k) / 4.0))).collect();
+    let law = power_law(&fine).unwrap();
+    assert!((law.exponent.value + 0.25).abs() < 0.005, "{law:?}");
+    assert_eq!(law.warning, None);
+}
+
+/// 95 % intervals hold the truth in 93 to 97 of 100 cases.
+#[test]
+fn intervals_cover_as_often_as_they_say() {
+    let unit = interval(0.0, 1.0);
+    let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
+    let wide = interval(-1.5, 0.5);
+    let cases: [(&str, Interval, &(dyn Fn(f64) -> u16 + Sync), u16, f64); 2] =
+        [("B1", unit, &|x| cantor_label(x, 2), 0, 0.6), ("B4", wide, &step, 1, 0.5)];
+    for (name, window, label, basin, truth) in cases {
+        let covered = |shares: &dyn Fn(u64) -> basin_of_attraction::Estimate| {
+            (0..1000).filter(|&seed| shares(seed).covers(truth)).count()
+        };
+        let random = covered(&|seed| random_shares(window, 400, seed, label).unwrap()[&basin]);
+        assert!((930..=970).contains(&random), "{name}, random: {random}");
+        let low =
+            covered(&|seed| low_discrepancy_shares(window, 100, 20, seed, label).unwrap()[&basin]);
+        assert!((930..=970).contains(&low), "{name}, low discrepancy: {low}");
+    }
+}
+
+#[test]
+fn low_discrepancy_is_sharper_than_chance() {
+    let window = interval(-1.5, 0.5);
+    let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
+    let random = random_shares(window, 20_000, 1, label).unwrap()[&1];
+    let low = low_discrepancy_shares(window, 1000, 20, 1, label).unwrap()[&1];
+    assert!(low.half_width() < 0.1 * random.half_width());
+}
+
+/// By balls about the boundary, exactly: 2ε for each of the two ends of [−1, 0].
+#[test]
+fn exact_uncertain_shares() {
+    let traps = [
+        (interval(-1.5, -1.0), 0),
+        (interval((-1.0f64).next_up(), 0.0), 1),
+        (interval(f64::MIN_POSITIVE, 0.5), 0),
+    ];
+    let nothing = |_: f64| None;
+    let window = interval(-1.5, 0.5);
+    let basins = interval_basins(&nothing, &traps, &[], window, Refinement::default()).unwrap();
+    for epsilon in [1e-1, 1e-3, 1e-6] {
+        let share = basins.uncertain_share(epsilon, 1e-12).unwrap();
+        assert!((share.value - 2.0 * epsilon).abs() < 1e-12);
+        let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
+        let sampled = uncertain_share(window, epsilon, 100_000, 5, label).unwrap();
+        assert!(sampled.lower < share.value && share.value < sampled.upper, "{sampled:?}");
+    }
+}
