@@ -29,50 +29,101 @@ impl Branch {
         if target.right < lowest || target.left > highest {
             return None;
         }
-        // First and last point whose value lies in the target, going with the branch upwards.
-        let enter = |value: f64| value >= target.left;
-        let leave = |value: f64| value > target.right;
+        // First and last point whose value lies in the target; against the branch, values fall from
+        // left to right.
+        let Interval { left: low, right: high } = *target;
         let (left, right) = if self.increases() {
-            (self.first(map, enter)?, self.last_before(map, leave)?)
+            (self.first(map, low, |off| off >= 0.0)?, self.last_before(map, high, |off| off > 0.0)?)
         } else {
-            // Against the branch: values fall from left to right.
-            (
-                self.first(map, |value| value <= target.right)?,
-                self.last_before(map, |value| value < target.left)?,
-            )
+            (self.first(map, high, |off| off <= 0.0)?, self.last_before(map, low, |off| off < 0.0)?)
         };
         (left < right).then_some(Interval { left, right })
     }
 
-    /// The first point of the branch at which `condition` holds, given that it holds from there on.
-    fn first(&self, map: &impl ScalarMap, condition: impl Fn(f64) -> bool) -> Option<f64> {
-        if condition(self.at_left) {
+    /// The first point of the branch at which `holds` is true of value − `aim`, given that it is true
+    /// from there on.
+    fn first(&self, map: &impl ScalarMap, aim: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
+        if holds(self.at_left - aim) {
             return Some(self.domain.left);
         }
-        if !condition(self.at_right) {
+        if !holds(self.at_right - aim) {
             return None;
         }
-        Some(self.switch(map, condition).1)
+        Some(self.switch(map, aim, holds).1)
     }
 
-    /// The last point before `condition` begins to hold.
-    fn last_before(&self, map: &impl ScalarMap, condition: impl Fn(f64) -> bool) -> Option<f64> {
-        if condition(self.at_left) {
+    /// The last point before `holds` becomes true.
+    fn last_before(
+        &self,
+        map: &impl ScalarMap,
+        aim: f64,
+        holds: impl Fn(f64) -> bool,
+    ) -> Option<f64> {
+        if holds(self.at_left - aim) {
             return None;
         }
-        if !condition(self.at_right) {
+        if !holds(self.at_right - aim) {
             return Some(self.domain.right);
         }
-        Some(self.switch(map, condition).0)
+        Some(self.switch(map, aim, holds).0)
     }
 
-    /// Neighbouring `f64` between which `condition` begins to hold.
-    fn switch(&self, map: &impl ScalarMap, condition: impl Fn(f64) -> bool) -> (f64, f64) {
-        bisect(self.domain.left, self.domain.right, |x| match map.image(x) {
-            Image::Point(value) => condition(value),
+    /// Neighbouring `f64` between which `holds` becomes true of value − `aim`.
+    ///
+    /// Regula falsi (with Illinois' halving) to a few ulps, then doubling steps to the other side, and
+    /// bisection: some 15 values where bisection alone takes 50, and never over 130.
+    fn switch(&self, map: &impl ScalarMap, aim: f64, holds: impl Fn(f64) -> bool) -> (f64, f64) {
+        let off = |x: f64| match map.image(x) {
+            Image::Point(value) => value - aim,
             // Inside a branch the map has values; rounding at its very ends counts as the end.
-            Image::Stops | Image::Undecided => condition(self.at_right),
-        })
+            Image::Stops | Image::Undecided => self.at_right - aim,
+        };
+        let (mut left, mut right) = (self.domain.left, self.domain.right);
+        let (mut at_left, mut at_right) = (self.at_left - aim, self.at_right - aim);
+        let (mut last, mut side) = (f64::NAN, None);
+        for _ in 0..24 {
+            let guess = left - at_left * ((right - left) / (at_right - at_left));
+            if !(guess > left && guess < right) {
+                break;
+            }
+            let value = off(guess);
+            let beyond = holds(value);
+            // An end that stays twice is given half its value, so that both ends move.
+            let again = side.replace(beyond) == Some(beyond);
+            let half = if again { 0.5 } else { 1.0 };
+            if beyond {
+                (right, at_right, at_left) = (guess, value, half * at_left);
+            } else {
+                (left, at_left, at_right) = (guess, value, half * at_right);
+            }
+            let ulp = f64::EPSILON * guess.abs();
+            let done = (guess - last).abs() <= 4.0 * ulp;
+            last = guess;
+            if done {
+                break;
+            }
+        }
+        // From the end that has come close, step out to the other side.
+        let mut step = f64::EPSILON * last.abs();
+        while step > 0.0 && step < 0.5 * (right - left) {
+            if last == right {
+                let probe = right - step;
+                if holds(off(probe)) {
+                    (right, last) = (probe, probe);
+                } else {
+                    left = probe;
+                }
+            } else {
+                let probe = left + step;
+                if holds(off(probe)) {
+                    right = probe;
+                } else {
+                    (left, last) = (probe, probe);
+                }
+            }
+            step *= 2.0;
+        }
+        bisect(left, right, |x| holds(off(x)))
     }
 }
 

@@ -134,6 +134,15 @@ impl IntervalBasins {
         self.window
     }
 
+    /// The same basins, seen in a smaller window.
+    #[must_use]
+    pub fn within(&self, window: Interval) -> IntervalBasins {
+        let cut = |part: &Part| {
+            part.interval.intersection(&window).map(|interval| Part { interval, ..*part })
+        };
+        IntervalBasins { window, parts: self.parts.iter().filter_map(cut).collect() }
+    }
+
     /// All parts, from left to right.
     pub fn parts(&self) -> &[Part] {
         &self.parts

@@ -50,4 +50,12 @@ pub enum Error {
         /// The largest accepted.
         largest: u64,
     },
+    /// A spacing too fine or too coarse to scan with.
+    #[error("cannot scan a length of {length} at a spacing of {width}")]
+    Width {
+        /// The spacing asked for.
+        width: f64,
+        /// The length to be scanned, or the largest mass ratio tried.
+        length: f64,
+    },
 }

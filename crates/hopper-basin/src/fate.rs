@@ -24,8 +24,13 @@ pub enum HopperFate {
 impl HopperFate {
     /// The label of a grounded hopper in label images.
     pub const GROUNDED: u16 = u16::MAX - 1;
-    /// The label of an undecided fate in label images.
+    /// The label of a fate that is undecided because the budget of hops was used up, or that has no
+    /// label of its own.
     pub const UNDECIDED: u16 = u16::MAX;
+    /// The label of a fate that is undecided because the orbit stands still in `f64`.
+    pub const UNDECIDED_PRECISION: u16 = u16::MAX - 2;
+    /// The label of a fate that is undecided because a hop could not be decided.
+    pub const UNDECIDED_HOP: u16 = u16::MAX - 3;
     /// The largest n with a label.
     pub const LARGEST_LABEL: u64 = 65_000;
 
@@ -36,8 +41,27 @@ impl HopperFate {
             HopperFate::Decaying => 0,
             HopperFate::Incessant { n } if n <= Self::LARGEST_LABEL => n as u16,
             HopperFate::Grounded => Self::GROUNDED,
-            HopperFate::Incessant { .. } | HopperFate::Undecided(_) => Self::UNDECIDED,
+            HopperFate::Undecided(Reason::Precision { .. }) => Self::UNDECIDED_PRECISION,
+            HopperFate::Undecided(Reason::Map { .. }) => Self::UNDECIDED_HOP,
+            HopperFate::Incessant { .. } | HopperFate::Undecided(Reason::Budget) => Self::UNDECIDED,
         }
+    }
+
+    /// The name of a label, for legends.
+    pub fn label_name(label: u16) -> String {
+        match label {
+            0 => "decaying".into(),
+            Self::GROUNDED => "grounded".into(),
+            Self::UNDECIDED => "undecided: budget of hops".into(),
+            Self::UNDECIDED_PRECISION => "undecided: precision of f64".into(),
+            Self::UNDECIDED_HOP => "undecided: a hop".into(),
+            n => format!("to α*_{n}"),
+        }
+    }
+
+    /// Whether a label stands for an undecided fate.
+    pub fn is_undecided(label: u16) -> bool {
+        [Self::UNDECIDED, Self::UNDECIDED_PRECISION, Self::UNDECIDED_HOP].contains(&label)
     }
 }
 

@@ -44,7 +44,7 @@ impl Hump {
         Ok(Hump { n, star, flight: LocalFlight::new(n), steepest, end })
     }
 
-    fn w(&self, t: f64) -> f64 {
+    pub(crate) fn w(&self, t: f64) -> f64 {
         if self.n == 0 { HalfFlight::at(0.5 * t).w() } else { self.flight.w(t) }
     }
 
@@ -81,8 +81,8 @@ impl Hump {
         Ok(Some((maximum, minimum)))
     }
 
-    /// The offset α − α*_n at which α' first falls to α*_n (to 0 for n = 0); nothing if it does
-    /// not on this part. It lies between the critical points, where the map falls.
+    /// The place t at which α' first falls to α*_n (to 0 for n = 0); nothing if it does not on this
+    /// part. It lies between the critical points, where the map falls.
     pub(crate) fn first_fall(&self, mu: f64) -> Result<Option<f64>, Error> {
         let above = |t: f64| {
             let closing = self.closing_speed(t);
@@ -92,7 +92,7 @@ impl Hump {
         if above(minimum) >= 0.0 {
             return Ok(None);
         }
-        self.root(above, maximum, minimum).map(|t| Some(self.delta(t)))
+        self.root(above, maximum, minimum).map(Some)
     }
 
     /// The minimum of the map touches α*_n, or zero: there α'² = target² and dα'/dα = 0, so that

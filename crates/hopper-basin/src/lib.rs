@@ -10,6 +10,8 @@
 //! | [`Trap`] | Δ_n, and why the trap ends there |
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
 //! | [`crisis`], [`grounding`] | mass ratios at which a hump falls through its fixed point, or to the ground |
+//! | [`reach`], [`Reach`], [`recovery`] | how far a basin reaches into the sudden windows, down to a stated width; mass ratios from which none falls through |
+//! | [`hopper_basins`], [`HopperBasins`] | all basins at fixed M as intervals, with what is undecided |
 //! | [`shares`], [`Shares`] | measures by the paper's protocol |
 //! | [`basin_raster`] | basins over (M, α) |
 //! | [`basin_levels`], [`branches`] | a basin as intervals, level by level, from the map itself |
@@ -28,9 +30,8 @@
 //! `f64` leaves open is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles
 //! narrower than any `f64` spacing (canards): a basin there is the one seen at that width.
 //!
-//! # Not here
-//! Basins as exact intervals with both measures, dimensions and entropies; the edges of traps in
-//! the sudden windows.
+//! Dimensions, entropies and shares with intervals are the generic crate's, and take these basins:
+//! [`basin_of_attraction::IntervalBasins`].
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
@@ -41,11 +42,15 @@ mod crisis;
 mod error;
 mod fate;
 mod hump;
+mod intervals;
 mod map;
+mod reach;
 mod trap;
 
 pub use basin::{Shares, basin_levels, basin_raster, branches, shares};
 pub use crisis::{Crisis, crisis, grounding};
 pub use error::Error;
 pub use fate::{Fates, HOP_BUDGET, HopperFate};
+pub use intervals::{HopperBasins, hopper_basins};
+pub use reach::{Reach, ReachEdge, reach, recovery};
 pub use trap::{Trap, TrapEdge};

@@ -2,6 +2,7 @@
 
 use crate::Error;
 use crate::hump::Hump;
+use crate::reach::crossing_error;
 use passive_hopper::{DoubleDouble, MassRatio, alpha_star};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -56,6 +57,9 @@ pub struct Trap {
     pub star: DoubleDouble,
     /// Δ_n, the length of the trap.
     pub delta: f64,
+    /// Bound on the error of `delta`: some ulps, times the condition of the edge, which is bad next to
+    /// a [crisis](crate::crisis).
+    pub error: f64,
     /// Why it ends there.
     pub edge: TrapEdge,
 }
@@ -63,8 +67,8 @@ pub struct Trap {
 impl Trap {
     /// The trap of α*_n.
     ///
-    /// Δ_n is right to a few ulps of itself where its edge is a [crossing](TrapEdge::Crossing), however
-    /// large n and small Δ_n are.
+    /// Δ_n has its bound beside it, however large n and small Δ_n are: a few ulps, but for mass ratios
+    /// next to a crisis.
     ///
     /// ```
     /// use hopper_basin::{Trap, TrapEdge};
@@ -81,9 +85,19 @@ impl Trap {
     /// [`Error::Index`] for humps beyond the largest lift-off speed.
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
         let hump = Hump::new(n)?;
-        let trap = |delta, edge| Trap { n, star: hump.star, delta, edge };
-        Ok(match hump.first_fall(mass_ratio.mu())? {
-            Some(delta) => trap(delta, TrapEdge::Crossing),
+        let mu = mass_ratio.mu();
+        let trap = |delta: f64, edge| Trap {
+            n,
+            star: hump.star,
+            delta,
+            error: f64::EPSILON * delta,
+            edge,
+        };
+        Ok(match hump.first_fall(mu)? {
+            Some(t) => Trap {
+                error: crossing_error(&hump, mu, t),
+                ..trap(hump.delta(t), TrapEdge::Crossing)
+            },
             None if cannot_fall(n, mass_ratio) => {
                 trap(hump.star.offset_of(alpha_star(n + 1).high), TrapEdge::NextFixedPoint)
             }

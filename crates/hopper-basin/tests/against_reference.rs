@@ -4,8 +4,12 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use hopper_basin::{Fates, HopperFate, Trap, TrapEdge, crisis, grounding, shares};
-use passive_hopper::MassRatio;
+use basin_of_attraction::{Interval, Refinement};
+use hopper_basin::{
+    Fates, HopperFate, ReachEdge, Trap, TrapEdge, crisis, grounding, hopper_basins, reach,
+    recovery, shares,
+};
+use passive_hopper::{MassRatio, alpha_star};
 use serde_json::Value;
 
 fn rows(text: &str) -> Vec<Value> {
@@ -27,7 +31,10 @@ fn delta_agrees_with_forty_digits_on_the_contact_intervals() {
         let trap = Trap::new(n, ratio).unwrap();
         if row["edge"].as_str().unwrap().starts_with("contact") {
             assert_eq!(trap.edge, TrapEdge::Crossing);
-            assert_relative_eq!(trap.delta, number(&row["delta_exact"]), max_relative = 2e-14);
+            let error = (trap.delta - number(&row["delta_exact"])).abs();
+            // M is a decimal number: half an ulp of it shifts Δ by some ulps more.
+            assert!(error <= trap.error + 4.0 * f64::EPSILON * trap.delta, "{row} {trap:?}");
+            assert!(trap.error < 1e-13 * trap.delta, "{trap:?}");
             compared += 1;
         } else {
             assert_ne!(trap.edge, TrapEdge::Crossing, "{row}");
@@ -143,4 +150,82 @@ fn levels_are_complete() {
         }
     }
     assert!(seen.iter().all(|&count| count > 3), "{seen:?}");
+}
+
+fn fates(mass_ratio: f64) -> Fates {
+    Fates::new(MassRatio::new(mass_ratio).unwrap()).unwrap()
+}
+
+/// Means over the five humps, from theory's counts at 10⁶ points a hump (part e.4); its error is the
+/// square root of a count.
+#[test]
+fn interval_basins_have_the_known_measures() {
+    for (m, all, first) in
+        [(0.1, 1.0, 0.953_197), (0.2, 0.037_044, 0.031_596), (0.5, 0.007_283, 0.006_227)]
+    {
+        let refinement = Refinement { shortest: 1e-6, ..Refinement::default() };
+        let found = hopper_basins(&fates(m), 1, 6, 400, refinement).unwrap().basins;
+        let (mut incessant, mut to_first, mut open) = (0.0, 0.0, 0.0);
+        for n in 1..6 {
+            let hump = Interval::new(alpha_star(n).high, alpha_star(n + 1).high).unwrap();
+            let part = found.within(hump);
+            let share = |length: f64| length / hump.length() / 5.0;
+            incessant += share(part.measure_of(|label| (1..100).contains(&label)).value);
+            to_first += share(part.measure(1).value);
+            open += share(part.undecided());
+        }
+        assert!(
+            incessant <= all + 1e-5 && all <= incessant + open + 1e-5,
+            "{m}: {incessant} {open}"
+        );
+        assert!(
+            to_first <= first + 1e-5 && first <= to_first + open + 1e-5,
+            "{m}: {to_first} {open}"
+        );
+        assert!(open < 1e-3, "{open}");
+    }
+}
+
+/// Every decided part against the fate of points in it; grounding included.
+#[test]
+fn interval_basins_agree_with_fates() {
+    for m in [0.05, 0.3, 0.7, 0.9] {
+        let fates = fates(m);
+        let refinement = Refinement { shortest: 1e-4, ..Refinement::default() };
+        let found = hopper_basins(&fates, 1, 4, 400, refinement).unwrap();
+        let (mut decided, mut grounded) = (0, 0);
+        for k in 0..3000 {
+            let part = (f64::from(k) + 0.5) / 3000.0;
+            let alpha = alpha_star(1).high + (alpha_star(4).high - alpha_star(1).high) * part;
+            let Some(label) = found.basins.label(alpha) else { continue };
+            assert_eq!(fates.fate(alpha).unwrap().label(), label, "M = {m}, α = {alpha}");
+            decided += 1;
+            grounded += usize::from(label == HopperFate::GROUNDED);
+        }
+        assert!(decided > 2700, "{m}: {decided}");
+        assert_eq!(grounded > 0, m > 0.33, "{m}: {grounded}");
+    }
+}
+
+/// Theory's table of Δ: at M = 10 the edge of hump 1 lies in the sudden window, on a chain of six.
+#[test]
+fn reaches_in_the_sudden_windows() {
+    let found = reach(&fates(10.0), 1, 1e-3).unwrap();
+    assert_eq!(found.edge, ReachEdge::Sudden { width: 1e-3 });
+    assert_relative_eq!(found.delta, 2.577_461_789_994_586_2, max_relative = 1e-13);
+    let found = reach(&fates(0.1), 1, 1e-3).unwrap();
+    assert_eq!(found.edge, ReachEdge::NotFound { width: 1e-3 });
+    assert_relative_eq!(found.delta, 3.231_842_379_028_643, max_relative = 1e-14);
+    assert_eq!(reach(&fates(1.0), 1, 1e-3).unwrap().edge, ReachEdge::Contact);
+    // At M = 20 the first fall is 2.4e-8 wide: a scan at 1e-3 does not see it.
+    assert_eq!(reach(&fates(20.0), 1, 1e-3).unwrap().edge, ReachEdge::NotFound { width: 1e-3 });
+    assert!(reach(&fates(10.0), 1, 0.0).is_err() && reach(&fates(10.0), 1, f64::NAN).is_err());
+}
+
+#[test]
+fn recoveries_depend_on_the_width() {
+    let (coarse, fine) = (recovery(1, 1e-2, 40.0).unwrap(), recovery(1, 1e-3, 40.0).unwrap());
+    assert!(coarse.0 < coarse.1 && coarse.1 - coarse.0 < 1e-4);
+    // A finer look sees falls at larger mass ratios; both are beyond the contact part's 9.67.
+    assert!(9.665 < coarse.1 && coarse.1 < fine.1, "{coarse:?} {fine:?}");
 }

@@ -20,7 +20,7 @@ fn entry(label: u16) -> (&'static str, [u8; 3]) {
     match label {
         0 => DECAYING,
         HopperFate::GROUNDED => GROUNDED,
-        HopperFate::UNDECIDED => UNDECIDED,
+        label if HopperFate::is_undecided(label) => UNDECIDED,
         n => BASINS[usize::from(n - 1).min(BASINS.len() - 1)],
     }
 }
@@ -40,7 +40,7 @@ pub fn name(label: u16) -> String {
     match label {
         0 => "decaying".into(),
         HopperFate::GROUNDED => "grounded".into(),
-        HopperFate::UNDECIDED => "undecided".into(),
+        label if HopperFate::is_undecided(label) => "undecided".into(),
         n => format!("to $α$^{{∗}}_{{{n}}}"),
     }
 }

@@ -255,7 +255,8 @@ fn raster() -> Result<Scene, Error> {
     let window = Interval::new(alpha_star(1).high, alpha_star(6).high)?;
     let grid = Grid { x: Interval::new(0.1, 1.0)?, y: window, columns: SIDE, rows: SIDE };
     let image = || basin_raster(grid, |_| ControlFlow::Continue(()));
-    let undecided = image()?.labels.iter().filter(|&&label| label == HopperFate::UNDECIDED).count();
+    let undecided =
+        image()?.labels.iter().filter(|&&label| HopperFate::is_undecided(label)).count();
     let time = median_time(1, |_| image()).div_f64((SIDE * SIDE) as f64);
     Ok(Scene {
         question: "the basins over (M, α), as in Fig. 6",
