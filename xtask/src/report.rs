@@ -1,5 +1,6 @@
 //! `report.html`: one file that opens anywhere.
 
+use crate::beyond::Finding;
 use crate::claims::{Claim, Verdict};
 use crate::figures::Figure;
 use crate::plot::label::html;
@@ -42,18 +43,7 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
     }
     out.push_str("<h2>Figures</h2>");
     for (figure, rendered) in figures {
-        let _ = write!(
-            out,
-            "<figure id=\"{name}\"><img alt=\"{alt}\" src=\"data:image/svg+xml;base64,{image}\">\
-             <figcaption><b>{title}.</b><p class=\"paper\">The paper: {paper}</p><p>{notes}</p>{data}</figcaption></figure>",
-            name = figure.name,
-            alt = figure.name,
-            image = base64(rendered.svg.as_bytes()),
-            title = html(&figure.title),
-            paper = html(&figure.paper),
-            notes = html(&figure.notes),
-            data = data(figure),
-        );
+        drawing(&mut out, figure, rendered, "");
     }
     out.push_str("<h2>What our copy of the paper lost, and what we chose</h2><ul>");
     for item in LOST {
@@ -61,6 +51,53 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
     }
     out.push_str("</ul></body></html>\n");
     out
+}
+
+/// The page of new results.
+pub fn findings_page(findings: &[(Finding, Rendered)], seconds: f64) -> String {
+    let mut out = format!(
+        "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Basins of a simple hopper</title>\
+         <style>{STYLE}</style></head><body><h1>Basins of a simple hopper: what the paper could not say</h1>\
+         <p>Beyond C. K. Reddy and R. Pratap's paper: measures with errors, the structure of the boundary, its \
+         dimension and entropy, and how far each answer is certain. Computed in {seconds:.0} s.</p>"
+    );
+    for (finding, rendered) in findings {
+        drawing(&mut out, &finding.figure, rendered, &findings_table(finding));
+    }
+    out.push_str("</body></html>\n");
+    out
+}
+
+fn findings_table(finding: &Finding) -> String {
+    let mut out = String::from("<table><tr>");
+    for name in &finding.table.header {
+        let _ = write!(out, "<th>{}</th>", html(name));
+    }
+    out.push_str("</tr>");
+    for row in &finding.table.rows {
+        out.push_str("<tr>");
+        for cell in row {
+            let _ = write!(out, "<td>{}</td>", html(cell));
+        }
+        out.push_str("</tr>");
+    }
+    out.push_str("</table>");
+    out
+}
+
+/// A figure with its texts, and what follows them.
+fn drawing(out: &mut String, figure: &Figure, rendered: &Rendered, after: &str) {
+    let _ = write!(
+        out,
+        "<figure id=\"{name}\"><img alt=\"{name}\" src=\"data:image/svg+xml;base64,{image}\">\
+         <figcaption><b>{title}.</b><p class=\"paper\">The paper: {paper}</p><p>{notes}</p>{after}{data}</figcaption></figure>",
+        name = figure.name,
+        image = base64(rendered.svg.as_bytes()),
+        title = html(&figure.title),
+        paper = html(&figure.paper),
+        notes = html(&figure.notes),
+        data = data(figure),
+    );
 }
 
 fn data(figure: &Figure) -> String {

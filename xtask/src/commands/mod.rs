@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+pub mod beyond_paper;
 pub mod check_reference;
 pub mod reproduce_paper;
 pub mod tidy;
@@ -17,17 +18,29 @@ use std::path::Path;
 
 /// The folder for results: the one asked for, or target/paper in the repository.
 fn results_folder(out: Option<&Path>) -> Result<Folder, Error> {
-    out.map_or_else(|| Folder::open(&repository().join("target/paper")), Folder::open)
+    results_folder_named(out, "paper")
+}
+
+/// The folder for results: the one asked for, or one in target in the repository.
+fn results_folder_named(out: Option<&Path>, name: &str) -> Result<Folder, Error> {
+    let default = || Folder::open(&repository().join("target").join(name));
+    out.map_or_else(default, Folder::open)
 }
 
 /// Builds a figure and writes it in both forms, with its data.
 fn make_figure(folder: &Folder, build: Build) -> Result<(Figure, Rendered), Error> {
     let figure = build(&Progress)?;
+    let rendered = write_figure(folder, &figure)?;
+    Ok((figure, rendered))
+}
+
+/// Writes a figure in both forms, with its data.
+fn write_figure(folder: &Folder, figure: &Figure) -> Result<Rendered, Error> {
     let rendered = render(figure.name, &figure.svg, 2.0)?;
     folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?;
     folder.write(&format!("{}.png", figure.name), &rendered.png)?;
     figure.data.iter().try_for_each(|file| folder.write(&file.name, &file.bytes))?;
-    Ok((figure, rendered))
+    Ok(rendered)
 }
 
 /// A claim on a line of the terminal, without markup.

@@ -1,0 +1,98 @@
+//! How the basins repeat from hump to hump.
+
+use super::{Finding, Table, fates, hump, is_incessant};
+use crate::Error;
+use crate::figures::{Figure, csv_file};
+use crate::plot::{Anchor, Frame, Pen, Scale, Svg, decades, palette};
+use crate::progress::Progress;
+use basin_of_attraction::Refinement;
+use hopper_basin::hopper_basins;
+
+const M: f64 = 0.2;
+const LAST: u64 = 8;
+
+/// The share of each hump that each fixed point below attracts.
+pub(super) fn nested_basins(_: &Progress) -> Result<Finding, Error> {
+    let fates = fates(M)?;
+    let refinement = Refinement { shortest: 1e-6, ..Refinement::default() };
+    let basins = hopper_basins(&fates, 1, LAST + 1, 400, refinement)?.basins;
+    let mut table = Table::new(&[
+        "hump",
+        "own trap",
+        "to $α$^{∗}_{1}",
+        "$α$^{∗}_{2}",
+        "$α$^{∗}_{3}",
+        "$α$^{∗}_{4}",
+        "own fixed point",
+        "all",
+        "undecided",
+    ]);
+    let mut shares: Vec<Vec<f64>> = Vec::new();
+    for n in 1..=LAST {
+        let part = basins.within(hump(n)?);
+        let length = part.window().length();
+        let row: Vec<f64> =
+            (1..=n as u16).map(|label| part.measure(label).value / length).collect();
+        let cell =
+            |share: Option<&f64>| share.map_or("–".into(), |s| format!("{:.4} %", 100.0 * s));
+        let all = part.measure_of(is_incessant).value / length;
+        let mut cells = vec![format!("{n}"), cell(Some(&(fates.trap(n)?.delta / length)))];
+        cells.extend((0..4).map(|k| cell(row.get(k))));
+        cells.extend([
+            cell(row.last()),
+            cell(Some(&all)),
+            cell(Some(&(part.undecided() / length))),
+        ]);
+        table.row(cells);
+        shares.push(row);
+    }
+    let mut svg = Svg::new(640.0, 430.0);
+    let frame = Frame {
+        left: 70.0,
+        top: 20.0,
+        width: 440.0,
+        height: 350.0,
+        x: (0.8, LAST as f64 + 0.2),
+        y: (1e-5, 0.1),
+        x_scale: Scale::Linear,
+        y_scale: Scale::Log,
+    };
+    // Those of higher fixed points are in the data.
+    for m in 1..=5u16 {
+        let points: Vec<_> = (u64::from(m)..=LAST)
+            .map(|n| (n as f64, shares[n as usize - 1][usize::from(m) - 1]))
+            .collect();
+        let color = palette::css(m);
+        frame.polyline(&mut svg, &points, Pen::solid(color, 1.5));
+        for &point in &points {
+            let (x, y) = frame.at(point);
+            svg.dot(x, y, 3.2, color);
+        }
+        if let Some(&end) = points.last() {
+            let (x, y) = frame.at(end);
+            svg.text(x + 10.0, y + 4.0, Anchor::Start, 11.5, &palette::name(m));
+        }
+    }
+    let n_ticks: Vec<_> = (1..=LAST).map(|n| (n as f64, format!("{n}"))).collect();
+    frame.axes(&mut svg, &n_ticks, &decades(frame.y, 1), "hump $n$", "share of hump $n$");
+    let data = shares.iter().zip(1u64..).flat_map(|(row, n)| {
+        row.iter()
+            .zip(1u64..)
+            .map(move |(share, m)| vec![Some(n as f64), Some(m as f64), Some(*share)])
+    });
+    Ok(Finding {
+        figure: Figure {
+            name: "beyond_humps",
+            title: "Nested basins: every hump holds copies of the basins below, $M$ = 0.2".into(),
+            paper: "The structure repeats and becomes finer upwards (Fig. 6); basins are nested.".into(),
+            notes: "Share of each hump ($α$^{∗}_{n}, $α$^{∗}_{n+1}) that goes to $α$^{∗}_{m}, by intervals. Along a \
+                    line, the basin of one fixed point takes an almost constant share of all humps above: \
+                    they fall through the humps below in the same way. The share of a hump's own fixed \
+                    point falls with its trap, like $n$^{−3}."
+                .into(),
+            svg: svg.finish(),
+            data: vec![csv_file("humps.csv", &["hump", "fixed_point", "share"], data)?],
+        },
+        table,
+    })
+}

@@ -1,0 +1,97 @@
+//! Needles for large M: how the answer depends on the width looked at.
+
+use super::{Finding, Table, fates};
+use crate::Error;
+use crate::figures::{Figure, csv_file};
+use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, palette};
+use crate::progress::Progress;
+use hopper_basin::{ReachEdge, crisis, reach, recovery};
+
+const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
+/// Up to here falls are looked for.
+const LARGEST: f64 = 400.0;
+const RATIOS: [f64; 7] = [10.0, 11.0, 12.0, 14.0, 16.0, 20.0, 30.0];
+const LOOKS: [Marker; 3] = [Marker::Disc, Marker::Square, Marker::Triangle];
+
+/// The reach of α*_1, and the recoveries of three humps, width by width.
+pub(super) fn needles(progress: &Progress) -> Result<Finding, Error> {
+    let bar = progress.bar("needles", (RATIOS.len() + 3) as u64);
+    let mut header = vec!["$M$".to_owned()];
+    header.extend(WIDTHS.iter().map(|width| format!("Δ_{{1}} down to width {width:.0e}")));
+    let mut table = Table { header, rows: Vec::new() };
+    for (k, m) in RATIOS.into_iter().enumerate() {
+        let fates = fates(m)?;
+        let mut cells = vec![format!("{m}")];
+        for width in WIDTHS {
+            let found = reach(&fates, 1, width)?;
+            cells.push(match found.edge {
+                ReachEdge::Contact | ReachEdge::Sudden { .. } => format!("{:.10}", found.delta),
+                ReachEdge::NotFound { .. } => "all of the hump".into(),
+                ReachEdge::NextFixedPoint => "all of the hump, certain".into(),
+            });
+        }
+        table.row(cells);
+        bar.set(k as u64 + 1);
+    }
+    let mut svg = Svg::new(640.0, 430.0);
+    let frame = Frame {
+        left: 70.0,
+        top: 20.0,
+        width: 540.0,
+        height: 350.0,
+        x: (1e-5, 1e-1),
+        y: (8.0, 120.0),
+        x_scale: Scale::Log,
+        y_scale: Scale::Log,
+    };
+    let mut data = Vec::new();
+    for n in 1..=3u64 {
+        let color = palette::css(n as u16);
+        let contact = 1.0 / crisis(n)?.mass_ratio;
+        frame.polyline(
+            &mut svg,
+            &[(1e-5, contact), (1e-1, contact)],
+            Pen::dashed(color, 0.9, "4 3"),
+        );
+        let mut points = Vec::new();
+        for width in WIDTHS {
+            let (below, above) = recovery(n, width, LARGEST)?;
+            points.push((width, 0.5 * (below + above)));
+            data.push(vec![Some(n as f64), Some(width), Some(below), Some(above)]);
+        }
+        frame.polyline(&mut svg, &points, Pen::solid(color, 1.4));
+        for &point in &points {
+            svg.marker(frame.at(point), LOOKS[n as usize - 1], 7.0, color);
+        }
+        let y = 44.0 + 17.0 * n as f64;
+        svg.marker((430.0, y), LOOKS[n as usize - 1], 7.0, color);
+        svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("hump {n}"));
+        bar.set(RATIOS.len() as u64 + n);
+    }
+    bar.finish();
+    svg.line((420.0, 112.0), (436.0, 112.0), Pen::dashed("#444", 0.9, "4 3"));
+    svg.text(442.0, 116.0, Anchor::Start, 11.5, "1/$M$_{c}($n$): the contact part");
+    frame.axes(
+        &mut svg,
+        &decades(frame.x, 1),
+        &[10.0, 20.0, 50.0, 100.0].map(|m| (m, format!("{m}"))),
+        "width looked at",
+        "$M$ from which no fall is found",
+    );
+    Ok(Finding {
+        figure: Figure {
+            name: "beyond_needles",
+            title: "From which $M$ on does a hump belong to its fixed point? It depends on the width looked at".into(),
+            paper: "Towards $M$ = 10 the structure resembles that of small $M$.".into(),
+            notes: "For $M$ ≳ 10 orbits fall through hump $n$ only in needles inside its sudden window, where a \
+                    chain of sudden lift-offs follows a repelling motion (a canard). They narrow fast with \
+                    $M$, to 10^{−8} at 20 and 10^{−46} at 100, without ever vanishing where they exist: so an \
+                    edge there is certain only down to a stated width. Scanned at that spacing; dashed, what \
+                    the contact part alone would say."
+                .into(),
+            svg: svg.finish(),
+            data: vec![csv_file("needles.csv", &["hump", "width", "fall_at", "none_at"], data)?],
+        },
+        table,
+    })
+}

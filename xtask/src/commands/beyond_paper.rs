@@ -1,0 +1,40 @@
+//! `beyond-paper`: what the paper could not say, with a report.
+
+use super::{results_folder_named, write_figure};
+use crate::progress::Progress;
+use crate::{Error, beyond, report};
+use std::io::Write;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// Folder for the results [default: target/beyond in the repository]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Make only these results
+    #[arg(long, value_name = "RESULT", value_delimiter = ',')]
+    only: Vec<String>,
+}
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let begin = Instant::now();
+    let chosen = beyond::named(&options.only)?;
+    let folder = results_folder_named(options.out.as_deref(), "beyond")?;
+    let mut made = Vec::new();
+    for (name, find) in chosen {
+        let finding = find(&Progress)?;
+        let rendered = write_figure(&folder, &finding.figure)?;
+        let path = folder.path().join(format!("{}.png", finding.figure.name));
+        let seconds = begin.elapsed().as_secs_f64();
+        writeln!(std::io::stdout(), "{name:14} {seconds:6.1} s  {}", path.display())
+            .map_err(|source| Error::File { path: "standard output".into(), source })?;
+        made.push((finding, rendered));
+    }
+    let page = report::findings_page(&made, begin.elapsed().as_secs_f64());
+    folder.write("report.html", page.as_bytes())?;
+    writeln!(std::io::stdout(), "report {}", folder.path().join("report.html").display())
+        .map_err(|source| Error::File { path: "standard output".into(), source })
+}
