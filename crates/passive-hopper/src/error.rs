@@ -78,8 +78,8 @@ pub enum Error {
     /// A hop on whose way a verdict is smaller than the rounding error of 1024 bits, or of fewer if
     /// more would take minutes.
     #[error(
-        "the hop from {alpha}, with about {sudden} sudden lift-offs, depends on more digits than the \
-         longest arithmetic keeps"
+        "the hop from {alpha}, with about {sudden} sudden lift-offs, cannot be decided within 1024 bits \
+         and some seconds"
     )]
     Undecided {
         /// The lift-off speed.

@@ -3,7 +3,7 @@
 use crate::doubt::Doubt;
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
 use crate::real::Real;
-use crate::wide::{Start, wide_hop};
+use crate::wide::{Start, WideHop, wide_hop};
 use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 
 /// Sudden lift-offs that one hop may have before it is given up with an error.
@@ -11,6 +11,9 @@ use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 /// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. A hop
 /// that uses up the budget takes some tenths of a second.
 pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
+
+/// Above this speed, 2²⁸, hops are computed in longer arithmetic at once: an ulp of the phase is 10⁻⁸.
+pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
 
 /// The map from one gradual lift-off speed to the next, at a fixed mass ratio.
 ///
@@ -89,9 +92,21 @@ impl LiftOffMap {
     /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
     /// sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
+        if alpha <= LARGEST_PLAIN_SPEED || !alpha.is_finite() {
+            let hop = self.plain_hop(alpha, |_| ())?;
+            if hop.certain || hop.sudden > DoubleDouble::SUDDEN_BUDGET {
+                return Ok(hop);
+            }
+        }
+        self.landings(alpha)?; // checks α
+        Ok(self.rounded(alpha, &wide_hop(Start::Speed(alpha), self.mass_ratio)?))
+    }
+
+    /// The hop in plain `f64`, certain or not.
+    fn plain_hop(&self, alpha: f64, mut see: impl FnMut(&Landing)) -> Result<Hop, Error> {
         let landings = self.landings(alpha)?;
         let (mut shares, mut sudden, mut flight_time) = (0.0, 0, 0.0);
-        let mut doubt = Doubt::new(alpha, f64::EPSILON);
+        let mut doubt = Doubt::plain(alpha);
         for landing in landings {
             let landing = landing?;
             let ratio = landing.closing_speed / alpha;
@@ -99,34 +114,45 @@ impl LiftOffMap {
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
             doubt.pass(&landing, self.kappa);
+            see(&landing);
         }
         let t = self.mu * shares;
-        let in_doubt = doubt.is_real(1.0 - t, self.mu, alpha);
-        if in_doubt && sudden <= DoubleDouble::SUDDEN_BUDGET {
-            return self.hop_in_doubt(alpha);
-        }
+        let certain = !doubt.is_real(1.0 - t, self.mu, alpha);
         // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
         let radicand = alpha * alpha * (1.0 - t);
-        Ok(Hop { speed: alpha, next, loss, radicand, sudden, flight_time, certain: !in_doubt })
+        Ok(Hop { speed: alpha, next, loss, radicand, sudden, flight_time, certain })
     }
 
-    /// The same in longer arithmetic.
-    fn hop_in_doubt(&self, alpha: f64) -> Result<Hop, Error> {
-        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
-        Ok(Hop {
+    fn rounded(&self, alpha: f64, hop: &WideHop) -> Hop {
+        Hop {
             speed: alpha,
             next: hop.next.as_ref().map(|next| next.speed),
             loss: hop.next.as_ref().map(|next| next.loss),
             radicand: hop.radicand,
-            sudden: hop.sudden,
-            flight_time: hop.flight_time,
+            sudden: hop.landings.len() - 1,
+            flight_time: hop.landings.iter().map(|landing| landing.time).sum(),
             certain: hop.certain,
-        })
+        }
     }
 
-    /// The landings of the hop that starts with speed `alpha`, one after the other.
+    /// The hop with its landings, in the arithmetic that decided it.
+    pub(crate) fn path(&self, alpha: f64) -> Result<(Hop, Vec<Landing>), Error> {
+        let mut landings = Vec::new();
+        if alpha <= LARGEST_PLAIN_SPEED || !alpha.is_finite() {
+            let hop = self.plain_hop(alpha, |landing| landings.push(*landing))?;
+            if hop.certain || hop.sudden > DoubleDouble::SUDDEN_BUDGET {
+                return Ok((hop, landings));
+            }
+        }
+        self.landings(alpha)?; // checks α
+        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
+        Ok((self.rounded(alpha, &hop), hop.landings))
+    }
+
+    /// The landings of the hop that starts with speed `alpha`, one after the other, in plain `f64`: of a
+    /// hop that is decided in longer arithmetic the later ones may be others.
     ///
     /// # Errors
     /// As [`hop`](Self::hop), the budget's from the iterator.

@@ -11,12 +11,13 @@
 //! Nothing cancels but in δ − loss, near the end of an interval of attraction: there the hop is
 //! computed in longer arithmetic.
 
-use crate::double_double::DoubleDouble;
-use crate::landing::next_landing;
+use crate::doubt::Doubt;
+use crate::landing::{LARGEST_LIFT_OFF_SPEED, next_landing};
+use crate::lift_off_map::LARGEST_PLAIN_SPEED;
+use crate::lossless::n_pi;
 use crate::real::Real;
 use crate::wide::{Start, WideLanding, wide_hop};
-use crate::{Error, LiftOffMap, TakeOff, alpha_star};
-use std::f64::consts::PI;
+use crate::{Error, Landing, LiftOffMap, TakeOff, alpha_star};
 
 /// While the loss is under this share of |δ|, its own rounding does not show in δ′.
 const SMALL_LOSS: f64 = 1.0 / 16.0;
@@ -54,20 +55,24 @@ impl LiftOffMap {
     /// # Errors
     /// [`Error::Offset`] unless n ≥ 1 and α lies in the cell of α*_n, outside 10⁻³⁰⁰ of α*_n (an
     /// offset of zero is welcome); [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop);
-    /// [`Error::Undecided`] where 1024 bits do not give the verdicts.
+    /// [`Error::Undecided`] where 1024 bits, or the budget of flights in them, do not give the verdicts and
+    /// the digits of δ′.
     pub fn hop_about(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
         let star = alpha_star(n);
-        let (left, right) = ends(n, star);
+        // The cell (nπ, (n+1)π) in δ, to 100 bits.
+        let (left, right) = (n_pi(n) - star, n_pi(n + 1) - star);
+        let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
         let resolved = delta == 0.0 || delta.abs() >= 1e-300;
-        if n == 0 || !(delta > left && delta < right) || !resolved {
-            return Err(Error::Offset { n, delta, left, right });
+        if n == 0 || star.high > LARGEST_LIFT_OFF_SPEED || !inside || !resolved {
+            return Err(Error::Offset { n, delta, left: left.high, right: right.high });
         }
         if delta == 0.0 {
             return Ok(LocalHop { next: Some(0.0), loss: Some(0.0), sudden: 0, time_shift: 0.0 });
         }
         let local = LocalFlight { a: star.high };
         let t = local.time_shift(delta);
-        self.fast(&local, delta, t).map_or_else(|| self.wide(n, delta, t), Ok)
+        let fast = (local.a <= LARGEST_PLAIN_SPEED).then(|| self.fast(&local, delta, t)).flatten();
+        fast.map_or_else(|| self.wide(n, delta, t), Ok)
     }
 
     /// In plain `f64`; nothing if the loss is not small against δ.
@@ -78,9 +83,15 @@ impl LiftOffMap {
         let mut loss = closing_speed * closing_speed;
         let sudden = usize::from(delta < 0.0);
         if sudden > 0 {
-            let next = next_landing(TakeOff { excess, velocity }, kappa);
-            if next.sudden {
-                return None; // a longer chain is no small loss
+            let start = TakeOff { excess, velocity };
+            let next = next_landing(start, kappa);
+            // A longer chain is no small loss; and the verdict must be larger than its error: that of a
+            // short flight is relative to the excess.
+            let short = next.time < 1.0 && next.excess < -1e-10 * excess;
+            if next.sudden
+                || !(short || Self::is_clear(local, start, t, closing_speed, &next, kappa))
+            {
+                return None;
             }
             loss += next.closing_speed * next.closing_speed;
         }
@@ -94,20 +105,32 @@ impl LiftOffMap {
         Some(LocalHop { next: Some(delta - change), loss: Some(change), sudden, time_shift: t })
     }
 
+    /// Whether the verdict of the second landing is larger than its rounding error.
+    fn is_clear(
+        local: &LocalFlight,
+        start: TakeOff,
+        t: f64,
+        closing_speed: f64,
+        next: &Landing,
+        kappa: f64,
+    ) -> bool {
+        let TakeOff { excess, velocity } = start;
+        let time = 2.0 * local.a + t;
+        let mut doubt = Doubt::plain(local.a);
+        doubt.pass(&Landing { time, closing_speed, excess, velocity, sudden: true }, kappa);
+        doubt.pass(next, kappa);
+        !doubt.is_doubtful()
+    }
+
     fn wide(&self, n: u64, delta: f64, time_shift: f64) -> Result<LocalHop, Error> {
         let hop = wide_hop(Start::Offset { n, delta }, self.mass_ratio())?;
-        if !hop.certain {
-            let alpha = alpha_star(n).high + delta;
-            return Err(Error::Undecided { alpha, sudden: hop.sudden });
+        let sudden = hop.landings.len() - 1;
+        if !(hop.certain && hop.precise) {
+            return Err(Error::Undecided { alpha: alpha_star(n).high + delta, sudden });
         }
         let (next, loss) = hop.next.map(|next| (next.offset, next.loss)).unzip();
-        Ok(LocalHop { next, loss, sudden: hop.sudden, time_shift })
+        Ok(LocalHop { next, loss, sudden, time_shift })
     }
-}
-
-/// The cell of α*_n in δ.
-fn ends(n: u64, star: DoubleDouble) -> (f64, f64) {
-    (star.offset_of(n as f64 * PI), star.offset_of((n as f64 + 1.0) * PI))
 }
 
 /// The first flight from near α*_n in plain `f64`, as functions of t = τ − 2α*_n.
@@ -271,8 +294,8 @@ impl<R: Real> WideLocal<R> {
     }
 }
 
-/// From 15 digits each step doubles them.
-const NEWTON_STEPS: usize = 10;
+/// From 15 digits each step doubles them; in between, rounding may move t for ever.
+const NEWTON_STEPS: usize = 40;
 
 /// t − sin t and t²/2 − 1 + cos t by their series.
 fn remainders<R: Real>(t: R) -> (R, R) {

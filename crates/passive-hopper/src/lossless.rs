@@ -8,8 +8,7 @@ use std::sync::OnceLock;
 /// α*_n, the n-th positive root of tan α = α (paper, Eq. 3); α*_0 = 0.
 ///
 /// Lift-off at this speed lands after τ = 2α*_n with no speed at all: the hop repeats for ever.
-/// The value is right to 100 bits for n up to 2⁵⁰, so that its high part is the nearest `f64`; beyond,
-/// where an `f64` no longer tells neighbours apart, to an ulp.
+/// The value is right to 100 bits, so that its high part is the nearest `f64`.
 ///
 /// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²).
 ///
@@ -28,7 +27,10 @@ fn solve(n: u64) -> DoubleDouble {
     if n == 0 {
         return DoubleDouble::ZERO;
     }
-    let q = DoubleDouble::multiple_of_pi(n as f64 + 0.5);
+    // n + ½ in two parts, each an f64.
+    let low = n & ((1 << 26) - 1);
+    let q = DoubleDouble::multiple_of_pi((n - low) as f64)
+        + DoubleDouble::multiple_of_pi(low as f64 + 0.5);
     let mut alpha = q;
     // The error shrinks by at least 21 in a step; 24 steps take any start to 106 bits.
     for _ in 0..24 {

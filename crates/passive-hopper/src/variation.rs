@@ -28,23 +28,58 @@ pub(crate) struct Variation {
     pub(crate) velocity: f64,
 }
 
-/// The changes that a flight makes of a change: of the state after it, and of Γ.
-pub(crate) fn carry(
-    start: TakeOff,
-    landing: &Landing,
+/// What a flight makes of small changes of its start: of the state after it, and of Γ.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tangent {
+    sin: f64,
+    cos: f64,
+    /// 1 − cos τ.
+    versine: f64,
+    /// τ − sin τ.
+    delay: f64,
+    closing_speed: f64,
+    excess: f64,
     kappa: f64,
-    change: Variation,
-) -> (Variation, f64) {
-    let tau = landing.time;
-    let (sin, cos) = pxfm::f_sincos(tau);
-    let sin_half = pxfm::f_sin(0.5 * tau);
-    let versine = 2.0 * sin_half * sin_half;
-    let (dx, dv) = (change.excess, change.velocity);
-    let dt = (versine * dx - pxfm::f_sinmx(tau) * dv) / landing.closing_speed;
-    let stretch_rate = start.velocity * cos - (1.0 + start.excess) * sin;
-    let closing = -sin * dx - versine * dv - landing.excess * dt;
-    let excess = cos * dx + sin * dv + stretch_rate * dt;
-    (Variation { excess, velocity: dv - dt + kappa * closing }, closing)
+    /// V cos τ and Y sin τ: the rate of the stretch at the landing is their difference.
+    rates: (f64, f64),
+}
+
+impl Tangent {
+    pub(crate) fn new(start: TakeOff, landing: &Landing, kappa: f64) -> Self {
+        let tau = landing.time;
+        let (sin, cos) = pxfm::f_sincos(tau);
+        let sin_half = pxfm::f_sin(0.5 * tau);
+        Tangent {
+            sin,
+            cos,
+            versine: 2.0 * sin_half * sin_half,
+            delay: -pxfm::f_sinmx(tau),
+            closing_speed: landing.closing_speed,
+            excess: landing.excess,
+            kappa,
+            rates: (start.velocity * cos, (1.0 + start.excess) * sin),
+        }
+    }
+
+    /// The changes after the flight, and that of Γ.
+    pub(crate) fn carry(&self, change: Variation) -> (Variation, f64) {
+        let (dx, dv) = (change.excess, change.velocity);
+        let dt = (self.versine * dx + self.delay * dv) / self.closing_speed;
+        let closing = -self.sin * dx - self.versine * dv - self.excess * dt;
+        let excess = self.cos * dx + self.sin * dv + (self.rates.0 - self.rates.1) * dt;
+        (Variation { excess, velocity: dv - dt + self.kappa * closing }, closing)
+    }
+
+    /// Bounds on these for changes bounded by `change`: every term taken as positive, so that none
+    /// cancels another.
+    pub(crate) fn bound(&self, change: Variation) -> (Variation, f64) {
+        let (dx, dv) = (change.excess, change.velocity);
+        let (sin, cos) = (self.sin.abs(), self.cos.abs());
+        let dt = (self.versine * dx + self.delay.abs() * dv) / self.closing_speed;
+        let closing = sin * dx + self.versine * dv + self.excess.abs() * dt;
+        let excess = cos * dx + sin * dv + (self.rates.0.abs() + self.rates.1.abs()) * dt;
+        (Variation { excess, velocity: dv + dt + self.kappa * closing }, closing)
+    }
 }
 
 impl LiftOffMap {
@@ -55,9 +90,13 @@ impl LiftOffMap {
     /// are infinite where α′ falls to zero, and on one side of a grazing.
     ///
     /// # Errors
-    /// As [`hop`](Self::hop).
+    /// As [`image`](Self::image).
     pub fn slopes(&self, alpha: f64) -> Result<Option<Slopes>, Error> {
-        let Some(next) = self.hop(alpha)?.next else { return Ok(None) };
+        let (hop, landings) = self.path(alpha)?;
+        if !hop.certain {
+            return Err(Error::Undecided { alpha, sudden: hop.sudden });
+        }
+        let Some(next) = hop.next else { return Ok(None) };
         let ratio = self.mass_ratio();
         let (m, mu, kappa) = (ratio.value(), ratio.mu(), ratio.kappa());
         let whole = 1.0 + m;
@@ -67,15 +106,15 @@ impl LiftOffMap {
         // Σ Γ ∂Γ/∂α, Σ Γ ∂Γ/∂M, Σ Γ².
         let (mut speed_sum, mut ratio_sum, mut square_sum) = (0.0, 0.0, 0.0);
         let mut start = TakeOff { excess: 0.0, velocity: alpha };
-        for landing in self.landings(alpha)? {
-            let landing = landing?;
+        for landing in landings {
             let gamma = landing.closing_speed;
             square_sum += gamma * gamma;
             if gamma == 0.0 {
                 break; // a lossless landing changes nothing: both slopes stay
             }
-            let (speed, speed_closing) = carry(start, &landing, kappa, by_speed);
-            let (mut mass, mass_closing) = carry(start, &landing, kappa, by_ratio);
+            let tangent = Tangent::new(start, &landing, kappa);
+            let (speed, speed_closing) = tangent.carry(by_speed);
+            let (mut mass, mass_closing) = tangent.carry(by_ratio);
             mass.velocity += gamma * kappa_slope;
             speed_sum += gamma * speed_closing;
             ratio_sum += gamma * mass_closing;

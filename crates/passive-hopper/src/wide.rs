@@ -64,10 +64,12 @@ pub(crate) struct WideHop {
     pub(crate) next: Option<Next>,
     /// α′².
     pub(crate) radicand: f64,
-    pub(crate) sudden: usize,
-    pub(crate) flight_time: f64,
+    /// All landings, rounded; all but the last are sudden.
+    pub(crate) landings: Vec<Landing>,
     /// Whether all verdicts exceed their rounding errors.
     pub(crate) certain: bool,
+    /// Whether what flights hand on to each other leaves the digits of the result alone, too.
+    pub(crate) precise: bool,
 }
 
 /// The lift-off that ends a hop.
@@ -81,27 +83,33 @@ pub(crate) struct Next {
 }
 
 /// The hop in as many bits as it needs, at most 1024.
+///
+/// A chain that is over the budget of an arithmetic is given up in it: the last result stands.
 pub(crate) fn wide_hop(start: Start, mass_ratio: MassRatio) -> Result<WideHop, Error> {
-    let levels = [
-        (hop_with::<DoubleDouble> as HopWith, DoubleDouble::SUDDEN_BUDGET),
-        (hop_with::<Long<4>>, Long::<4>::SUDDEN_BUDGET),
-        (hop_with::<Long<8>>, Long::<8>::SUDDEN_BUDGET),
-        (hop_with::<Long<16>>, Long::<16>::SUDDEN_BUDGET),
-    ];
-    let [(first, _), longer @ ..] = levels;
-    let mut hop = first(start, mass_ratio)?;
-    for (longer, budget) in longer {
-        if hop.certain || hop.sudden > budget {
-            break;
+    let longer = [hop_with::<Long<4>> as HopWith, hop_with::<Long<8>>, hop_with::<Long<16>>];
+    let mut hop = hop_with::<DoubleDouble>(start, mass_ratio)?;
+    for longer in longer {
+        match hop {
+            Some(ref found) if found.certain && found.precise => break,
+            _ => hop = longer(start, mass_ratio)?.or(hop),
         }
-        hop = longer(start, mass_ratio)?;
     }
-    Ok(hop)
+    hop.ok_or_else(|| {
+        let alpha = match start {
+            Start::Speed(alpha) => alpha,
+            Start::Offset { n, delta } => crate::alpha_star(n).high + delta,
+        };
+        Error::Undecided { alpha, sudden: DoubleDouble::SUDDEN_BUDGET }
+    })
 }
 
-type HopWith = fn(Start, MassRatio) -> Result<WideHop, Error>;
+type HopWith = fn(Start, MassRatio) -> Result<Option<WideHop>, Error>;
 
-fn hop_with<R: Real>(start: Start, mass_ratio: MassRatio) -> Result<WideHop, Error> {
+/// The share of an ulp of the result that may be wrong.
+const PRECISE: f64 = 0.125 * f64::EPSILON;
+
+/// In one arithmetic; nothing if the chain is over its budget.
+fn hop_with<R: Real>(start: Start, mass_ratio: MassRatio) -> Result<Option<WideHop>, Error> {
     let ratio = WideRatio::<R>::new(mass_ratio);
     let (alpha, offset, first, first_is_sudden) = match start {
         Start::Speed(speed) => {
@@ -122,7 +130,9 @@ fn hop_with<R: Real>(start: Start, mass_ratio: MassRatio) -> Result<WideHop, Err
             (star + offset, offset, first, delta < 0.0)
         }
     };
-    let chain = chain(first, first_is_sudden, alpha.nearest(), ratio)?;
+    let Some(chain) = chain(first, first_is_sudden, alpha.nearest(), ratio)? else {
+        return Ok(None);
+    };
     let loss = ratio.mu * chain.loss;
     let radicand = alpha.squared() - loss;
     let share = (radicand / alpha.squared()).nearest();
@@ -131,62 +141,72 @@ fn hop_with<R: Real>(start: Start, mass_ratio: MassRatio) -> Result<WideHop, Err
         let lost = loss / (alpha + speed);
         Next { speed: speed.nearest(), loss: lost.nearest(), offset: (offset - lost).nearest() }
     });
-    Ok(WideHop {
+    let (mu, speed) = (ratio.mu.nearest(), alpha.nearest());
+    // One sudden lift-off near a fixed point is short, and relatively exact: only chains hand on.
+    let handed_on = if chain.landings.len() > 2 { chain.doubt.handed_on(mu, speed) } else { 0.0 };
+    let precise = next.as_ref().is_none_or(|next| {
+        let error = 0.5 * handed_on * (speed / next.speed) * speed;
+        error <= PRECISE * next.offset.abs().min(next.speed)
+    });
+    Ok(Some(WideHop {
         next,
         radicand: radicand.nearest(),
-        sudden: chain.sudden,
-        flight_time: chain.flight_time,
-        certain: !chain.doubt.is_real(share, ratio.mu.nearest(), alpha.nearest()),
-    })
+        certain: !chain.doubt.is_real(share, mu, speed),
+        precise,
+        landings: chain.landings,
+    }))
 }
 
 /// All flights of a hop.
 struct Chain<R> {
     /// Σ Γ².
     loss: R,
-    sudden: usize,
-    flight_time: f64,
+    landings: Vec<Landing>,
     /// What rounding errors leave open.
     doubt: Doubt,
 }
 
-/// The rest of a hop whose first landing is known, with its verdict.
+/// The rest of a hop whose first landing is known, with its verdict; nothing if it is over the
+/// arithmetic's budget.
 fn chain<R: Real>(
     first: WideLanding<R>,
     first_is_sudden: bool,
     alpha: f64,
     ratio: WideRatio<R>,
-) -> Result<Chain<R>, Error> {
+) -> Result<Option<Chain<R>>, Error> {
+    let kappa = ratio.kappa.nearest();
     let mut landing = first;
-    let mut sudden = first_is_sudden;
+    let mut rounded = first.rounded(first_is_sudden);
     let mut hop = Chain {
         loss: first.closing_speed.squared(),
-        sudden: 0,
-        flight_time: first.time.nearest(),
-        doubt: Doubt::new(alpha, R::EPSILON),
+        landings: vec![rounded],
+        doubt: Doubt::wide(alpha, R::EPSILON),
     };
-    let kappa = ratio.kappa.nearest();
-    hop.doubt.pass(&first.rounded(sudden), kappa);
-    while sudden {
-        hop.sudden += 1;
+    hop.doubt.pass(&rounded, kappa);
+    while rounded.sudden {
+        let sudden = hop.landings.len();
         let (x, v) = (landing.excess, landing.velocity);
         let start = TakeOff { excess: x.nearest(), velocity: v.nearest() };
-        if hop.sudden > SUDDEN_LIFT_OFF_BUDGET {
+        if sudden > SUDDEN_LIFT_OFF_BUDGET {
             let TakeOff { excess, velocity } = start;
-            return Err(Error::SuddenLiftOffBudget { sudden: hop.sudden - 1, excess, velocity });
+            return Err(Error::SuddenLiftOffBudget { sudden: sudden - 1, excess, velocity });
+        }
+        if sudden > R::SUDDEN_BUDGET {
+            return Ok(None);
         }
         if !(start.excess > 0.0) {
             break; // a flight too short to see
         }
-        let root = next_root(start, start.velocity >= PI && maximum_test(x, v) >= 0.0);
+        let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
+        let root = next_root(start, start.velocity >= PI && test >= 0.0);
         landing = next_wide(x, v, ratio.kappa, root.half.h);
         hop.loss = hop.loss + landing.closing_speed.squared();
-        let rounded = landing.rounded(false);
-        hop.flight_time += rounded.time;
-        sudden = rounded.excess > 0.0 || (rounded.excess == 0.0 && rounded.velocity > 0.0);
-        hop.doubt.pass(&Landing { sudden, ..rounded }, kappa);
+        rounded = landing.rounded(false);
+        rounded.sudden = rounded.excess > 0.0 || (rounded.excess == 0.0 && rounded.velocity > 0.0);
+        hop.doubt.pass_on_branch(&rounded, kappa, test);
+        hop.landings.push(rounded);
     }
-    Ok(hop)
+    Ok(Some(hop))
 }
 
 /// (−1)^m (V cos V − Y sin V), as in `landing.rs`.
@@ -196,8 +216,9 @@ fn maximum_test<R: Real>(x: R, v: R) -> f64 {
     if (v.nearest() / PI).floor() % 2.0 == 0.0 { test } else { -test }
 }
 
-/// Most Newton steps: from a good `f64` start each doubles the digits, from a bad one it takes some.
-const NEWTON_STEPS: usize = 12;
+/// Most Newton steps: from a good `f64` start each doubles the digits; next to a double root one halves
+/// the error only.
+const NEWTON_STEPS: usize = 400;
 
 /// The landing of the flight from stretch 1 + `x` and speed `v`, by Newton's method from an `f64` h.
 fn next_wide<R: Real>(x: R, v: R, kappa: R, start: f64) -> WideLanding<R> {

@@ -6,7 +6,7 @@ use crate::real::Real;
 impl<const W: usize> Real for Long<W> {
     /// 2^(12 − 64 W).
     const EPSILON: f64 = power_of_two(12 - 64 * W as i32);
-    const SUDDEN_BUDGET: usize = 100_000 / (W * W);
+    const SUDDEN_BUDGET: usize = 1_000_000 / (W * W);
 
     fn nearest(self) -> f64 {
         Long::nearest(self)
