@@ -5,7 +5,7 @@ use passive_hopper::MassRatio;
 
 /// α*_n = q − q⁻¹ − ⅔q⁻³ − (13/15)q⁻⁵ − (146/105)q⁻⁷ − (781/315)q⁻⁹ + O(q⁻¹¹), q = (n+½)π.
 ///
-/// For the value itself take [`passive_hopper::alpha_star`], which is right to 100 bits.
+/// The exponent given is that of q. For the value itself take [`passive_hopper::alpha_star`], which is right to 100 bits.
 ///
 /// # Errors
 /// [`Error::Index`] for n = 0.
@@ -19,7 +19,8 @@ pub fn ladder(n: u64) -> Result<Expansion, Error> {
     let sum = terms.iter().rev().fold(0.0, |sum, term| sum * square + term);
     // The next coefficient is 16328/3465; all have the same sign.
     let neglected = 6.0 * square * square * square * square * square / q;
-    Ok(Expansion { value: q - sum / q, error: neglected + f64::EPSILON * q })
+    let error = neglected + f64::EPSILON * q;
+    Ok(Expansion { value: q - sum / q, error, neglected_exponent: -11.0 })
 }
 
 /// Smallest λ for which [`interval_length`] answers.
@@ -30,7 +31,7 @@ const NEGLECTED: f64 = 6.0;
 
 /// Δ_n = λ⁻³ [1 − 3ℓ₅/λ + (9ℓ₅² − 3ℓ₆)/λ²] + O(λ⁻⁶), the interval of attraction.
 ///
-/// The leading term is 2(1+α*²)⁴/(81 μ³ α*¹¹). From δ′ = 0: v = δ^{1/3} solves
+/// The exponent given is that of λ. The leading term is 2(1+α*²)⁴/(81 μ³ α*¹¹). From δ′ = 0: v = δ^{1/3} solves
 /// λv (1 + ℓ₅v + ℓ₆v² + …) = 1.
 ///
 /// # Errors
@@ -46,5 +47,5 @@ pub fn interval_length(n: u64, mass_ratio: MassRatio) -> Result<Expansion, Error
     let leading = 1.0 / (lambda * lambda * lambda);
     let series = 1.0 - 3.0 * l5 / lambda + (9.0 * l5 * l5 - 3.0 * l6) / (lambda * lambda);
     let error = leading * (NEGLECTED * leading + 16.0 * f64::EPSILON);
-    Ok(Expansion { value: leading * series, error })
+    Ok(Expansion { value: leading * series, error, neglected_exponent: -6.0 })
 }

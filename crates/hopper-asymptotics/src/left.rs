@@ -61,8 +61,9 @@ impl Left {
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<Expansion, Error> {
-        let Expansion { value, error } = self.loss(delta)?;
-        Ok(Expansion { value: delta - value, error: error + f64::EPSILON * delta.abs() })
+        let loss = self.loss(delta)?;
+        let error = loss.error + f64::EPSILON * delta.abs();
+        Ok(Expansion { value: delta - loss.value, error, ..loss })
     }
 
     /// The loss δ − δ′ for −[`range`](Self::range) ≤ δ ≤ 0, without cancellation.
@@ -80,6 +81,10 @@ impl Left {
         let series = (self.c[0] + self.c[1] * root) * root;
         let rounding = 8.0 * f64::EPSILON * leading;
         let neglected = NEGLECTED * (1.0 + self.lambda) * leading * size;
-        Ok(Expansion { value: leading * (1.0 + series), error: neglected + rounding })
+        Ok(Expansion {
+            value: leading * (1.0 + series),
+            error: neglected + rounding,
+            neglected_exponent: Self::NEGLECTED_EXPONENT,
+        })
     }
 }

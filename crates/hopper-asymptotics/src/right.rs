@@ -11,6 +11,8 @@ pub struct Expansion {
     /// Bound on its distance from the exact map: the first neglected term, with its coefficient
     /// measured, and the rounding of the sum.
     pub error: f64,
+    /// Exponent of the first neglected term, in the variable of the expansion.
+    pub neglected_exponent: f64,
 }
 
 /// δ′ = δ − λδ^{4/3} [1 + ℓ₅δ^{1/3} + ℓ₆δ^{2/3} + ℓ₇δ + ℓ₈δ^{4/3}] + O(δ³), δ > 0.
@@ -70,8 +72,9 @@ impl Right {
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<Expansion, Error> {
-        let Expansion { value, error } = self.loss(delta)?;
-        Ok(Expansion { value: delta - value, error: error + f64::EPSILON * delta })
+        let loss = self.loss(delta)?;
+        let error = loss.error + f64::EPSILON * delta;
+        Ok(Expansion { value: delta - loss.value, error, ..loss })
     }
 
     /// The loss δ − δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`], without cancellation.
@@ -87,6 +90,7 @@ impl Right {
         let series = self.l.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
         let rounding = 8.0 * f64::EPSILON * leading;
         let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
-        Ok(Expansion { value: leading * (1.0 + series), error })
+        let neglected_exponent = Self::NEGLECTED_EXPONENT;
+        Ok(Expansion { value: leading * (1.0 + series), error, neglected_exponent })
     }
 }

@@ -32,5 +32,5 @@ pub fn small_hop_loss(mass_ratio: MassRatio, alpha: f64) -> Result<Expansion, Er
     let square = alpha * alpha;
     let leading = 32.0 / 9.0 * mass_ratio.mu() * alpha * square * square;
     let error = leading * (NEGLECTED * square * square + 16.0 * f64::EPSILON);
-    Ok(Expansion { value: leading * (1.0 - 1.6 * square), error })
+    Ok(Expansion { value: leading * (1.0 - 1.6 * square), error, neglected_exponent: 9.0 })
 }

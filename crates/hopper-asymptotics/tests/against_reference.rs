@@ -5,7 +5,7 @@
 
 use approx::assert_relative_eq;
 use hopper_asymptotics::{
-    Coefficients, Error, Form, Left, RIGHT_RANGE, Right, SMALL_ALPHA_RANGE, interval_length,
+    Coefficients, Decay, Error, Form, Left, RIGHT_RANGE, Right, SMALL_ALPHA_RANGE, interval_length,
     ladder, small_hop_loss,
 };
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
@@ -168,4 +168,98 @@ fn outside_is_an_error() {
         assert!(matches!(left.displacement(delta), Err(Error::OutsideRange { .. })));
     }
     assert!(Right::new(0, MassRatio::ONE).is_err() && Left::new(0, MassRatio::ONE).is_err());
+}
+
+/// The number of hops, the offset after them and C, against the exact map, within their bounds.
+#[test]
+fn the_law_of_approach_keeps_its_bounds() {
+    for n in INDICES {
+        for m in [1e-3, 0.01, 0.2, 1.0, 5.0, 1e3] {
+            let ratio = MassRatio::new(m).unwrap();
+            let (map, law) = (LiftOffMap::new(ratio), Decay::new(n, ratio).unwrap());
+            for part in [1.0, 1e-2, 1e-6] {
+                let start = part * law.range();
+                let mut delta = start;
+                for k in 1..=1000u32 {
+                    delta = map.hop_about(n, delta).unwrap().next.unwrap();
+                    if ![1, 10, 100, 1000].contains(&k) {
+                        continue;
+                    }
+                    let hops = law.hops(start, delta).unwrap();
+                    let off = (hops.value - f64::from(k)).abs();
+                    assert!(off <= hops.error, "n={n} M={m} δ₀={start:e} k={k}: {hops:?}");
+                    let after = law.offset_after(start, f64::from(k)).unwrap();
+                    assert!(
+                        (after.value - delta).abs() <= after.error,
+                        "n={n} M={m}: {after:?} {delta:e}"
+                    );
+                }
+            }
+            assert!(law.hops(2.0 * law.range(), 1e-9).is_err());
+        }
+    }
+    let law = Decay::new(1, MassRatio::ONE).unwrap();
+    for (start, end) in [(1e-6, 0.0), (1e-6, 1e-5), (f64::NAN, 1e-9), (-1e-6, 1e-9)] {
+        assert!(law.hops(start, end).is_err());
+    }
+    assert!(
+        law.offset_after(1e-6, f64::INFINITY).is_err() && law.offset_after(1e-6, -1.0).is_err()
+    );
+}
+
+/// u_k = λk/3 + L ln k + C + o(1), with C from the start.
+#[test]
+fn the_constant_of_the_law() {
+    let law = Decay::new(1, MassRatio::ONE).unwrap();
+    let constant = law.constant(1e-6).unwrap();
+    let rest = |hops: f64| {
+        let u = 1.0 / law.offset_after(1e-6, hops).unwrap().value.cbrt();
+        u - law.rate * hops - law.logarithm * hops.ln()
+    };
+    assert!((rest(1e12) - constant.value).abs() < 1e-3 + constant.error);
+    assert!((rest(1e8) - constant.value).abs() > (rest(1e10) - constant.value).abs());
+}
+
+/// Remainders of the other expansions fall with the exponents they state.
+#[test]
+fn all_stated_exponents_are_those_of_the_remainders() {
+    // Small hops: the remainder of the loss, exactly 9 powers of α.
+    let ratio = MassRatio::new(0.5).unwrap();
+    let rest = |alpha: f64| {
+        let exact = LiftOffMap::new(ratio).hop(alpha).unwrap().loss.unwrap();
+        (small_hop_loss(ratio, alpha).unwrap().value - exact).abs()
+    };
+    let slope = (rest(0.1) / rest(0.02)).ln() / 5f64.ln();
+    let stated = small_hop_loss(ratio, 0.1).unwrap().neglected_exponent;
+    assert!((slope - stated).abs() < 0.1, "{slope}");
+    // The ladder, in q.
+    let rest = |n: u64| (ladder(n).unwrap().value - alpha_star(n).high).abs();
+    let slope = (rest(2) / rest(1)).ln() / (2.5f64 / 1.5).ln();
+    assert!((slope - ladder(1).unwrap().neglected_exponent).abs() < 1.0, "{slope}");
+    // A number of hops, in the start's offset: the whole tail from it.
+    let law = Decay::new(1, MassRatio::ONE).unwrap();
+    let map = LiftOffMap::new(MassRatio::ONE);
+    let rest = |start: f64| {
+        let mut delta = start;
+        for _ in 0..200_000 {
+            delta = map.hop_about(1, delta).unwrap().next.unwrap();
+        }
+        (law.hops(start, delta).unwrap().value - 200_000.0).abs()
+    };
+    let slope = (rest(1e-5) / rest(1e-7)).ln() / 100f64.ln();
+    assert!((slope - Decay::NEGLECTED_EXPONENT).abs() < 0.06, "{slope}");
+    // The interval of attraction, in λ, at one fixed point.
+    let rows: Vec<serde_json::Value> = serde_json::from_str(REFERENCE).unwrap();
+    let point = |m: &str| {
+        let row = rows.iter().find(|row| row["n"] == 10 && row["mass_ratio"] == m).unwrap();
+        let exact: f64 = row["delta_exact"].as_str().unwrap().parse().unwrap();
+        let ratio = MassRatio::new(m.parse().unwrap()).unwrap();
+        let found = interval_length(10, ratio).unwrap();
+        let lambda = Coefficients::new(10, ratio, Form::Corrected).unwrap().lambda;
+        (lambda, (found.value - exact).abs(), found.neglected_exponent)
+    };
+    let (first, last) = (point("0.1"), point("0.5"));
+    let slope = (last.1 / first.1).ln() / (last.0 / first.0).ln();
+    // λ is 10 to 25 only: the terms beyond still show.
+    assert!((slope - first.2).abs() < 0.8, "{slope}");
 }

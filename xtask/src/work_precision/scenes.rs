@@ -172,7 +172,7 @@ fn decay() -> Result<Scene, Error> {
     }
     let mut errors = Vec::new();
     for (law, (start, end), hops) in &inputs {
-        errors.push((law.hops(*start, *end)? / hops - 1.0).abs());
+        errors.push((law.hops(*start, *end)?.value / hops - 1.0).abs());
     }
     let time = median_time(inputs.len(), |k| inputs[k].0.hops(inputs[k].1.0, inputs[k].1.1));
     Ok(Scene {

@@ -1,16 +1,25 @@
 // Six arbitrary words to every public function of passive-hopper, hopper-asymptotics and
 // hopper-basin: no panic, no hang, f(α) ≤ α, and energy never grows.
 
-use hopper_asymptotics::{Coefficients, Form};
-use hopper_basin::{Fates, HopperFate, Trap, crisis, grounding};
+use basin_of_attraction::{Grid, Interval, Refinement};
+use hopper_asymptotics::{
+    Coefficients, Decay, Form, Left, Right, interval_length, ladder, small_hop_loss,
+};
+use hopper_basin::{
+    Fates, HopperFate, Trap, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, reach,
+    recovery, shares,
+};
 use hybrid_system::{Execution, Limits};
 use passive_hopper::{
-    HalfFlight, Hopper, HopperState, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
+    Flight, HalfFlight, Hopper, HopperState, LiftOffMap, LocalFlight, MassRatio, Phase, PhysicalHopper, alpha_star,
     contact_flow, contact_time, energy, index_below, landing_loss, lift_off_energy, printed_image,
 };
 
-/// Hops with more sudden lift-offs than this take too long to try by the thousand.
+/// Hops at larger mass ratios may have a million sudden lift-offs: they are tried now and then.
 const HEAVIEST: f64 = 1e4;
+
+/// One in so many inputs is given to what takes long.
+const SELDOM: u64 = 256;
 
 /// Everything, on one input.
 pub fn try_all(words: [u64; 6]) {
@@ -34,7 +43,15 @@ pub fn try_all(words: [u64; 6]) {
         let _ = Coefficients::new(n, ratio, form).map(|local| (local.delta(), local.image(b)));
     }
     let _ = (Trap::new(n, ratio).map(|trap| trap.contains(b)), Trap::new(n % 100, ratio));
-    if a < HEAVIEST {
+    asymptotics(n, ratio, [b, c, d]);
+    asymptotics(n % 1000, ratio, [b, c, d]);
+    let flight = Flight::new(ratio, &state);
+    let _ = (flight.stretch(e), flight.height(e), flight.state(e));
+    let seldom = n.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32 & (SELDOM - 1) == 0;
+    if seldom && (1e-3..1e3).contains(&a) {
+        basins(ratio, n, [b, c, d, e]);
+    }
+    if a < HEAVIEST || seldom {
         hops(ratio, b, n % 2000, c);
         motion(ratio, state);
     }
@@ -52,6 +69,45 @@ fn functions_of_numbers(n: u64, values: [f64; 5]) {
         let half = HalfFlight::at(value);
         let _ = (half.w(), half.start_speed(values[0]), half.closing_speed(values[0]), half.start_speed_slope(values[0]));
     }
+}
+
+/// Every value with a bound is finite, and so is the bound.
+fn asymptotics(n: u64, ratio: MassRatio, [b, c, d]: [f64; 3]) {
+    let mut values = vec![ladder(n).ok(), interval_length(n, ratio).ok(), small_hop_loss(ratio, b).ok()];
+    if let (Ok(right), Ok(left), Ok(law)) = (Right::new(n, ratio), Left::new(n, ratio), Decay::new(n, ratio)) {
+        for delta in [b, c, d] {
+            values.extend([right.displacement(delta).ok(), right.loss(delta).ok()]);
+            values.extend([left.displacement(delta).ok(), left.loss(delta).ok()]);
+            values.extend([law.hops(delta, c).ok(), law.offset_after(delta, c).ok(), law.constant(delta).ok()]);
+        }
+    }
+    for found in values.into_iter().flatten() {
+        assert!(found.value.is_finite() && found.error >= 0.0, "{found:?} n = {n} {ratio:?} {b} {c} {d}");
+    }
+    let flight = LocalFlight::new(n);
+    for t in [b, c, d] {
+        let _ = (flight.delta(t), flight.closing_speed(t), flight.w(t), flight.time_shift(t));
+    }
+}
+
+fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
+    let (from, to, few) = (n % 3, n % 5, (n % 40) as usize);
+    let _ = shares(ratio, from, to, few);
+    if let (Ok(x), Ok(y)) = (Interval::new(b, c), Interval::new(d, e)) {
+        if y.right < 1e3 && x.left > 1e-3 && x.right < 1e3 {
+            let grid = Grid { x, y, columns: few % 5, rows: few % 7 };
+            let _ = basin_raster(grid, |_| std::ops::ControlFlow::Continue(()));
+        }
+    }
+    let Ok(fates) = Fates::new(ratio) else { return };
+    let _ = branches(&fates, from, to, few);
+    let _ = basin_levels(&fates, from, to, 2, few);
+    let refinement = Refinement { shortest: b.abs().max(1e-2), undecided: c, levels: few, intervals: 1000 };
+    if let Ok(found) = hopper_basins(&fates, from, to, few, refinement) {
+        let all = found.basins.measure_of(|_| true);
+        assert!(all.lower <= all.value && all.value <= all.upper, "{all:?}");
+    }
+    let _ = (reach(&fates, from, b.abs().max(1e-2)), recovery(from, b.abs().max(0.1), 20.0));
 }
 
 fn hops(ratio: MassRatio, alpha: f64, n: u64, delta: f64) {
