@@ -1,4 +1,4 @@
-//! Files of reference values, one JSON object a line.
+//! Files of reference values: one JSON object a line, or an array of objects.
 
 use crate::Error;
 use crate::output::read;
@@ -13,6 +13,22 @@ pub(crate) enum Line {
     Loss(Loss),
     Local { mass_ratio: MassRatio, n: u64, offset: f64, sudden: usize, next: Option<f64> },
     Fate { mass_ratio: MassRatio, alpha: f64, fate: HopperFate },
+    FixedPoint { n: u64, alpha_star: f64 },
+    Crisis { n: u64, mu: f64, mass_ratio: f64, alpha: f64 },
+    Reach { n: u64, mass_ratio: MassRatio, edge: Edge, delta: Option<f64> },
+}
+
+/// How sure the reference is of the edge of an interval of attraction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Edge {
+    /// On the contact part of the hump, proved.
+    Contact,
+    /// In the sudden window, found on scans.
+    Sudden,
+    /// There is none before the next fixed point.
+    None,
+    /// Not decided: needles narrower than any scan.
+    Unknown,
 }
 
 /// A hop, with what its error is judged by.
@@ -50,6 +66,11 @@ pub(crate) fn parse_rows(path: &Path) -> Result<Vec<Value>, Error> {
 fn numbered_rows(path: &Path) -> Result<Vec<(usize, Value)>, Error> {
     let text = read(path)?;
     let bad = |at: usize, reason| Error::ReferenceLine { path: path.into(), line: at, reason };
+    if text.trim_start().starts_with('[') {
+        let rows: Vec<Value> =
+            serde_json::from_str(&text).map_err(|e| bad(e.line(), e.to_string()))?;
+        return Ok((1..).zip(rows).collect());
+    }
     let filled = text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty());
     let rows: Vec<_> = filled
         .map(|(index, text)| {
@@ -62,6 +83,15 @@ fn numbered_rows(path: &Path) -> Result<Vec<(usize, Value)>, Error> {
 
 /// What one JSON object asks and answers.
 pub(crate) fn line(value: &Value) -> Result<Line, String> {
+    if value.get("alpha_star").is_some() {
+        let (n, alpha_star) = (whole(value, "n")?, number(value, "alpha_star")?);
+        return Ok(Line::FixedPoint { n, alpha_star });
+    }
+    if value.get("mu_c").is_some() {
+        let (n, mu) = (whole(value, "n")?, number(value, "mu_c")?);
+        let (mass_ratio, alpha) = (number(value, "M_c")?, number(value, "alpha_touch")?);
+        return Ok(Line::Crisis { n, mu, mass_ratio, alpha });
+    }
     let mass_ratio = MassRatio::new(number(value, "mass_ratio")?).map_err(|e| e.to_string())?;
     if let Some(fate) = value.get("fate") {
         let fate = match fate.as_str() {
@@ -71,6 +101,17 @@ pub(crate) fn line(value: &Value) -> Result<Line, String> {
             _ => return Err(format!("'fate' is {fate}, not incessant, decaying or grounded")),
         };
         return Ok(Line::Fate { mass_ratio, alpha: number(value, "alpha")?, fate });
+    }
+    if let Some(edge) = value.get("edge") {
+        let edge = match edge.as_str().and_then(|text| text.split(':').next()) {
+            Some("contact") => Edge::Contact,
+            Some("sudden") => Edge::Sudden,
+            Some("none") => Edge::None,
+            Some("not decided") => Edge::Unknown,
+            _ => return Err(format!("'edge' is {edge}, which is none of the known kinds")),
+        };
+        let (n, delta) = (whole(value, "n")?, next(value, "delta_exact")?);
+        return Ok(Line::Reach { n, mass_ratio, edge, delta });
     }
     if value.get("offset").is_some() {
         return Ok(Line::Local {

@@ -10,7 +10,7 @@ use passive_hopper::{MassRatio, alpha_star};
 pub struct Reach {
     /// Δ, with the bound on its error beside it.
     pub delta: f64,
-    /// Bound on the error of Δ where the edge is certain; elsewhere an ulp.
+    /// Bound on the error of Δ, given that its edge is the one found.
     pub error: f64,
     /// Where it ends.
     pub edge: ReachEdge,
@@ -90,13 +90,25 @@ fn scan(fates: &Fates, trap: &Trap, width: f64) -> Result<Reach, Error> {
                 if falls(middle)? { below = middle } else { above = middle }
             }
             let delta = trap.star.offset_of(below);
-            let error = f64::EPSILON * below;
+            let error = place_error(fates, below)?;
             return Ok(Reach { delta, error, edge: ReachEdge::Sudden { width } });
         }
         above = at;
     }
     let delta = trap.star.offset_of(next.high);
     Ok(Reach { delta, error: f64::EPSILON * delta, edge: ReachEdge::NotFound { width } })
+}
+
+/// How far off a place may be at which the map was compared with a number: an ulp, and the map's own
+/// error, 4 (1 + sudden) of its unit, over its slope.
+fn place_error(fates: &Fates, alpha: f64) -> Result<f64, Error> {
+    let ulp = f64::EPSILON * alpha;
+    let (hop, slopes) = (fates.map().hop(alpha)?, fates.map().slopes(alpha)?);
+    let (Some(next), Some(slopes)) = (hop.next, slopes) else { return Ok(ulp) };
+    let m = fates.map().mass_ratio().value();
+    let slope = slopes.by_speed.abs();
+    let unit = next + slope * alpha + slopes.by_mass_ratio.abs() * m + alpha * (alpha / next);
+    Ok(ulp + 2.0 * (1 + hop.sudden) as f64 * f64::EPSILON * unit / slope)
 }
 
 /// Between which mass ratios above 1 the sudden window stops to let orbits fall through α*_n, at this

@@ -1,9 +1,9 @@
 //! `check-reference`: the map and the fates against files of reference values.
 
 use crate::Error;
-use crate::reference::{Hop, Line, Loss, parse};
-use hopper_basin::Fates;
-use passive_hopper::LiftOffMap;
+use crate::reference::{Edge, Hop, Line, Loss, parse};
+use hopper_basin::{Fates, ReachEdge, crisis, reach};
+use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
@@ -12,11 +12,13 @@ use std::path::PathBuf;
 #[derive(Debug, Clone, clap::Args)]
 pub struct Options {
     /// Allowed error, in units of the reference's K, per flight: K (1 + sudden). For hops near a
-    /// fixed point, given as n and offset, the unit is two ulps of the next offset; for a loss
-    /// it is what half an ulp in the inputs causes
+    /// fixed point, given as n and offset, the unit is two ulps of the next offset, whatever the
+    /// flights; for a loss it is what half an ulp in the inputs causes; for α*_n half an ulp; for
+    /// intervals of attraction a quarter of the bound stated; for crises two ulps
     #[arg(long, value_name = "K", default_value_t = 4.0)]
     limit: f64,
-    /// Files with one JSON object a line: hops, losses, hops near a fixed point, or fates
+    /// Files with one JSON object a line, or an array of them: hops, losses, hops near a fixed point,
+    /// fates, fixed points, intervals of attraction, crises
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 }
@@ -91,7 +93,8 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                         Verdict {
                             found: (hop.sudden, hop.next),
                             exact: (*sudden, *next),
-                            unit: next.map_or(0.0, |next| 2.0 * f64::EPSILON * next.abs()),
+                            unit: next.map_or(0.0, |next| 2.0 * f64::EPSILON * next.abs())
+                                / (1 + sudden) as f64,
                         },
                         limit,
                     ),
@@ -99,6 +102,33 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
             }
             Line::Loss(loss) => {
                 judge_loss(tallies.entry("losses".into()).or_default(), *at, loss, limit)
+            }
+            Line::FixedPoint { n, alpha_star: exact } => {
+                let tally = tallies.entry("fixed points".into()).or_default();
+                let unit = 0.5 * f64::EPSILON * exact;
+                tally.value(*at, &format!("n = {n}"), alpha_star(*n).high, *exact, unit, limit);
+            }
+            Line::Crisis { n, mu, mass_ratio, alpha } => {
+                let tally = tallies.entry("crises".into()).or_default();
+                match crisis(*n) {
+                    Err(error) => tally.is_wrong(*at, &error.to_string()),
+                    // At a touch the place is known to the root of an ulp.
+                    Ok(found) => {
+                        for (what, found, exact, ulps) in [
+                            ("μ", found.mu, *mu, 2.0),
+                            ("M", found.mass_ratio, *mass_ratio, 2.0),
+                            ("α", found.alpha, *alpha, 1e8),
+                        ] {
+                            let (place, unit) =
+                                (format!("n = {n}, {what}"), ulps * f64::EPSILON * exact);
+                            tally.value(*at, &place, found, exact, unit, limit);
+                        }
+                    }
+                }
+            }
+            Line::Reach { n, mass_ratio, edge, delta } => {
+                let tally = tallies.entry("intervals of attraction".into()).or_default();
+                judge_reach(tally, *at, (*n, *mass_ratio), (*edge, *delta), limit);
             }
             Line::Fate { mass_ratio, alpha, fate } => {
                 let tally = tallies.entry("fates".into()).or_default();
@@ -111,6 +141,39 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
         }
     }
     tallies
+}
+
+/// The edge must be of the right kind, and Δ within its stated bound.
+fn judge_reach(
+    tally: &mut Tally,
+    at: usize,
+    (n, mass_ratio): (u64, MassRatio),
+    (edge, delta): (Edge, Option<f64>),
+    limit: f64,
+) {
+    const WIDTH: f64 = 1e-3;
+    let found = match Fates::new(mass_ratio).and_then(|fates| reach(&fates, n, WIDTH)) {
+        Ok(found) => found,
+        Err(error) => return tally.is_wrong(at, &error.to_string()),
+    };
+    let right = match edge {
+        Edge::Contact => found.edge == ReachEdge::Contact,
+        Edge::Sudden => matches!(found.edge, ReachEdge::Sudden { .. }),
+        Edge::None => matches!(found.edge, ReachEdge::NextFixedPoint | ReachEdge::NotFound { .. }),
+        Edge::Unknown => true, // the reference itself is not decided
+    };
+    if !right {
+        return tally.is_wrong(at, &format!("{edge:?} expected, {:?} found", found.edge));
+    }
+    let place = format!("n = {n}, M = {}", mass_ratio.value());
+    match delta.filter(|_| edge != Edge::Unknown) {
+        // M is a decimal number: half an ulp of it shifts Δ too.
+        Some(exact) => {
+            let unit = 0.25 * found.error + f64::EPSILON * exact;
+            tally.value(at, &place, found.delta, exact, unit, limit);
+        }
+        None => tally.lines += 1,
+    }
 }
 
 fn judge_loss(tally: &mut Tally, at: usize, line: &Loss, limit: f64) {
@@ -157,6 +220,13 @@ struct Verdict {
 }
 
 impl Tally {
+    /// A number that has no verdicts.
+    fn value(&mut self, at: usize, place: &str, found: f64, exact: f64, unit: f64, limit: f64) {
+        self.lines += 1;
+        let verdict = Verdict { found: (0, Some(found)), exact: (0, Some(exact)), unit };
+        self.judge(at, place, verdict, limit);
+    }
+
     fn judge(&mut self, at: usize, place: &str, verdict: Verdict, limit: f64) {
         let Verdict { found, exact, unit } = verdict;
         if found.0 != exact.0 || found.1.is_some() != exact.1.is_some() {

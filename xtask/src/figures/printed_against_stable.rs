@@ -84,7 +84,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 10^{−12}: there nothing of it is left. The stable form knows the loss without a \
                 difference and errs by what half an ulp of $α$ would change, 10^{−16}/$δ$. The form in \
                 ($n$, $δ$) has no such ulp. The expansions err by their first neglected term, the \
-                printed $λ$ by one third. Errors under 10^{−17} are drawn there."
+                printed $λ$ by one third. Errors beyond the frame are drawn on it. A printed form that errs by \
+                more than all of the loss has gained energy."
             .into(),
         svg: svg.finish(),
         data: vec![csv_file("printed_against_stable.csv", &columns, data)?],

@@ -158,6 +158,6 @@ fn legend(svg: &mut Svg, left: f64, top: f64) {
     svg.marker((x, top - 8.0), Marker::Disc, 8.0, "#000000");
     svg.text(x + 8.0, top - 4.0, Anchor::Start, 10.5, "worst error");
     svg.text(x + 8.0, top + 15.0, Anchor::Start, 10.5, "median error");
-    svg.text(x - 4.0, top + 38.0, Anchor::Start, 10.5, "errors under 10^{−17}");
-    svg.text(x - 4.0, top + 52.0, Anchor::Start, 10.5, "are drawn there");
+    svg.text(x - 4.0, top + 38.0, Anchor::Start, 10.5, "errors beyond the frame");
+    svg.text(x - 4.0, top + 52.0, Anchor::Start, 10.5, "are drawn on it");
 }

@@ -58,7 +58,8 @@ pub(super) fn exact_landings(case: &Case) -> Option<Answer> {
 
 /// By sampling guards along the flows.
 pub(super) fn searched_landings(case: &Case) -> Option<Answer> {
-    // Long enough for the flights of all but the longest chains, and for a turn of the contact phase.
+    // Long enough for the flights of all but the longest chains, and for a turn of the contact phase:
+    // no lift-off by then counts as grounded, as it must for a search that knows nothing.
     let contact = std::f64::consts::TAU / case.mass_ratio.kappa().sqrt();
     let horizon = 10.0 * (case.alpha + 10.0) + contact;
     if horizon > MOST_SAMPLES * INTERVAL {

@@ -142,7 +142,7 @@ fn case(line: Line) -> Option<(String, Quantity, Case)> {
             };
             Some(("tiny_alpha".into(), Quantity::Loss, case))
         }
-        Line::Fate { .. } => None,
+        _ => None, // not about single hops
     }
 }
 
