@@ -25,6 +25,14 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
+    /// A finished piece of a job that cannot be used.
+    #[error("{path}: {reason}; remove it, or give another folder")]
+    Piece {
+        /// Its file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
     /// Reference values of the repository that lack something.
     #[error("the reference values: {reason}")]
     Reference {

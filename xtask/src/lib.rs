@@ -3,6 +3,7 @@
 //! The only code here that prints, draws or writes files; the libraries compute.
 
 pub mod beyond;
+pub mod checkpoint;
 pub mod claims;
 pub mod commands;
 mod error;
@@ -43,6 +44,8 @@ enum Command {
     ReproducePaper(commands::reproduce_paper::Options),
     /// Check the invariance under M → 1/M alone, with its figure
     VerifyInvariance(commands::verify_invariance::Options),
+    /// Compute the basins over any window, in tiles that survive a kill
+    BasinRaster(commands::basin_raster::Options),
     /// Compute what the paper could not say of the basins, with a report
     BeyondPaper(commands::beyond_paper::Options),
     /// Compare the map and the fates with files of reference values
@@ -73,6 +76,7 @@ pub fn run() -> Result<(), Error> {
     match command()? {
         Command::ReproducePaper(options) => commands::reproduce_paper::run(&options),
         Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
+        Command::BasinRaster(options) => commands::basin_raster::run(&options),
         Command::BeyondPaper(options) => commands::beyond_paper::run(&options),
         Command::CheckReference(options) => commands::check_reference::run(&options),
         Command::WorkPrecision(options) => commands::work_precision::run(&options),

@@ -223,9 +223,12 @@ mod tests {
     use super::*;
     use crate::{Fate, TrapSet, classify};
 
-    fn logistic() -> (impl Fn(f64) -> Option<f64> + Sync, Vec<Branch>, Vec<(Interval, u16)>) {
-        // 3x(1 − x)-like with two attractors: a cubic with two stable fixed points ±1.
-        let map = |x: f64| Some(1.5 * x - 0.5 * x * x * x);
+    /// Two attractors, the fixed points ±1 of a cubic.
+    fn cubic(x: f64) -> Option<f64> {
+        Some(1.5 * x - 0.5 * x * x * x)
+    }
+
+    fn branches_and_traps() -> (Vec<Branch>, Vec<(Interval, u16)>) {
         let at = |x: f64| 1.5 * x - 0.5 * x * x * x;
         let branch = |left: f64, right: f64| Branch {
             domain: Interval { left, right },
@@ -237,15 +240,15 @@ mod tests {
             (Interval { left: -1.2, right: -0.8 }, 1),
             (Interval { left: 0.8, right: 1.2 }, 2),
         ];
-        (map, branches, traps)
+        (branches, traps)
     }
 
     #[test]
     fn parts_are_disjoint_symmetric_and_right() {
-        let (map, branches, traps) = logistic();
+        let (branches, traps) = branches_and_traps();
         let window = Interval { left: -2.2, right: 2.2 };
         let basins =
-            interval_basins(&map, &traps, &branches, window, Refinement::default()).unwrap();
+            interval_basins(&cubic, &traps, &branches, window, Refinement::default()).unwrap();
         for pair in basins.parts().windows(2) {
             assert!(pair[0].interval.right <= pair[1].interval.left);
         }
@@ -254,7 +257,7 @@ mod tests {
         let set = TrapSet::new(traps).unwrap();
         for k in 0..1000 {
             let x = -2.19 + 4.38 * (f64::from(k) + 0.37) / 1000.0;
-            let (fate, steps) = classify(&map, &set, x, 1000);
+            let (fate, steps) = classify(&cubic, &set, x, 1000);
             let part = basins.parts().iter().find(|part| part.interval.contains(x));
             assert_eq!(part.map(|p| (Fate::Trapped(p.label), p.level)), Some((fate, steps)));
         }

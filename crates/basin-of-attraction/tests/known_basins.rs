@@ -312,7 +312,8 @@ fn intervals_cover_as_often_as_they_say() {
     let unit = interval(0.0, 1.0);
     let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
     let wide = interval(-1.5, 0.5);
-    let cases: [(&str, Interval, &(dyn Fn(f64) -> u16 + Sync), u16, f64); 2] =
+    type Label<'a> = &'a (dyn Fn(f64) -> u16 + Sync);
+    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] =
         [("B1", unit, &|x| cantor_label(x, 2), 0, 0.6), ("B4", wide, &step, 1, 0.5)];
     for (name, window, label, basin, truth) in cases {
         let covered = |shares: &dyn Fn(u64) -> basin_of_attraction::Estimate| {

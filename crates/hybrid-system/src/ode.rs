@@ -145,6 +145,7 @@ mod tests {
 
     /// The interpolant is as good as the steps: errors everywhere within a step follow the tolerance.
     #[test]
+    #[allow(clippy::disallowed_methods)] // the tolerance is far above a misrounding
     fn the_error_follows_the_tolerance_inside_the_steps_too() {
         for exponent in 3..=12 {
             let tolerance = 10f64.powi(-exponent);

@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+pub mod basin_raster;
 pub mod beyond_paper;
 pub mod check_reference;
 pub mod reproduce_paper;

@@ -10,15 +10,15 @@ use ndarray_npy::WriteNpyExt;
 use std::ops::ControlFlow;
 
 /// (M, α) ranges of the figure that enlarges a part, and its number.
-type Inset = ((f64, f64), (f64, f64), &'static str);
+pub(crate) type Inset = ((f64, f64), (f64, f64), &'static str);
 
 /// A window of (M, α) and what it is called.
-pub(super) struct Window {
-    pub(super) name: &'static str,
-    pub(super) mass_ratio: (f64, f64),
-    pub(super) alpha: (f64, f64),
-    pub(super) inset: Option<Inset>,
-    pub(super) tick_counts: (usize, usize),
+pub(crate) struct Window {
+    pub(crate) name: &'static str,
+    pub(crate) mass_ratio: (f64, f64),
+    pub(crate) alpha: (f64, f64),
+    pub(crate) inset: Option<Inset>,
+    pub(crate) tick_counts: (usize, usize),
 }
 
 /// Pixels across and up.
@@ -43,7 +43,31 @@ pub(super) fn basin_figure(
         ControlFlow::Continue(())
     })?;
     bar.finish();
-    let pixels = png(window.name, &image)?;
+    let svg = draw_basins(window, &image)?;
+    let (title, paper, notes) = texts;
+    Ok(Figure {
+        name: window.name,
+        title,
+        paper,
+        notes: format!(
+            "{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}",
+            shares(&image)
+        ),
+        svg,
+        data: vec![
+            DataFile { name: format!("{}.npy", window.name), bytes: npy(window.name, &image)? },
+            DataFile {
+                name: format!("{}_labels.png", window.name),
+                bytes: png(window.name, &image)?,
+            },
+        ],
+    })
+}
+
+/// The drawing of an image with axes and legend.
+pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<String, Error> {
+    let (x, y) = (window.mass_ratio, window.alpha);
+    let pixels = png(window.name, image)?;
     let mut svg = Svg::new(580.0, 560.0);
     let frame = Frame::linear(66.0, 44.0, 490.0, 460.0, x, y);
     svg.image(frame.left, frame.top, frame.width, frame.height, &pixels);
@@ -62,28 +86,21 @@ pub(super) fn basin_figure(
         svg.fill_rect(x1 + 3.0, y1 - 16.0, 37.0, 15.0, "#ffffff");
         svg.text(x1 + 5.0, y1 - 5.0, Anchor::Start, 11.5, name);
     }
-    legend(&mut svg, frame.left, &image);
-    let (title, paper, notes) = texts;
-    Ok(Figure {
-        name: window.name,
-        title,
-        paper,
-        notes: format!(
-            "{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}",
-            shares(&image)
-        ),
-        svg: svg.finish(),
-        data: vec![
-            DataFile { name: format!("{}.npy", window.name), bytes: npy(window.name, &image)? },
-            DataFile { name: format!("{}_labels.png", window.name), bytes: pixels },
-        ],
-    })
+    legend(&mut svg, frame.left, image);
+    Ok(svg.finish())
 }
 
+/// One entry a colour: fixed points beyond the last colour share it.
 fn legend(svg: &mut Svg, left: f64, image: &LabelImage) {
     let mut x = left;
+    let mut last = "";
     for (label, _) in image.counts() {
-        svg.fill_rect(x, 18.0, 12.0, 12.0, palette::css(label));
+        let color = palette::css(label);
+        if color == last {
+            continue;
+        }
+        last = color;
+        svg.fill_rect(x, 18.0, 12.0, 12.0, color);
         svg.rect(x, 18.0, 12.0, 12.0, Pen::solid("#000", 0.6));
         svg.text(x + 17.0, 28.5, Anchor::Start, 11.5, &palette::name(label));
         x += if (1..60_000).contains(&label) { 58.0 } else { 84.0 };
@@ -101,11 +118,19 @@ fn shares(image: &LabelImage) -> String {
 
 /// One byte a pixel, the highest row first; the palette in the order of the labels that occur.
 fn png(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
-    let labels: Vec<u16> = image.counts().into_iter().map(|(label, _)| label).collect();
-    let colors: Vec<[u8; 3]> = labels.iter().map(|&label| palette::rgb(label)).collect();
+    let mut colors: Vec<[u8; 3]> = Vec::new();
+    let mut places = std::collections::BTreeMap::new();
+    for (label, _) in image.counts() {
+        let color = palette::rgb(label);
+        let known = colors.iter().position(|other| *other == color);
+        places.insert(label, known.unwrap_or(colors.len()) as u8);
+        if known.is_none() {
+            colors.push(color);
+        }
+    }
     let rows = image.labels.chunks(image.grid.columns).rev();
-    let index = |label: &u16| labels.partition_point(|known| known < label) as u8;
-    let pixels: Vec<u8> = rows.flatten().map(index).collect();
+    let pixels: Vec<u8> =
+        rows.flatten().map(|label| places.get(label).copied().unwrap_or(0)).collect();
     render::indexed_png(name, image.grid.columns, image.grid.rows, &colors, &pixels)
 }
 

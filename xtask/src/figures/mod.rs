@@ -16,6 +16,7 @@ pub(crate) mod construction {
     pub(crate) use super::fig_05_construction::{DEPTH, M, levels};
 }
 
+pub(crate) use basin_plot::{Window, draw_basins};
 pub(crate) use work_precision::work_precision_figure;
 
 use crate::Error;

@@ -41,6 +41,9 @@ pub fn name(label: u16) -> String {
         0 => "decaying".into(),
         HopperFate::GROUNDED => "grounded".into(),
         label if HopperFate::is_undecided(label) => "undecided".into(),
+        n if usize::from(n) >= BASINS.len() => {
+            format!("to $α$^{{∗}}_{{{}}} …", BASINS.len())
+        }
         n => format!("to $α$^{{∗}}_{{{n}}}"),
     }
 }

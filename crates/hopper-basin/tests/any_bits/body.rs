@@ -93,11 +93,13 @@ fn asymptotics(n: u64, ratio: MassRatio, [b, c, d]: [f64; 3]) {
 fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
     let (from, to, few) = (n % 3, n % 5, (n % 40) as usize);
     let _ = shares(ratio, from, to, few);
-    if let (Ok(x), Ok(y)) = (Interval::new(b, c), Interval::new(d, e)) {
-        if y.right < 1e3 && x.left > 1e-3 && x.right < 1e3 {
-            let grid = Grid { x, y, columns: few % 5, rows: few % 7 };
-            let _ = basin_raster(grid, |_| std::ops::ControlFlow::Continue(()));
-        }
+    if let (Ok(x), Ok(y)) = (Interval::new(b, c), Interval::new(d, e))
+        && y.right < 1e3
+        && x.left > 1e-3
+        && x.right < 1e3
+    {
+        let grid = Grid { x, y, columns: few % 5, rows: few % 7 };
+        let _ = basin_raster(grid, |_| std::ops::ControlFlow::Continue(()));
     }
     let Ok(fates) = Fates::new(ratio) else { return };
     let _ = branches(&fates, from, to, few);

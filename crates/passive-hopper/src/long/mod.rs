@@ -125,6 +125,10 @@ impl<const W: usize> Long<W> {
         Self::normalised(self.negative, self.exponent, &wide[..=W])
     }
 
+    fn quotient(self, divisor: Self) -> Self {
+        self * divisor.reciprocal()
+    }
+
     /// 1/self, by x ← x + x (1 − self x) from 50 bits.
     fn reciprocal(self) -> Self {
         let mantissa = Long { exponent: 0, ..self };
@@ -230,7 +234,7 @@ impl<const W: usize> Mul for Long<W> {
 impl<const W: usize> Div for Long<W> {
     type Output = Self;
     fn div(self, divisor: Self) -> Self {
-        self * divisor.reciprocal()
+        self.quotient(divisor)
     }
 }
 

@@ -1,0 +1,199 @@
+//! `basin-raster`: the basins over any window of (M, α), in tiles that survive anything.
+
+use crate::Error;
+use crate::checkpoint::Checkpoint;
+use crate::figures::{Window, draw_basins};
+use crate::output::Folder;
+use crate::plot::render::render;
+use crate::progress::Progress;
+use basin_of_attraction::{Grid, Interval, LabelImage};
+use hopper_basin::{HopperFate, basin_raster};
+use passive_hopper::alpha_star;
+use std::io::{BufWriter, Write};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// Folder for the results and, until they are complete, for finished tiles
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Mass ratios from and to
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], default_values_t = [0.1, 1.0])]
+    mass_ratio: Vec<f64>,
+    /// Lift-off speeds from and to [default: the first and the sixth fixed point]
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"])]
+    speed: Option<Vec<f64>>,
+    /// Pixels across and up
+    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], default_values_t = [1024, 1024])]
+    pixels: Vec<usize>,
+}
+
+/// Columns of a tile.
+const TILE: usize = 16;
+
+/// Pixels of the picture, at most, along each axis; a larger raster is thinned for it.
+const PICTURE: usize = 1200;
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let grid = grid(options)?;
+    let folder = Folder::open(&options.out)?;
+    let description = format!(
+        "basins, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels",
+        grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
+    );
+    let kept = Checkpoint::open(&folder.path().join("tiles"), &description)?;
+    let tiles = grid.columns.div_ceil(TILE);
+    let bar = Progress.bar("basins", tiles as u64);
+    for tile in 0..tiles {
+        if kept.read(tile)?.is_none() {
+            kept.write(tile, &columns(&grid, tile)?)?;
+        }
+        bar.set(tile as u64 + 1);
+    }
+    bar.finish();
+    let array = write_array(&folder, &kept, &grid)?;
+    let image = thinned(&kept, &grid)?;
+    let window = Window {
+        name: "basin",
+        mass_ratio: (grid.x.left, grid.x.right),
+        alpha: (grid.y.left, grid.y.right),
+        inset: None,
+        tick_counts: (6, 8),
+    };
+    let rendered = render("basin", &draw_basins(&window, &image)?, 2.0)?;
+    folder.write("basin.png", &rendered.png)?;
+    kept.remove(tiles)?;
+    let legend = image.legend(HopperFate::label_name);
+    let mut out = std::io::stdout().lock();
+    let said = (|| {
+        for entry in legend {
+            writeln!(out, "label {:5}  {}", entry.label, entry.name)?;
+        }
+        writeln!(out, "{}\n{}", array.display(), folder.path().join("basin.png").display())
+    })();
+    said.map_err(|source| Error::File { path: "standard output".into(), source })
+}
+
+fn grid(options: &Options) -> Result<Grid, Error> {
+    let pair = |values: &[f64]| match *values {
+        [from, to] => Interval::new(from, to).map_err(Error::from),
+        _ => Err(Error::CheckFailed("two numbers are needed, from and to".into())),
+    };
+    let default = [alpha_star(1).high, alpha_star(6).high];
+    let [columns, rows] = options.pixels[..] else {
+        return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
+    };
+    let speed = options.speed.as_deref().unwrap_or(&default);
+    Ok(Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows })
+}
+
+/// The labels of one tile, column by column from the lowest speed up, in little-endian order.
+fn columns(grid: &Grid, tile: usize) -> Result<Vec<u8>, Error> {
+    let first = tile * TILE;
+    let count = TILE.min(grid.columns - first);
+    // A window of whole columns: the same middles as in the whole grid, to the bit.
+    let labels: Vec<Vec<u16>> = (first..first + count)
+        .map(|column| {
+            let m = grid.x_at(column);
+            let one = Grid { x: Interval::new(m, m)?, columns: 1, ..*grid };
+            Ok(basin_raster(one, |_| ControlFlow::Continue(()))?.labels)
+        })
+        .collect::<Result<_, Error>>()?;
+    Ok(labels.iter().flatten().flat_map(|label| label.to_le_bytes()).collect())
+}
+
+/// All tiles as one NumPy array of shape (rows, columns), row 0 the lowest speed; in Fortran's order,
+/// in which tiles follow one another.
+fn write_array(folder: &Folder, kept: &Checkpoint, grid: &Grid) -> Result<PathBuf, Error> {
+    let (path, partial) =
+        (folder.path().join("basin.npy"), folder.path().join("basin.npy.partial.tmp"));
+    let fail = |source| Error::File { path: path.clone(), source };
+    let mut file = BufWriter::new(std::fs::File::create(&partial).map_err(fail)?);
+    file.write_all(&npy_header(grid.rows, grid.columns)).map_err(fail)?;
+    for tile in 0..grid.columns.div_ceil(TILE) {
+        file.write_all(&piece(kept, tile)?).map_err(fail)?;
+    }
+    file.into_inner().map_err(|e| fail(e.into_error()))?.sync_all().map_err(fail)?;
+    std::fs::rename(&partial, &path).map_err(fail)?;
+    Ok(path)
+}
+
+/// The header of version 1.0 of the format: magic, length, and a dictionary padded to 64 bytes.
+fn npy_header(rows: usize, columns: usize) -> Vec<u8> {
+    let mut text =
+        format!("{{'descr': '<u2', 'fortran_order': True, 'shape': ({rows}, {columns}), }}");
+    let unpadded = 10 + text.len() + 1;
+    text.push_str(&" ".repeat(unpadded.next_multiple_of(64) - unpadded));
+    text.push('\n');
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend_from_slice(&(text.len() as u16).to_le_bytes());
+    bytes.extend_from_slice(text.as_bytes());
+    bytes
+}
+
+fn piece(kept: &Checkpoint, tile: usize) -> Result<Vec<u8>, Error> {
+    kept.read(tile)?.ok_or_else(|| Error::Piece {
+        path: Path::new(kept.description()).into(),
+        reason: "a finished tile has gone",
+    })
+}
+
+/// Every so many-th pixel, for the picture.
+fn thinned(kept: &Checkpoint, grid: &Grid) -> Result<LabelImage, Error> {
+    let (columns, rows) = (grid.columns.min(PICTURE), grid.rows.min(PICTURE));
+    let mut labels = vec![0u16; columns * rows];
+    let mut held: Option<(usize, Vec<u8>)> = None;
+    for column in 0..columns {
+        let from = column * grid.columns / columns;
+        if held.as_ref().is_none_or(|(tile, _)| *tile != from / TILE) {
+            held = Some((from / TILE, piece(kept, from / TILE)?));
+        }
+        let Some((tile, bytes)) = &held else { continue };
+        let base = (from - tile * TILE) * grid.rows;
+        for row in 0..rows {
+            let at = 2 * (base + row * grid.rows / rows);
+            let label =
+                bytes.get(at..at + 2).map_or(0, |pair| u16::from_le_bytes([pair[0], pair[1]]));
+            labels[row * columns + column] = label;
+        }
+    }
+    Ok(LabelImage { grid: Grid { columns, rows, ..*grid }, labels })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_header_is_one_that_numpy_reads() {
+        let header = npy_header(3, 4);
+        assert_eq!(header.len() % 64, 0);
+        assert_eq!(&header[..8], b"\x93NUMPY\x01\x00");
+        let mut bytes = header;
+        bytes.extend((0u16..12).flat_map(u16::to_le_bytes));
+        let array: ndarray::Array2<u16> =
+            ndarray_npy::ReadNpyExt::read_npy(std::io::Cursor::new(bytes)).unwrap();
+        assert_eq!(array.dim(), (3, 4));
+        assert_eq!((array[(0, 0)], array[(2, 0)], array[(0, 1)]), (0, 2, 3));
+    }
+
+    /// Tiles hold the labels of the whole raster.
+    #[test]
+    fn tiles_are_the_raster() {
+        let window = Interval::new(alpha_star(1).high, alpha_star(3).high).unwrap();
+        let x = Interval::new(0.1, 0.9).unwrap();
+        let grid = Grid { x, y: window, columns: 40, rows: 25 };
+        let whole = basin_raster(grid, |_| ControlFlow::Continue(())).unwrap();
+        for tile in 0..3 {
+            let bytes = columns(&grid, tile).unwrap();
+            for (k, pair) in bytes.chunks(2).enumerate() {
+                let (column, row) = (tile * TILE + k / 25, k % 25);
+                let label = u16::from_le_bytes([pair[0], pair[1]]);
+                assert_eq!(Some(label), whole.at(column, row), "{column} {row}");
+            }
+        }
+    }
+}
