@@ -7,6 +7,7 @@ use crate::Error;
 use crate::output::{Folder, digest};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 const MAGIC: &[u8; 8] = b"HOPPIECE";
 
@@ -19,14 +20,23 @@ pub struct Checkpoint {
     description: String,
 }
 
+/// What tells this build of the program from others.
+pub(crate) fn program_digest() -> Result<String, Error> {
+    static DIGEST: OnceLock<String> = OnceLock::new();
+    if let Some(known) = DIGEST.get() {
+        return Ok(known.clone());
+    }
+    let program = std::env::current_exe()
+        .and_then(std::fs::read)
+        .map_err(|source| Error::File { path: "this program".into(), source })?;
+    Ok(DIGEST.get_or_init(|| digest(&program)).clone())
+}
+
 impl Checkpoint {
     /// The pieces of the job described, in `folder`. The program itself belongs to the description: a
     /// different build may compute different bytes.
     pub fn open(folder: &Path, description: &str) -> Result<Self, Error> {
-        let program = std::env::current_exe()
-            .and_then(std::fs::read)
-            .map_err(|source| Error::File { path: "this program".into(), source })?;
-        let description = format!("{description}; program {}", digest(&program));
+        let description = format!("{description}; program {}", program_digest()?);
         Folder::open(folder)?;
         let mut job = [0; 16];
         job.copy_from_slice(digest(description.as_bytes()).as_bytes());

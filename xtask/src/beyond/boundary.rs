@@ -1,12 +1,12 @@
 //! What the boundary of the basins is: countable, of dimension one quarter.
 
-use super::{Finding, Table, fates, hump, label};
+use super::{Finding, Job, Table, fates, hump, label};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, ticks};
-use crate::progress::Progress;
 use basin_of_attraction::{
-    IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law, uncertain_share,
+    Estimate, IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law,
+    uncertain_share,
 };
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::hopper_basins;
@@ -38,7 +38,7 @@ fn basins() -> Result<IntervalBasins, Error> {
 }
 
 /// Box counts with local slopes, and the accumulation at a fixed point.
-pub(super) fn boundary(_: &Progress) -> Result<Finding, Error> {
+pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
     let basins = basins()?;
     let mut svg = Svg::new(860.0, 400.0);
     let frame = Frame {
@@ -225,21 +225,21 @@ fn accumulation(svg: &mut Svg, generations: &[f64]) -> Result<(), Error> {
 }
 
 /// The uncertainty exponent, from plots' scales to fine ones.
-pub(super) fn uncertainty(progress: &Progress) -> Result<Finding, Error> {
+pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
     let basins = basins()?;
     let window = basins.window();
     let fates = fates(M)?;
-    let bar = progress.bar("uncertain starts", 6);
-    let mut sampled = Vec::new();
-    for k in 0..6u64 {
+    let rows = job.scan("uncertain starts", 6, |k| {
         let epsilon = pxfm::f_exp10(-2.0 - k as f64);
         // Rare ones need more points.
         let count = 50_000 << k.min(4);
-        let share = uncertain_share(window, epsilon, count, 7 + k, |x| label(&fates, x))?;
-        sampled.push((epsilon, share));
-        bar.set(k + 1);
-    }
-    bar.finish();
+        let share = uncertain_share(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
+        Ok(vec![epsilon, share.value, share.lower, share.upper])
+    })?;
+    let sampled: Vec<(f64, Estimate)> = rows
+        .iter()
+        .map(|row| (row[0], Estimate { value: row[1], lower: row[2], upper: row[3] }))
+        .collect();
     let exact: Vec<(f64, f64)> = (0..=16)
         .map(|k| {
             let epsilon = pxfm::f_exp10(-10.0 + 0.5 * f64::from(k));

@@ -1,11 +1,10 @@
 //! Basin entropy against the mass ratio.
 
 use super::measure::ratio_ticks;
-use super::{FROM, Finding, TO, Table, by_humps, fates, geometric, label};
+use super::{FROM, Finding, Job, TO, Table, by_humps, fates, geometric, label};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Pen, Scale, Svg, ticks};
-use crate::progress::Progress;
 use basin_of_attraction::entropy;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -13,6 +12,9 @@ use std::collections::BTreeMap;
 /// Boxes on the five humps, and starts in each.
 const BOXES: usize = 500;
 const STARTS: usize = 100;
+
+/// M, basin entropy, boundary entropy, mixed boxes.
+type Row = (f64, f64, f64, f64);
 
 /// The mean entropy over all boxes, and over mixed ones; and how many are mixed.
 fn entropies(mass_ratio: f64) -> Result<(f64, f64, usize), Error> {
@@ -34,16 +36,14 @@ fn entropies(mass_ratio: f64) -> Result<(f64, f64, usize), Error> {
 }
 
 /// From M = 0.02 to 50.
-pub(super) fn entropy_of_basins(progress: &Progress) -> Result<Finding, Error> {
+pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(0.02, 50.0, 101);
-    let bar = progress.bar("entropies", ratios.len() as u64);
-    let mut rows = Vec::new();
-    for (k, &m) in ratios.iter().enumerate() {
-        let (whole, boundary, mixed) = entropies(m)?;
-        rows.push((m, whole, boundary, mixed));
-        bar.set(k as u64 + 1);
-    }
-    bar.finish();
+    let scan = job.scan("entropies", ratios.len(), |k| {
+        let (whole, boundary, mixed) = entropies(ratios[k])?;
+        Ok(vec![whole, boundary, mixed as f64])
+    })?;
+    let rows: Vec<Row> =
+        ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[1], row[2])).collect();
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame {
         left: 62.0,
@@ -64,7 +64,6 @@ pub(super) fn entropy_of_basins(progress: &Progress) -> Result<Finding, Error> {
         11.5,
         "ln 2",
     );
-    type Row = (f64, f64, f64, usize);
     type Column = fn(&Row) -> f64;
     let curves: [(Column, Pen, &str); 2] = [
         (|row| row.1, Pen::solid("#0072b2", 1.8), "basin entropy"),
@@ -87,7 +86,7 @@ pub(super) fn entropy_of_basins(progress: &Progress) -> Result<Finding, Error> {
             format!("{}", row.3),
         ]);
     }
-    let data = rows.iter().map(|r| vec![Some(r.0), Some(r.1), Some(r.2), Some(r.3 as f64)]);
+    let data = rows.iter().map(|r| vec![Some(r.0), Some(r.1), Some(r.2), Some(r.3)]);
     Ok(Finding {
         figure: Figure {
             name: "beyond_entropy",

@@ -1,10 +1,9 @@
 //! How the basins repeat from hump to hump.
 
-use super::{Finding, Table, fates, hump, is_incessant};
+use super::{Finding, Job, Table, fates, hump, is_incessant};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Pen, Scale, Svg, decades, palette};
-use crate::progress::Progress;
 use basin_of_attraction::Refinement;
 use hopper_basin::hopper_basins;
 
@@ -12,7 +11,7 @@ const M: f64 = 0.2;
 const LAST: u64 = 8;
 
 /// The share of each hump that each fixed point below attracts.
-pub(super) fn nested_basins(_: &Progress) -> Result<Finding, Error> {
+pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     let refinement = Refinement { shortest: 1e-6, ..Refinement::default() };
     let basins = hopper_basins(&fates, 1, LAST + 1, 400, refinement)?.basins;

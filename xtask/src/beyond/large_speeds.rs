@@ -1,11 +1,10 @@
 //! Final-state uncertainty at large speeds, and whether the basins are riddled.
 
-use super::{Finding, Table, fates, hump, is_incessant, label};
+use super::{Finding, Job, Table, fates, hump, is_incessant, label};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, palette};
-use crate::progress::Progress;
-use basin_of_attraction::{random_shares, uncertain_share};
+use basin_of_attraction::{Estimate, random_shares, uncertain_share};
 
 const M: f64 = 0.2;
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
@@ -18,9 +17,16 @@ const LOOKS: [Marker; 5] =
     [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge];
 
 /// The share of uncertain starts against ε, hump by hump.
-pub(super) fn large_speeds(progress: &Progress) -> Result<Finding, Error> {
+pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
-    let bar = progress.bar("large speeds", (HUMPS.len() * 8) as u64);
+    const DECADES: usize = 8;
+    let scan = job.scan("large speeds", HUMPS.len() * DECADES, |k| {
+        let (n, decade) = (HUMPS[k / DECADES], k % DECADES + 1);
+        let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };
+        let epsilon = pxfm::f_exp10(-(decade as f64));
+        let share = uncertain_share(hump(n)?, epsilon, starts(n), n, at)?;
+        Ok(vec![epsilon, share.value, share.lower, share.upper])
+    })?;
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame {
         left: 70.0,
@@ -41,25 +47,17 @@ pub(super) fn large_speeds(progress: &Progress) -> Result<Finding, Error> {
         "at 10^{−6}",
         "at 10^{−8}",
     ]);
-    let (mut data, mut done) = (Vec::new(), 0);
+    let mut data = Vec::new();
     for (k, n) in HUMPS.into_iter().enumerate() {
         let window = hump(n)?;
-        let mut points = Vec::new();
-        for decade in 1..=8 {
-            let epsilon = pxfm::f_exp10(-f64::from(decade));
-            let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };
-            let share = uncertain_share(window, epsilon, starts(n), n, at)?;
-            points.push((epsilon, share));
-            data.push(vec![
-                Some(n as f64),
-                Some(epsilon),
-                Some(share.value),
-                Some(share.lower),
-                Some(share.upper),
-            ]);
-            done += 1;
-            bar.set(done);
-        }
+        let rows = &scan[k * DECADES..(k + 1) * DECADES];
+        let points: Vec<(f64, Estimate)> = rows
+            .iter()
+            .map(|row| (row[0], Estimate { value: row[1], lower: row[2], upper: row[3] }))
+            .collect();
+        data.extend(rows.iter().map(|row| {
+            std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()
+        }));
         let color = palette::css(k as u16 + 1);
         let seen: Vec<_> = points
             .iter()
@@ -93,7 +91,6 @@ pub(super) fn large_speeds(progress: &Progress) -> Result<Finding, Error> {
             cell(8),
         ]);
     }
-    bar.finish();
     frame.axes(
         &mut svg,
         &decades(frame.x, 2),

@@ -1,13 +1,12 @@
 //! The measure of each basin against the mass ratio, and how M and 1/M differ.
 
 use super::{
-    FROM, Finding, TO, Table, bounds, by_humps, fates, geometric, hump, is_incessant, label,
+    FROM, Finding, Job, TO, Table, bounds, by_humps, fates, geometric, hump, is_incessant, label,
     percent,
 };
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Pen, Scale, Svg, decades, palette};
-use crate::progress::Progress;
 use basin_of_attraction::{
     Estimate, Interval, Refinement, equally_spaced_shares, low_discrepancy_shares, random_shares,
 };
@@ -27,6 +26,9 @@ const SEED: u64 = 2002;
 
 /// The label under which all incessant ones are counted together.
 const ALL: u16 = HopperFate::UNDECIDED - 10;
+
+/// Labels in the order of the data.
+const LABELS: [u16; 8] = [1, 2, 3, 4, 5, ALL, 0, HopperFate::GROUNDED];
 
 type Shares = BTreeMap<u16, Estimate>;
 
@@ -73,15 +75,18 @@ fn interval_shares(fates: &Fates, shortest: f64) -> Result<Shares, Error> {
 }
 
 /// Measures from M = 0.02 to 50.
-pub(super) fn measure(progress: &Progress) -> Result<Finding, Error> {
+pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(RATIOS.0, RATIOS.1, RATIOS.2);
-    let bar = progress.bar("measures", ratios.len() as u64);
-    let mut all = Vec::new();
-    for (k, &m) in ratios.iter().enumerate() {
-        all.push((m, shares(m)?));
-        bar.set(k as u64 + 1);
-    }
-    bar.finish();
+    let scan = job.scan("measures", ratios.len(), |k| {
+        let shares = shares(ratios[k])?;
+        let numbers =
+            |label: u16| shares.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
+        Ok(LABELS.into_iter().flat_map(numbers).collect())
+    })?;
+    let estimate = |three: &[f64]| Estimate { value: three[0], lower: three[1], upper: three[2] };
+    let shares_of = |row: &Vec<f64>| LABELS.into_iter().zip(row.chunks(3).map(estimate)).collect();
+    let all: Vec<(f64, Shares)> =
+        ratios.iter().zip(&scan).map(|(&m, row)| (m, shares_of(row))).collect();
     let mut svg = Svg::new(700.0, 470.0);
     let frame = Frame {
         left: 70.0,
@@ -119,8 +124,7 @@ pub(super) fn measure(progress: &Progress) -> Result<Finding, Error> {
             let share = shares.get(&label);
             [share.map(|s| s.value), share.map(|s| s.lower), share.map(|s| s.upper)]
         };
-        let labels = (FROM as u16..TO as u16).chain([ALL, 0, HopperFate::GROUNDED]);
-        std::iter::once(Some(*m)).chain(labels.flat_map(cells)).collect()
+        std::iter::once(Some(*m)).chain(LABELS.into_iter().flat_map(cells)).collect()
     });
     let names = ["1", "2", "3", "4", "5", "all", "decaying", "grounded"];
     let header: Vec<String> = std::iter::once("mass_ratio".to_owned())
@@ -222,13 +226,14 @@ fn three_ways() -> Result<Table, Error> {
     Ok(table)
 }
 
+/// M, incessant at M, at 1/M, and fates that differ.
+type Row = (f64, f64, f64, f64);
+
 /// M against 1/M.
-pub(super) fn asymmetry(progress: &Progress) -> Result<Finding, Error> {
+pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(RATIOS.0, 1.0, 61);
-    let bar = progress.bar("asymmetry", ratios.len() as u64);
-    let mut rows = Vec::new();
-    for (k, &m) in ratios.iter().enumerate() {
-        let (light, heavy) = (fates(m)?, fates(1.0 / m)?);
+    let scan = job.scan("asymmetry", ratios.len(), |k| {
+        let (light, heavy) = (fates(ratios[k])?, fates(1.0 / ratios[k])?);
         let compare = |place: f64| {
             let alpha = by_humps(place);
             let (one, two) = (label(&light, alpha), label(&heavy, alpha));
@@ -240,10 +245,10 @@ pub(super) fn asymmetry(progress: &Progress) -> Result<Finding, Error> {
         let sum = |bit: u16| -> f64 {
             counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.value).sum()
         };
-        rows.push((m, sum(1), sum(2), sum(4)));
-        bar.set(k as u64 + 1);
-    }
-    bar.finish();
+        Ok(vec![sum(1), sum(2), sum(4)])
+    })?;
+    let rows: Vec<Row> =
+        ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[1], row[2])).collect();
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame {
         left: 70.0,
@@ -255,7 +260,6 @@ pub(super) fn asymmetry(progress: &Progress) -> Result<Finding, Error> {
         x_scale: Scale::Log,
         y_scale: Scale::Log,
     };
-    type Row = (f64, f64, f64, f64);
     type Column = fn(&Row) -> f64;
     let curves: [(Column, Pen, &str); 3] = [
         (|row| row.1, Pen::solid("#0072b2", 1.8), "incessant at $M$"),

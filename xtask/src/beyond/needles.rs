@@ -1,10 +1,9 @@
 //! Needles for large M: how the answer depends on the width looked at.
 
-use super::{Finding, Table, fates};
+use super::{Finding, Job, Table, fates};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, palette};
-use crate::progress::Progress;
 use hopper_basin::{ReachEdge, crisis, reach, recovery};
 
 const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
@@ -14,12 +13,17 @@ const RATIOS: [f64; 7] = [10.0, 11.0, 12.0, 14.0, 16.0, 20.0, 30.0];
 const LOOKS: [Marker; 3] = [Marker::Disc, Marker::Square, Marker::Triangle];
 
 /// The reach of α*_1, and the recoveries of three humps, width by width.
-pub(super) fn needles(progress: &Progress) -> Result<Finding, Error> {
-    let bar = progress.bar("needles", (RATIOS.len() + 3) as u64);
+pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
+    let humps = 3;
+    let recoveries = job.scan("recoveries", humps * WIDTHS.len(), |k| {
+        let (below, above) =
+            recovery((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
+        Ok(vec![below, above])
+    })?;
     let mut header = vec!["$M$".to_owned()];
     header.extend(WIDTHS.iter().map(|width| format!("Δ_{{1}} down to width {width:.0e}")));
     let mut table = Table { header, rows: Vec::new() };
-    for (k, m) in RATIOS.into_iter().enumerate() {
+    for m in RATIOS {
         let fates = fates(m)?;
         let mut cells = vec![format!("{m}")];
         for width in WIDTHS {
@@ -31,7 +35,6 @@ pub(super) fn needles(progress: &Progress) -> Result<Finding, Error> {
             });
         }
         table.row(cells);
-        bar.set(k as u64 + 1);
     }
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame {
@@ -45,7 +48,7 @@ pub(super) fn needles(progress: &Progress) -> Result<Finding, Error> {
         y_scale: Scale::Log,
     };
     let mut data = Vec::new();
-    for n in 1..=3u64 {
+    for n in 1..=humps as u64 {
         let color = palette::css(n as u16);
         let contact = 1.0 / crisis(n)?.mass_ratio;
         frame.polyline(
@@ -54,8 +57,9 @@ pub(super) fn needles(progress: &Progress) -> Result<Finding, Error> {
             Pen::dashed(color, 0.9, "4 3"),
         );
         let mut points = Vec::new();
-        for width in WIDTHS {
-            let (below, above) = recovery(n, width, LARGEST)?;
+        for (k, width) in WIDTHS.into_iter().enumerate() {
+            let found = &recoveries[(n as usize - 1) * WIDTHS.len() + k];
+            let (below, above) = (found[0], found[1]);
             points.push((width, 0.5 * (below + above)));
             data.push(vec![Some(n as f64), Some(width), Some(below), Some(above)]);
         }
@@ -66,9 +70,7 @@ pub(super) fn needles(progress: &Progress) -> Result<Finding, Error> {
         let y = 44.0 + 17.0 * n as f64;
         svg.marker((430.0, y), LOOKS[n as usize - 1], 7.0, color);
         svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("hump {n}"));
-        bar.set(RATIOS.len() as u64 + n);
     }
-    bar.finish();
     svg.line((420.0, 112.0), (436.0, 112.0), Pen::dashed("#444", 0.9, "4 3"));
     svg.text(442.0, 116.0, Anchor::Start, 11.5, "1/$M$_{c}($n$): the contact part");
     frame.axes(

@@ -1,10 +1,9 @@
 //! The preimage tree of α*_1 at M = 0.2.
 
-use super::{FROM, Finding, TO, Table, fates};
+use super::{FROM, Finding, Job, TO, Table, fates};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, ticks};
-use crate::progress::Progress;
 use basin_of_attraction::{Interval, PreimageTree, Refinement, Remainder};
 use hopper_basin::{branches, hopper_basins};
 use passive_hopper::alpha_star;
@@ -16,7 +15,7 @@ const DRAWN: usize = 20;
 const GROWN: usize = 10;
 
 /// Counts and lengths level by level.
-pub(super) fn preimage_tree(_: &Progress) -> Result<Finding, Error> {
+pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     let refinement = Refinement { shortest: 1e-8, undecided: 0.0, ..Refinement::default() };
     let basins = hopper_basins(&fates, FROM, TO, 400, refinement)?.basins;

@@ -1,7 +1,6 @@
 //! `beyond-paper`: what the paper could not say, with a report.
 
 use super::{results_folder_named, write_figure};
-use crate::progress::Progress;
 use crate::{Error, beyond, report};
 use std::io::Write;
 use std::path::PathBuf;
@@ -23,9 +22,10 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let begin = Instant::now();
     let chosen = beyond::named(&options.only)?;
     let folder = results_folder_named(options.out.as_deref(), "beyond")?;
+    let job = beyond::Job::new(folder.path())?;
     let mut made = Vec::new();
     for (name, find) in chosen {
-        let finding = find(&Progress)?;
+        let finding = find(&job)?;
         let rendered = write_figure(&folder, &finding.figure)?;
         let path = folder.path().join(format!("{}.png", finding.figure.name));
         let seconds = begin.elapsed().as_secs_f64();
@@ -35,6 +35,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
     let page = report::findings_page(&made, begin.elapsed().as_secs_f64());
     folder.write("report.html", page.as_bytes())?;
+    job.done()?;
     writeln!(std::io::stdout(), "report {}", folder.path().join("report.html").display())
         .map_err(|source| Error::File { path: "standard output".into(), source })
 }
