@@ -1,6 +1,6 @@
 //! The first crossing of a guard along a flow, and how sure it is.
 
-use crate::{Error, Guard, HybridSystem, State, bracketed_root};
+use crate::{Error, FirstCrossing, Guard, HybridSystem, Signal, State, bracketed_root};
 
 /// How sure it is that a crossing is the first one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +28,65 @@ pub struct Crossing<S, const N: usize> {
     pub state: State<N>,
     /// How sure it is that this is the first crossing.
     pub certainty: Certainty,
+}
+
+/// The search under bounds of [`HybridSystem::first_crossing`]; nothing unless the horizon is finite and all
+/// guards are signals.
+pub(crate) fn certain_crossing<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    start: &State<N>,
+    horizon: f64,
+) -> Option<Result<Option<Crossing<T::Surface, N>>, Error>>
+where
+    T: HybridSystem<N> + ?Sized,
+{
+    let guards = system.guards(mode);
+    if !horizon.is_finite() || guards.is_empty() {
+        return None;
+    }
+    let signals: Option<Vec<(Guard<T::Surface>, Signal)>> = guards
+        .iter()
+        .map(|&guard| Some((guard, system.guard_signal(mode, guard.surface, start)?)))
+        .collect();
+    Some(earliest(system, mode, start, horizon, &signals?))
+}
+
+/// The earliest of the signals' crossings; of equal ones that of the guard listed first.
+fn earliest<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    start: &State<N>,
+    horizon: f64,
+    signals: &[(Guard<T::Surface>, Signal)],
+) -> Result<Option<Crossing<T::Surface, N>>, Error>
+where
+    T: HybridSystem<N> + ?Sized,
+{
+    let mut best: Option<(f64, T::Surface)> = None;
+    let mut grazing: Option<(f64, f64, T::Surface)> = None;
+    for (guard, signal) in signals {
+        match signal.first_crossing(guard.direction, horizon)? {
+            FirstCrossing::At { time } if best.is_none_or(|(first, _)| time < first) => {
+                best = Some((time, guard.surface));
+            }
+            FirstCrossing::Grazing { time, value }
+                if grazing.is_none_or(|(first, ..)| time < first) =>
+            {
+                grazing = Some((time, value, guard.surface));
+            }
+            _ => {}
+        }
+    }
+    if let Some((time, value, surface)) = grazing
+        && best.is_none_or(|(first, _)| time <= first)
+    {
+        return Err(Error::Grazing { surface: format!("{surface:?}"), time, value });
+    }
+    Ok(best.map(|(time, surface)| {
+        let state = system.flow(mode, start, time);
+        Crossing { surface, time, state, certainty: Certainty::Certain }
+    }))
 }
 
 /// The provided search of [`HybridSystem::first_crossing`].

@@ -62,6 +62,24 @@ pub enum Error {
         /// The sampling interval in use.
         interval: f64,
     },
+    /// A signal whose first derivative that is not zero at the start is hidden by its rounding.
+    #[error("derivative {order} of the signal is {value} at the start, within its rounding error")]
+    UndecidedSign {
+        /// Order of the derivative.
+        order: u32,
+        /// Its value.
+        value: f64,
+    },
+    /// A guard that comes so close to its surface that rounding hides whether it crosses.
+    #[error("guard {surface} grazes its surface at time {time}, with value {value}")]
+    Grazing {
+        /// Name of the guard's surface.
+        surface: String,
+        /// When, since the start of the arc.
+        time: f64,
+        /// The value of the guard there.
+        value: f64,
+    },
     /// The model could not answer.
     #[error("the model failed: {reason}")]
     Model {

@@ -11,6 +11,7 @@
 //! | [`HybridSystem`] | the trait: flow, guards, guard values, reset |
 //! | [`Guard`], [`Direction`] | a switching surface, and the side from which a crossing counts |
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how sure it is: exact, certain or sampled |
+//! | [`Signal`], [`FirstCrossing`] | guards as sums of polynomials times sines: the first crossing with certainty, grazings told |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, bounded in time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | what an execution consists of, with both one-sided states |
 //! | `Integration`, `Tolerances` | flows given as ẋ = f(t, x), step by step (feature `ode`) |
@@ -60,13 +61,15 @@
 //! ```
 //!
 //! # Accuracy
-//! Crossing times are as exact as the model's own solution, or to about two ulps by bracketing;
-//! a crossing found by sampling says so in its [`Certainty`].
+//! Crossing times are as exact as the model's own solution, or to about two ulps by bracketing. A guard
+//! given as a [`Signal`] is searched under bounds on its derivatives: no crossing is missed, a start at
+//! zero is left by its derivatives, and what rounding hides is an error. A crossing found by sampling
+//! says so in its [`Certainty`].
 //!
 //! # Not here
-//! Guards along integrated flows, accumulation of events (Zeno), sensitivities. A start
-//! exactly on a surface that the flow then crosses within the first sample is an error here,
-//! not a guess.
+//! Guards along integrated flows, accumulation of events (Zeno), sensitivities. In the sampled search
+//! a start exactly on a surface that the flow then crosses within the first sample is an error, not a
+//! guess.
 //!
 //! # References
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
@@ -74,20 +77,24 @@
 
 mod arc;
 mod bracketed_root;
+mod certain_crossing;
 mod crossing;
 mod error;
 mod execution;
 mod guard;
 #[cfg(feature = "ode")]
 mod ode;
+mod signal;
 mod system;
 
 pub use arc::{Arc, ArcEnd, Event};
 pub use bracketed_root::bracketed_root;
+pub use certain_crossing::FirstCrossing;
 pub use crossing::{Certainty, Crossing};
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard};
 #[cfg(feature = "ode")]
 pub use ode::{Integration, Tolerances};
+pub use signal::Signal;
 pub use system::{HybridSystem, Reset, State};

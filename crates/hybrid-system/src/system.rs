@@ -1,7 +1,7 @@
 //! The trait that a model implements.
 
-use crate::crossing::sampled_crossing;
-use crate::{Crossing, Error, Guard};
+use crate::crossing::{certain_crossing, sampled_crossing};
+use crate::{Crossing, Error, Guard, Signal};
 use nalgebra::SVector;
 use std::fmt::Debug;
 
@@ -51,16 +51,32 @@ pub trait HybridSystem<const N: usize> {
         before: &State<N>,
     ) -> Reset<Self::Mode, N>;
 
+    /// The guard along the flow from `start`, g(φ(t; x₀)) as a function of t, where it is a sum of
+    /// polynomials times sines and cosines: then its crossings are found with certainty.
+    ///
+    /// Provided: none.
+    fn guard_signal(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        start: &State<N>,
+    ) -> Option<Signal> {
+        let _ = (mode, surface, start);
+        None
+    }
+
     /// The first crossing of a guard of `mode` strictly after `start`, no later than `horizon`
     /// (which may be infinite for a model that solves its crossings).
     ///
-    /// Provided: every guard is sampled at `sampling_interval` and a change of sign is refined to
-    /// full precision. Two crossings of one guard inside one interval are not seen; the result says
+    /// Provided: if the model gives all guards of the mode as [signals](Self::guard_signal), the first
+    /// crossing is found with certainty up to a finite horizon. Otherwise every guard is sampled at
+    /// `sampling_interval` and a change of sign is refined to full precision. Two crossings of one guard inside one interval are not seen; the result says
     /// [`Certainty::Sampled`](crate::Certainty::Sampled). A zero on a sample counts once, and a
     /// touch without change of sign not at all.
     ///
     /// # Errors
-    /// [`Error::NoSamplingInterval`] if it is needed and absent; [`Error::UndecidedStart`] if a
+    /// [`Error::Grazing`] if a signal comes so close that rounding hides whether it crosses, and the
+    /// errors of [`Signal::first_crossing`]; [`Error::NoSamplingInterval`] if it is needed and absent; [`Error::UndecidedStart`] if a
     /// guard starts at zero and is beyond its surface at the first sample.
     fn first_crossing(
         &self,
@@ -69,6 +85,9 @@ pub trait HybridSystem<const N: usize> {
         horizon: f64,
         sampling_interval: Option<f64>,
     ) -> Result<Option<Crossing<Self::Surface, N>>, Error> {
+        if let Some(crossing) = certain_crossing(self, mode, start, horizon) {
+            return crossing;
+        }
         sampled_crossing(self, mode, start, horizon, sampling_interval)
     }
 }

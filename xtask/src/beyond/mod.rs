@@ -91,10 +91,13 @@ impl Job {
     pub fn done(self) -> Result<(), Error> {
         match std::fs::remove_dir_all(&self.scans) {
             Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
-                Err(Error::File { path: self.scans, source })
+                return Err(Error::File { path: self.scans, source });
             }
-            _ => Ok(()),
+            _ => {}
         }
+        // Another build may keep its own beside: then the folder stays.
+        let _ = self.scans.parent().map(std::fs::remove_dir);
+        Ok(())
     }
 }
 

@@ -1,0 +1,230 @@
+//! The first zero of a [`Signal`], with certainty.
+//!
+//! On an interval with middle m and half length r, and |g″| ≤ B on it,
+//!
+//! ```text
+//!   |g(m)|  > |g′(m)| r + ½ B r² + rounding    no zero on the interval
+//!   |g′(m)| > B r + rounding                   g is monotone: a zero if and only if its sign changes
+//!   else                                       the interval is halved
+//! ```
+//!
+//! A start at zero, to any order, is left by its first derivative that is not zero: with g = c tᵏ + …,
+//! |g| ≥ tᵏ (|c| − M t/(k+1)!) where |g⁽ᵏ⁺¹⁾| ≤ M.
+
+use crate::{Direction, Error, Signal, bracketed_root};
+
+/// The first crossing of a signal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum FirstCrossing {
+    /// It crosses zero here, in the direction asked for, and not before.
+    At {
+        /// When.
+        time: f64,
+    },
+    /// It comes so close to zero here that rounding hides whether it touches, crosses twice or stays
+    /// away; before, it does not cross.
+    Grazing {
+        /// When it is closest.
+        time: f64,
+        /// Its value there.
+        value: f64,
+    },
+    /// It does not cross up to the horizon.
+    Never,
+}
+
+/// Highest order of a zero at the start.
+const ORDERS: u32 = 16;
+
+/// Most intervals looked at.
+const INTERVALS: usize = 1_000_000;
+
+impl Signal {
+    /// The first crossing of zero strictly after time zero, up to `horizon`, in one direction.
+    ///
+    /// A start at zero counts by the side to which the signal leaves it. A signal that is zero
+    /// throughout never crosses.
+    ///
+    /// ```
+    /// use hybrid_system::{Direction, FirstCrossing, Signal};
+    /// // t³ − t⁴ leaves zero upwards, cubically, and comes back at 1.
+    /// let g = Signal::polynomial(&[0.0, 0.0, 0.0, 1.0, -1.0]);
+    /// assert_eq!(g.first_crossing(Direction::Either, 9.0)?, FirstCrossing::At { time: 1.0 });
+    /// // (t − 1)² touches.
+    /// let g = Signal::polynomial(&[1.0, -2.0, 1.0]);
+    /// assert!(matches!(g.first_crossing(Direction::Either, 9.0)?, FirstCrossing::Grazing { .. }));
+    /// # Ok::<(), hybrid_system::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`] for coefficients that are not; [`Error::BadLimit`] unless `horizon` is
+    /// finite and not negative; [`Error::UndecidedSign`] if the side on which it starts is hidden by
+    /// rounding; [`Error::NoConvergence`] after a million intervals.
+    pub fn first_crossing(
+        &self,
+        direction: Direction,
+        horizon: f64,
+    ) -> Result<FirstCrossing, Error> {
+        self.check()?;
+        if !(horizon >= 0.0 && horizon.is_finite()) {
+            return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
+        }
+        let Some(start) = self.leave(horizon)? else { return Ok(FirstCrossing::Never) };
+        Search::new(self).run(start, direction, horizon)
+    }
+
+    /// How the signal leaves its start: a time up to which it does not vanish again, and its sign;
+    /// nothing if it is zero throughout.
+    fn leave(&self, horizon: f64) -> Result<Option<(f64, f64)>, Error> {
+        let mut derivative = self.clone();
+        let mut factorial = 1.0; // k!
+        for order in 0..=ORDERS {
+            let value = derivative.value(0.0);
+            let next = derivative.derivative();
+            if value == 0.0 {
+                if next.bound(horizon) == 0.0 {
+                    return Ok(None);
+                }
+                derivative = next;
+                factorial *= f64::from(order + 1);
+                continue;
+            }
+            if value.abs() <= derivative.rounding(0.0) {
+                return Err(Error::UndecidedSign { order, value });
+            }
+            if order == 0 {
+                return Ok(Some((0.0, value.signum())));
+            }
+            // |g| ≥ tᵏ (|c| − M t/(k+1)!) with c = value/k!.
+            let leading = value.abs() / factorial;
+            let mut time = horizon;
+            while time > 0.0
+                && !(leading > 2.0 * next.bound(time) * time / (factorial * f64::from(order + 1)))
+            {
+                time *= 0.5;
+            }
+            return Ok(Some((time, value.signum())));
+        }
+        Err(Error::UndecidedSign { order: ORDERS, value: 0.0 })
+    }
+}
+
+/// A signal with its derivatives.
+struct Search<'a> {
+    signal: &'a Signal,
+    slope: Signal,
+    bend: Signal,
+}
+
+/// What an interval holds.
+enum Found {
+    /// No zero.
+    Nothing,
+    /// It is monotone with this slope.
+    Monotone(f64),
+    /// Not known.
+    Unknown,
+}
+
+impl<'a> Search<'a> {
+    fn new(signal: &'a Signal) -> Self {
+        let slope = signal.derivative();
+        let bend = slope.derivative();
+        Search { signal, slope, bend }
+    }
+
+    fn look(&self, left: f64, right: f64) -> Found {
+        let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
+        let bend = self.bend.bound(right);
+        let (value, slope) = (self.signal.value(middle), self.slope.value(middle));
+        let slope_rounding = self.slope.rounding(right);
+        let reach = (slope.abs() + slope_rounding) * radius + 0.5 * bend * radius * radius;
+        if value.abs() > reach + self.signal.rounding(right) {
+            Found::Nothing
+        } else if slope.abs() > bend * radius + slope_rounding {
+            Found::Monotone(slope)
+        } else {
+            Found::Unknown
+        }
+    }
+
+    /// From left to right; `sign` is that of the signal just before what is left.
+    fn run(
+        &self,
+        (start, mut sign): (f64, f64),
+        direction: Direction,
+        horizon: f64,
+    ) -> Result<FirstCrossing, Error> {
+        let mut left = start;
+        let mut rest = vec![horizon];
+        for _ in 0..INTERVALS {
+            let Some(&right) = rest.last() else { return Ok(FirstCrossing::Never) };
+            if left >= right {
+                rest.pop();
+                continue;
+            }
+            match self.look(left, right) {
+                Found::Nothing => left = right,
+                Found::Monotone(slope) => {
+                    // Towards the other sign, and beyond it at the end?
+                    let beyond = self.beyond(right, slope, horizon);
+                    if slope * sign < 0.0 && self.signal.value(beyond) * sign < 0.0 {
+                        if direction.admits(sign, -sign) {
+                            let time = self.root(left, beyond, sign)?;
+                            return Ok(if time <= horizon {
+                                FirstCrossing::At { time }
+                            } else {
+                                FirstCrossing::Never
+                            });
+                        }
+                        sign = -sign;
+                        left = beyond;
+                    } else {
+                        left = right;
+                    }
+                }
+                Found::Unknown => {
+                    let middle = left + 0.5 * (right - left);
+                    if middle <= left || middle >= right {
+                        let value = self.signal.value(middle);
+                        return Ok(FirstCrossing::Grazing { time: middle, value });
+                    }
+                    // Next to a touch, below the rounding of the signal halving tells nothing more.
+                    let rounding = self.signal.rounding(right);
+                    let width = right - left;
+                    if self.bend.bound(right) * width * width < rounding {
+                        let value = self.signal.value(middle);
+                        return Ok(FirstCrossing::Grazing { time: middle, value });
+                    }
+                    rest.push(middle);
+                }
+            }
+        }
+        Err(Error::NoConvergence { left, right: horizon, iterations: INTERVALS })
+    }
+
+    /// `right`, or a little more if the signal is within its rounding of zero there: a zero on the end of
+    /// an interval belongs to it.
+    fn beyond(&self, right: f64, slope: f64, horizon: f64) -> f64 {
+        let rounding = self.signal.rounding(right);
+        if self.signal.value(right).abs() > rounding {
+            return right;
+        }
+        let beyond = right + 4.0 * rounding / slope.abs();
+        match self.look(right, beyond) {
+            // Beyond the horizon too: a crossing there is dropped.
+            Found::Monotone(_) | Found::Unknown => beyond.max(right.min(horizon)),
+            Found::Nothing => right,
+        }
+    }
+
+    /// The only zero of a monotone stretch that begins on the side of `sign`.
+    fn root(&self, left: f64, right: f64, sign: f64) -> Result<f64, Error> {
+        let value = |time: f64| self.signal.value(time);
+        // Rounding may give the left end the other sign already: then it is the zero.
+        if value(left) * sign <= 0.0 {
+            return Ok(left);
+        }
+        bracketed_root(value, left, right)
+    }
+}

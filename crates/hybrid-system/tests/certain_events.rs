@@ -1,0 +1,241 @@
+//! Crossings under bounds: none missed, none invented. Names say where a case comes from.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use hybrid_system::*;
+use nalgebra::Vector2;
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+/// All crossings of a polynomial in time, with their directions.
+fn crossings(signal: &Signal, shift: impl Fn(f64) -> Signal, horizon: f64) -> Vec<f64> {
+    let (mut times, mut from) = (Vec::new(), 0.0);
+    let mut now = signal.clone();
+    while let FirstCrossing::At { time } =
+        now.first_crossing(Direction::Either, horizon - from).unwrap()
+    {
+        from += time;
+        times.push(from);
+        now = shift(from);
+        if times.len() > 50 {
+            panic!("{times:?}");
+        }
+    }
+    times
+}
+
+/// Π (t + s − r), as a polynomial in t.
+fn with_roots(roots: &[f64], shift: f64) -> Signal {
+    roots.iter().fold(Signal::polynomial(&[1.0]), |product, root| {
+        product * Signal::polynomial(&[shift - root, 1.0])
+    })
+}
+
+/// y = x³ + 6x² − 4x − 24 from x = −8: zeros exactly −6, −2 and 2; elsewhere one is found.
+#[test]
+fn scipy_9228_all_three() {
+    let at = |t: f64| {
+        let x = t - 8.0;
+        Signal::polynomial(&[
+            ((x + 6.0) * x - 4.0) * x - 24.0,
+            (3.0 * x + 12.0) * x - 4.0,
+            3.0 * x + 6.0,
+            1.0,
+        ])
+    };
+    // From just behind a zero the next one is looked for: the zero itself is the start.
+    let found = crossings(&at(0.0), |t| at((t * 4.0).round() / 4.0), 12.0);
+    assert_eq!(found.len(), 3, "{found:?}");
+    for (time, x) in found.iter().zip([-6.0, -2.0, 2.0]) {
+        assert!((time - 8.0 - x).abs() < 1e-13, "{time}");
+    }
+}
+
+#[test]
+fn roots_wherever_they_are() {
+    for roots in [vec![0.1, 0.4, 0.8], (1..10).map(|k| f64::from(k) / 10.0).collect::<Vec<_>>()] {
+        let mut from = 0.0;
+        for &root in &roots {
+            // Ahead of each root, from halfway to the one before.
+            let FirstCrossing::At { time } =
+                with_roots(&roots, from).first_crossing(Direction::Either, 2.0).unwrap()
+            else {
+                panic!("{root} is missed")
+            };
+            assert!((from + time - root).abs() < 1e-12, "{root}: {}", from + time);
+            from = root + 0.05;
+        }
+        let end = with_roots(&roots, from).first_crossing(Direction::Either, 2.0).unwrap();
+        assert_eq!(end, FirstCrossing::Never);
+    }
+}
+
+#[test]
+fn oscillator_zeros_in_one_direction() {
+    let cosine = Signal::cosine(1.0, 1.0);
+    for (direction, zero) in [
+        (Direction::Falling, PI / 2.0),
+        (Direction::Rising, 1.5 * PI),
+        (Direction::Either, PI / 2.0),
+    ] {
+        let found = cosine.first_crossing(direction, 100.0).unwrap();
+        let FirstCrossing::At { time } = found else { panic!("{found:?}") };
+        assert!((time - zero).abs() <= 4.0 * f64::EPSILON);
+    }
+    assert_eq!(cosine.first_crossing(Direction::Falling, 1.5).unwrap(), FirstCrossing::Never);
+}
+
+/// E7: the guard y₀ − x² along ẋ = 1 from x = −1.
+#[test]
+fn tangency() {
+    let guard = |y0: f64| Signal::polynomial(&[y0 - 1.0, 2.0, -1.0]);
+    assert_eq!(guard(-1e-9).first_crossing(Direction::Either, 3.0).unwrap(), FirstCrossing::Never);
+    let FirstCrossing::Grazing { time, value } =
+        guard(0.0).first_crossing(Direction::Either, 3.0).unwrap()
+    else {
+        panic!("it touches")
+    };
+    assert!((time - 1.0).abs() < 1e-6 && value.abs() < 1e-12);
+    let FirstCrossing::At { time } = guard(1e-12).first_crossing(Direction::Either, 3.0).unwrap()
+    else {
+        panic!("it crosses")
+    };
+    // −1 + 10⁻¹² is rounded to an ulp: the root of that.
+    assert!((time - 1.0 + 1e-6).abs() < 1e-9, "{time}");
+}
+
+/// Starts at zero, to any order, on either side.
+#[test]
+fn starts_at_zero_are_left_by_their_derivatives() {
+    for order in 1..=8usize {
+        for sign in [1.0, -1.0] {
+            let mut coefficients = vec![0.0; order + 2];
+            (coefficients[order], coefficients[order + 1]) = (sign, -sign);
+            let signal = Signal::polynomial(&coefficients);
+            let (there, not) = if sign > 0.0 {
+                (Direction::Falling, Direction::Rising)
+            } else {
+                (Direction::Rising, Direction::Falling)
+            };
+            let found = signal.first_crossing(there, 5.0).unwrap();
+            let FirstCrossing::At { time } = found else { panic!("{order}: {found:?}") };
+            assert!((time - 1.0).abs() < 1e-14);
+            assert_eq!(signal.first_crossing(not, 5.0).unwrap(), FirstCrossing::Never);
+        }
+    }
+    let nothing = Signal::polynomial(&[0.0, 0.0]);
+    assert_eq!(nothing.first_crossing(Direction::Either, 1.0).unwrap(), FirstCrossing::Never);
+    // Tiny values are values.
+    let tiny = Signal::polynomial(&[1e-166, -1e-166]);
+    assert_eq!(
+        tiny.first_crossing(Direction::Either, 2.0).unwrap(),
+        FirstCrossing::At { time: 1.0 }
+    );
+    assert!(tiny.first_crossing(Direction::Either, f64::INFINITY).is_err());
+    assert!(Signal::polynomial(&[f64::NAN]).first_crossing(Direction::Either, 1.0).is_err());
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Face {
+    Floor,
+    Ceiling,
+}
+
+/// A ball between floor and ceiling: two guards, both signals.
+struct Box {
+    height: f64,
+}
+
+impl HybridSystem<2> for Box {
+    type Mode = ();
+    type Surface = Face;
+    fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
+        Vector2::new(x[0] + t * (x[1] - 0.5 * t), x[1] - t)
+    }
+    fn guards(&self, _: ()) -> &[Guard<Face>] {
+        const { &[Guard::falling(Face::Floor), Guard::rising(Face::Ceiling)] }
+    }
+    fn guard_value(&self, face: Face, x: &State<2>) -> f64 {
+        match face {
+            Face::Floor => x[0],
+            Face::Ceiling => x[0] - self.height,
+        }
+    }
+    fn guard_signal(&self, (): (), face: Face, x: &State<2>) -> Option<Signal> {
+        Some(Signal::polynomial(&[self.guard_value(face, x), x[1], -0.5]))
+    }
+    fn reset(&self, _: (), face: Face, x: &State<2>) -> Reset<(), 2> {
+        let height = if face == Face::Floor { 0.0 } else { self.height };
+        Reset::Jump { mode: (), state: Vector2::new(height, -x[1]) }
+    }
+}
+
+#[test]
+fn a_ball_between_two_walls_needs_no_sampling() {
+    let limits = Limits::new(20.0, 1000);
+    let start = Vector2::new(0.0, 3.0);
+    let events: Vec<_> = Execution::new(&Box { height: 1.0 }, (), start, limits)
+        .filter_map(|arc| arc.unwrap().event().copied())
+        .collect();
+    assert!(events.len() > 20);
+    // Up to the ceiling takes 3 − √7, down again √7 → 3: speeds alternate for ever.
+    let up = 3.0 - 7f64.sqrt();
+    for (k, event) in events.iter().enumerate() {
+        assert_eq!(event.surface, if k % 2 == 0 { Face::Ceiling } else { Face::Floor });
+        assert_eq!(event.certainty, Certainty::Certain);
+        let speed = if k % 2 == 0 { 7f64.sqrt() } else { 3.0 };
+        assert!((event.before[1].abs() - speed).abs() < 1e-12);
+        assert!((event.time - up * (k + 1) as f64).abs() < 1e-12);
+    }
+}
+
+/// A spike far narrower than any sensible sampling interval.
+#[test]
+fn a_narrow_dip_is_not_missed() {
+    // cos 40t + 1 − 10⁻¹⁰: below zero for 7e-7 of time around π/40.
+    let signal = Signal::cosine(1.0, 40.0) + Signal::polynomial(&[1.0 - 1e-10]);
+    let FirstCrossing::At { time } = signal.first_crossing(Direction::Falling, 10.0).unwrap()
+    else {
+        panic!("missed")
+    };
+    assert!((time - (PI - (2e-10f64).sqrt()) / 40.0).abs() < 1e-11);
+}
+
+proptest! {
+    /// Random polynomials by their roots: the first one ahead, and no other.
+    #[test]
+    fn the_first_root_ahead(mut roots in proptest::collection::vec(-3.0..3.0f64, 1..6)) {
+        roots.sort_by(f64::total_cmp);
+        prop_assume!(roots.windows(2).all(|pair| pair[1] - pair[0] > 1e-3));
+        prop_assume!(roots.iter().all(|root| root.abs() > 1e-3));
+        let found = with_roots(&roots, 0.0).first_crossing(Direction::Either, 4.0).unwrap();
+        match roots.iter().find(|root| **root > 0.0) {
+            None => prop_assert_eq!(found, FirstCrossing::Never),
+            Some(root) => {
+                let FirstCrossing::At { time } = found else { panic!("{found:?}") };
+                prop_assert!((time - root).abs() < 1e-9, "{} {}", time, root);
+            }
+        }
+    }
+
+    /// Sums of sines against dense sampling: no change of sign before the first crossing.
+    #[test]
+    fn no_change_of_sign_before(a in -2.0..2.0f64, b in -2.0..2.0f64, c in -1.0..1.0f64, w in 0.3..5.0f64) {
+        let signal = Signal::cosine(a, w) + Signal::sine(b, 1.0) + Signal::polynomial(&[c, 0.1]);
+        let start = signal.value(0.0);
+        prop_assume!(start.abs() > 1e-9);
+        let found = signal.first_crossing(Direction::Either, 20.0).unwrap();
+        let until = match found {
+            FirstCrossing::At { time } => time,
+            FirstCrossing::Grazing { time, .. } => time,
+            FirstCrossing::Never => 20.0,
+        };
+        for k in 0..4000 {
+            let t = until * f64::from(k) / 4000.0;
+            prop_assert!(signal.value(t) * start >= -1e-12, "{} before {}", t, until);
+        }
+        if let FirstCrossing::At { time } = found {
+            prop_assert!(signal.value(time).abs() < 1e-12);
+        }
+    }
+}
