@@ -1,6 +1,6 @@
 //! Arcs and events: the pieces of an execution.
 
-use crate::{Certainty, HybridSystem, State};
+use crate::{Accumulation, Certainty, HybridSystem, State};
 
 /// A jump between two arcs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +24,13 @@ pub struct Event<M, S, const N: usize> {
 pub enum ArcEnd<M, S, const N: usize> {
     /// In an event.
     Event(Event<M, S, N>),
+    /// In infinitely many events, each sooner than the one before (Zeno); the arc stands for all of them.
+    Accumulation {
+        /// Where and when they end.
+        limit: Accumulation<N>,
+        /// Mode and state in which the model goes on; nothing if it names none.
+        after: Option<(M, State<N>)>,
+    },
     /// At the limit on time: no event before it.
     TimeLimit,
     /// Never: no event ever follows, and there is no limit on time.
@@ -60,7 +67,7 @@ impl<M: Copy, S: Copy, const N: usize> Arc<M, S, N> {
     pub fn event(&self) -> Option<&Event<M, S, N>> {
         match &self.end {
             ArcEnd::Event(event) => Some(event),
-            ArcEnd::TimeLimit | ArcEnd::Never => None,
+            ArcEnd::Accumulation { .. } | ArcEnd::TimeLimit | ArcEnd::Never => None,
         }
     }
 }

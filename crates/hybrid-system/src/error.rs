@@ -80,6 +80,14 @@ pub enum Error {
         /// The value of the guard there.
         value: f64,
     },
+    /// Events that follow one another without time passing.
+    #[error("{events} events in a row at time {time}: the resets lead in a circle")]
+    InstantChain {
+        /// When.
+        time: f64,
+        /// How many.
+        events: usize,
+    },
     /// The model could not answer.
     #[error("the model failed: {reason}")]
     Model {

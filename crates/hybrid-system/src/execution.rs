@@ -1,6 +1,7 @@
 //! Executions: arcs and events, one after the other, in hybrid time.
 
-use crate::{Arc, ArcEnd, Error, Event, HybridSystem, Reset, State};
+use crate::accumulation::History;
+use crate::{Accumulation, Arc, ArcEnd, Error, Event, HybridSystem, Reset, State};
 
 /// How far an execution may go.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,13 +37,16 @@ pub enum Stop {
     Terminal,
     /// No event ever follows.
     NoFurtherEvent,
+    /// Events accumulate, and the model names no mode that they lead to.
+    Accumulation,
     /// An error was returned.
     Failed,
 }
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
-/// It ends by itself: at a limit, at a terminal event, when no event can follow, or after an error;
+/// It ends by itself: at a limit, at a terminal event, where events accumulate (unless the model goes on
+/// from there), when no event can follow, or after an error;
 /// [`stop`](Self::stop) tells which.
 #[derive(Debug, Clone)]
 pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
@@ -53,12 +57,29 @@ pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     time: f64,
     jump: usize,
     stop: Option<Stop>,
+    history: History<N>,
+    /// Events in a row that took no time.
+    instant: usize,
 }
+
+/// Events that may follow one another without time passing.
+const MOST_INSTANT: usize = 1000;
 
 impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
     /// Starts in `mode` from `state` at hybrid time (0, 0).
     pub fn new(system: &'a T, mode: T::Mode, state: State<N>, limits: Limits) -> Self {
-        Execution { system, limits, mode, state, time: 0.0, jump: 0, stop: None }
+        let history = History::new();
+        Execution {
+            system,
+            limits,
+            mode,
+            state,
+            time: 0.0,
+            jump: 0,
+            stop: None,
+            history,
+            instant: 0,
+        }
     }
 
     /// Why the execution ended, or nothing if it has not.
@@ -71,6 +92,9 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
         self.check_state()?;
+        if let Some(limit) = self.history.accumulation(self.time, self.jump) {
+            return Ok(self.accumulate(limit));
+        }
         // An event at the limit may round beyond it.
         let horizon = (self.limits.time - self.time).max(0.0);
         let crossing = self.system.first_crossing(
@@ -106,10 +130,17 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
                     after,
                     certainty: crossing.certainty,
                 });
+                self.instant = if crossing.time > 0.0 { 0 } else { self.instant + 1 };
+                if self.instant > MOST_INSTANT {
+                    return Err(Error::InstantChain { time, events: self.instant });
+                }
                 self.time = time;
                 self.jump += 1;
                 match after {
-                    Some((mode, state)) => (self.mode, self.state) = (mode, state),
+                    Some((mode, state)) => {
+                        self.history.push(crossing.time, state);
+                        (self.mode, self.state) = (mode, state);
+                    }
                     None => self.stop = Some(Stop::Terminal),
                 }
             }
@@ -117,6 +148,27 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             None => self.stop = Some(Stop::NoFurtherEvent),
         }
         Ok(arc)
+    }
+
+    /// The last arc before the limit of infinitely many events, and what follows it.
+    fn accumulate(&mut self, limit: Accumulation<N>) -> Arc<T::Mode, T::Surface, N> {
+        let after = self.system.rest(self.mode, &limit.state);
+        let arc = Arc {
+            mode: self.mode,
+            time: self.time,
+            jump: self.jump,
+            start: self.state,
+            duration: (limit.time - self.time).max(0.0),
+            end: ArcEnd::Accumulation { limit, after },
+        };
+        self.time = limit.time;
+        self.jump += 1;
+        self.history.clear();
+        match after {
+            Some((mode, state)) => (self.mode, self.state) = (mode, state),
+            None => self.stop = Some(Stop::Accumulation),
+        }
+        arc
     }
 
     fn check_state(&self) -> Result<(), Error> {

@@ -14,6 +14,7 @@
 //! | [`Signal`], [`FirstCrossing`] | guards as sums of polynomials times sines: the first crossing with certainty, grazings told |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, bounded in time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | what an execution consists of, with both one-sided states |
+//! | [`Accumulation`] | infinitely many events in finite time (Zeno): the limit, and what follows |
 //! | `Integration`, `Tolerances` | flows given as ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`bracketed_root`] | Brent's method on a bracket that is certain |
 //!
@@ -67,7 +68,7 @@
 //! says so in its [`Certainty`].
 //!
 //! # Not here
-//! Guards along integrated flows, accumulation of events (Zeno), sensitivities. In the sampled search
+//! Guards along integrated flows, sensitivities. In the sampled search
 //! a start exactly on a surface that the flow then crosses within the first sample is an error, not a
 //! guess.
 //!
@@ -75,6 +76,7 @@
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
 //! time (t, j).
 
+mod accumulation;
 mod arc;
 mod bracketed_root;
 mod certain_crossing;
@@ -87,6 +89,7 @@ mod ode;
 mod signal;
 mod system;
 
+pub use accumulation::Accumulation;
 pub use arc::{Arc, ArcEnd, Event};
 pub use bracketed_root::bracketed_root;
 pub use certain_crossing::FirstCrossing;

@@ -51,6 +51,15 @@ pub trait HybridSystem<const N: usize> {
         before: &State<N>,
     ) -> Reset<Self::Mode, N>;
 
+    /// Mode and state that infinitely many events in `mode`, accumulating at `limit`, lead to: a ball that has
+    /// bounced for ever rests.
+    ///
+    /// Provided: none; the execution ends at the limit.
+    fn rest(&self, mode: Self::Mode, limit: &State<N>) -> Option<(Self::Mode, State<N>)> {
+        let _ = (mode, limit);
+        None
+    }
+
     /// The guard along the flow from `start`, g(φ(t; x₀)) as a function of t, where it is a sum of
     /// polynomials times sines and cosines: then its crossings are found with certainty.
     ///

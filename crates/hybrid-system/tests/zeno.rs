@@ -1,0 +1,188 @@
+//! Infinitely many events in finite time, contact that holds, and chains without time.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+#![allow(clippy::excessive_precision)] // published digits, as they are printed
+
+use hybrid_system::*;
+use nalgebra::{Vector1, Vector2};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mode {
+    Air,
+    Resting,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Floor;
+
+/// A ball over a floor, which comes to rest where its bounces accumulate, or at once if it does not bounce.
+struct Ball {
+    gravity: f64,
+    floor: f64,
+    restitution: f64,
+}
+
+impl HybridSystem<2> for Ball {
+    type Mode = Mode;
+    type Surface = Floor;
+    fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
+        match mode {
+            Mode::Air => {
+                Vector2::new(x[0] + t * (x[1] - 0.5 * self.gravity * t), x[1] - self.gravity * t)
+            }
+            Mode::Resting => *x,
+        }
+    }
+    fn guards(&self, mode: Mode) -> &[Guard<Floor>] {
+        match mode {
+            Mode::Air => const { &[Guard::falling(Floor)] },
+            Mode::Resting => &[],
+        }
+    }
+    fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
+        x[0] - self.floor
+    }
+    fn guard_signal(&self, _: Mode, floor: Floor, x: &State<2>) -> Option<Signal> {
+        Some(Signal::polynomial(&[self.guard_value(floor, x), x[1], -0.5 * self.gravity]))
+    }
+    fn reset(&self, _: Mode, _: Floor, x: &State<2>) -> Reset<Mode, 2> {
+        let speed = -self.restitution * x[1];
+        let mode = if speed > 0.0 { Mode::Air } else { Mode::Resting };
+        Reset::Jump { mode, state: Vector2::new(self.floor, speed) }
+    }
+    fn rest(&self, _: Mode, limit: &State<2>) -> Option<(Mode, State<2>)> {
+        (limit[1].abs() < 1e-9).then_some((Mode::Resting, Vector2::new(self.floor, 0.0)))
+    }
+}
+
+fn arcs(ball: &Ball, start: State<2>, time: f64) -> (Vec<Arc<Mode, Floor, 2>>, Option<Stop>) {
+    let mut execution = Execution::new(ball, Mode::Air, start, Limits::new(time, 100_000));
+    let arcs = execution.by_ref().collect::<Result<_, _>>().unwrap();
+    (arcs, execution.stop())
+}
+
+#[test]
+fn sciml_696_restitution_one_half() {
+    let ball = Ball { gravity: 9.8, floor: -1.0, restitution: 0.5 };
+    let (arcs, stop) = arcs(&ball, Vector2::new(0.0, 1.0), 100.0);
+    let first = arcs[0].event().unwrap();
+    assert!((first.time - 0.565_175_743_588_172_131).abs() < 1e-15);
+    assert!((first.before[1] + 4.538_722_287_164_086_89).abs() < 1e-14);
+    let ArcEnd::Accumulation { limit, after } = arcs[arcs.len() - 2].end else { panic!() };
+    assert!((limit.time - 1.491_445_598_111_455_17).abs() <= limit.time_error);
+    assert!(limit.time_error < 1e-11 && (limit.ratio - 0.5).abs() < 1e-3 && limit.period == 1);
+    assert!((limit.state - Vector2::new(-1.0, 0.0)).amax() <= limit.state_error);
+    assert_eq!(after, Some((Mode::Resting, Vector2::new(-1.0, 0.0))));
+    // It rests up to the limit on time, where peers fall through the floor.
+    let last = arcs.last().unwrap();
+    assert_eq!((last.mode, stop), (Mode::Resting, Some(Stop::TimeLimit)));
+    assert_eq!(last.state(&ball, last.duration), Vector2::new(-1.0, 0.0));
+    assert!(arcs.len() < 60, "{}", arcs.len());
+}
+
+#[test]
+fn sciml_696_restitution_zero() {
+    let ball = Ball { gravity: 9.8, floor: -1.0, restitution: 0.0 };
+    let (arcs, stop) = arcs(&ball, Vector2::new(0.0, 1.0), 1e6);
+    assert_eq!((arcs.len(), stop), (2, Some(Stop::TimeLimit)));
+    assert_eq!(arcs[1].state(&ball, 1e6), Vector2::new(-1.0, 0.0));
+}
+
+#[test]
+fn fmi_reference_ball_to_its_end() {
+    let ball = Ball { gravity: 9.81, floor: 0.0, restitution: 0.7 };
+    let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 10.0);
+    let ArcEnd::Accumulation { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+    assert!((limit.time - 2.558_633_965_585_808_46).abs() <= limit.time_error);
+    assert!(limit.time_error < 1e-11, "{limit:?}");
+}
+
+/// All restitutions: T = t₁ (1+e)/(1−e) for a drop that lands at t₁.
+#[test]
+fn every_restitution() {
+    for restitution in [0.01, 0.1, 0.3, 0.9, 0.99] {
+        let ball = Ball { gravity: 2.0, floor: 0.0, restitution };
+        let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 1e4);
+        let ArcEnd::Accumulation { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+        let exact = (1.0 + restitution) / (1.0 - restitution);
+        // Roundings of thousands of bounces add to the limit's own error.
+        let rounding = 1e-15 * arcs.len() as f64 * exact;
+        assert!(
+            (limit.time - exact).abs() <= limit.time_error + rounding,
+            "{restitution}: {limit:?}"
+        );
+    }
+    // An elastic ball does not accumulate.
+    let ball = Ball { gravity: 2.0, floor: 0.0, restitution: 1.0 };
+    let (arcs, stop) = arcs(&ball, Vector2::new(1.0, 0.0), 1000.0);
+    assert_eq!((arcs.len(), stop), (501, Some(Stop::TimeLimit)));
+}
+
+/// Without a mode to rest in, the execution ends at the limit, and says so.
+#[test]
+fn an_accumulation_without_rest_ends_the_execution() {
+    struct Restless(Ball);
+    impl HybridSystem<2> for Restless {
+        type Mode = Mode;
+        type Surface = Floor;
+        fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
+            self.0.flow(mode, x, t)
+        }
+        fn guards(&self, mode: Mode) -> &[Guard<Floor>] {
+            self.0.guards(mode)
+        }
+        fn guard_value(&self, floor: Floor, x: &State<2>) -> f64 {
+            self.0.guard_value(floor, x)
+        }
+        fn reset(&self, mode: Mode, floor: Floor, x: &State<2>) -> Reset<Mode, 2> {
+            self.0.reset(mode, floor, x)
+        }
+    }
+    let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 });
+    // Sampled: the interval is far longer than the last bounces, which it must not lose.
+    let limits = Limits::sampled(10.0, 100_000, 1e-3);
+    let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
+    let results: Vec<_> = execution.by_ref().collect();
+    // A bounce within one sample is an error of the sampled search, never a fall through the floor.
+    assert!(matches!(results.last().unwrap(), Err(Error::UndecidedStart { .. })));
+    assert_eq!(execution.stop(), Some(Stop::Failed));
+}
+
+/// Resets that lead in a circle without time passing.
+#[test]
+fn chains_without_time_are_errors() {
+    struct Circle;
+    impl HybridSystem<1> for Circle {
+        type Mode = ();
+        type Surface = ();
+        fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
+            Vector1::new(x[0] + t)
+        }
+        fn guards(&self, _: ()) -> &[Guard<()>] {
+            const { &[Guard::rising(())] }
+        }
+        fn guard_value(&self, _: (), x: &State<1>) -> f64 {
+            x[0]
+        }
+        fn reset(&self, _: (), _: (), x: &State<1>) -> Reset<(), 1> {
+            Reset::Jump { mode: (), state: *x }
+        }
+        fn first_crossing(
+            &self,
+            _: (),
+            start: &State<1>,
+            _: f64,
+            _: Option<f64>,
+        ) -> Result<Option<Crossing<(), 1>>, Error> {
+            Ok(Some(Crossing {
+                surface: (),
+                time: 0.0,
+                state: *start,
+                certainty: Certainty::Exact,
+            }))
+        }
+    }
+    let limits = Limits::new(1.0, usize::MAX);
+    let last = Execution::new(&Circle, (), Vector1::new(0.0), limits).last().unwrap();
+    assert!(matches!(last, Err(Error::InstantChain { events: 1001, .. })));
+}
