@@ -35,9 +35,11 @@ impl BoxCount {
 /// How many boxes [left + k size, left + (k+1) size) hold at least one of the points.
 ///
 /// # Errors
-/// [`Error::BadBoxSize`] unless `size` is positive and finite.
+/// [`Error::BadBoxSize`] unless `size` is positive, and large enough to tell the boxes of all points apart.
 pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error> {
-    if !(size > 0.0 && size.is_finite()) {
+    let reach = points.iter().fold(0.0f64, |reach, x| reach.max((x - left).abs()));
+    // Boxes must be told apart, wherever the points are.
+    if !(size > f64::EPSILON * reach && size.is_finite() && reach.is_finite()) {
         return Err(Error::BadBoxSize { size });
     }
     let mut boxes: Vec<f64> = points.iter().map(|x| ((x - left) / size).floor()).collect();
@@ -62,7 +64,7 @@ impl IntervalBasins {
         }
         let boxes = ((window.length() / size) * (1.0 - 1e-12)).ceil().max(1.0);
         let index = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
-        // Only boxes in which a part ends can be mixed or open.
+        // Boxes in which a part ends; those inside an undecided gap are counted below.
         let ends = self.parts().iter().flat_map(|part| [part.interval.left, part.interval.right]);
         let mut candidates: Vec<f64> = ends.chain([window.left, window.right]).map(index).collect();
         candidates.sort_by(f64::total_cmp);
@@ -90,7 +92,22 @@ impl IntervalBasins {
                 count.open += 1;
             }
         }
+        count.open += self.boxes_in_gaps(size, resolution, boxes);
         Ok(count)
+    }
+
+    /// Boxes that lie inside undecided gaps, with no end of a part or of the window in them.
+    fn boxes_in_gaps(&self, size: f64, resolution: f64, boxes: f64) -> u64 {
+        let window = self.window();
+        let starts = self.parts().iter().map(|part| part.interval.left).chain([window.right]);
+        let ends = self.parts().iter().map(|part| part.interval.right);
+        let place = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
+        std::iter::once(window.left)
+            .chain(ends)
+            .zip(starts)
+            .filter(|(left, right)| right - left > resolution * size)
+            .map(|(left, right)| (place(right) - place(left) - 1.0).max(0.0) as u64)
+            .sum()
     }
 }
 

@@ -15,23 +15,36 @@ pub struct Part {
     pub level: usize,
 }
 
-/// When to stop refining.
+/// When to stop refining. Long intervals come first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Refinement {
-    /// Intervals shorter than this are kept, but their own preimages are left undecided.
-    pub shortest: f64,
     /// Stop when less than this is undecided.
     pub undecided: f64,
+    /// Preimages of intervals shorter than this are not looked for.
+    pub shortest: f64,
     /// Most levels.
     pub levels: usize,
     /// Most intervals.
     pub intervals: usize,
 }
 
+/// Why refining stopped.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// Less is undecided than was asked for, or nothing is left to be followed.
+    Resolved,
+    /// Only intervals shorter than asked for were left.
+    Shortest,
+    /// Only intervals of the last level were left.
+    Levels,
+    /// The number of intervals was used up.
+    Intervals,
+}
+
 impl Default for Refinement {
-    /// Down to intervals of 10⁻⁹, a million of them, until a millionth of the unit is undecided.
+    /// Until a millionth of the unit is undecided, with a million intervals at most.
     fn default() -> Self {
-        Refinement { shortest: 1e-9, undecided: 1e-6, levels: 100_000, intervals: 1_000_000 }
+        Refinement { undecided: 1e-6, shortest: 1e-12, levels: 1_000_000, intervals: 1_000_000 }
     }
 }
 
@@ -40,13 +53,14 @@ impl Default for Refinement {
 pub struct IntervalBasins {
     window: Interval,
     parts: Vec<Part>,
+    ended: Ended,
 }
 
 /// The basins of labelled intervals in `window`, level by level of preimages.
 ///
 /// `traps` are sets that orbits do not leave, and, with labels of their own, parts on which the map
-/// has no value. `branches` must be all monotone branches of the map in the window: that they are is
-/// the caller's knowledge. Ends are located to one ulp of the map as it is computed; every point
+/// has no value. `branches` must be all monotone branches of the map in the window, and outside it where
+/// orbits go and come back: that they are is the caller's knowledge. Ends are located to one ulp of the map as it is computed; every point
 /// enters at one level only, so that the parts are disjoint.
 ///
 /// ```
@@ -71,31 +85,48 @@ pub fn interval_basins(
     window: Interval,
     refinement: Refinement,
 ) -> Result<IntervalBasins, Error> {
+    /// Intervals followed at once, between looks at the limits.
+    const TOGETHER: usize = 1024;
     crate::TrapSet::new(traps.to_vec())?;
     let known = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
-    let inside = |&(trap, label): &(Interval, u16)| {
-        let interval = trap.intersection(&window)?;
-        Some(Part { interval, label, level: 0 })
+    // Orbits may leave the window and come back: whole intervals are followed, their parts inside kept.
+    let inside = |part: &Part| {
+        part.interval.intersection(&window).map(|interval| Part { interval, ..*part })
     };
-    let mut parts: Vec<Part> = traps.iter().filter_map(inside).collect();
-    // Orbits may leave the window and come back: targets are whole traps.
-    let mut frontier: Vec<Part> =
+    let mut pending: Vec<Part> =
         traps.iter().map(|&(interval, label)| Part { interval, label, level: 0 }).collect();
+    let mut parts: Vec<Part> = pending.iter().filter_map(inside).collect();
     let mut left = window.length() - length(&parts);
-    for level in 1..=refinement.levels {
-        if left <= refinement.undecided || frontier.is_empty() || parts.len() > refinement.intervals
-        {
-            break;
+    let mut threshold = refinement.shortest.max(0.01 * window.length());
+    let ended = loop {
+        if left <= refinement.undecided || pending.is_empty() {
+            break Ended::Resolved;
         }
-        frontier = frontier
-            .par_iter()
-            .filter(|part| part.interval.length() >= refinement.shortest)
-            .flat_map_iter(|part| preimages(map, branches, part, &known, level))
-            .collect();
-        left -= length(&frontier);
-        parts.extend_from_slice(&frontier);
-    }
-    Ok(IntervalBasins { window, parts: apart(parts) })
+        if parts.len() >= refinement.intervals {
+            break Ended::Intervals;
+        }
+        let follow =
+            |part: &Part| part.level < refinement.levels && part.interval.length() >= threshold;
+        let (mut now, mut later): (Vec<Part>, Vec<Part>) = pending.drain(..).partition(follow);
+        if now.is_empty() {
+            pending = later;
+            if threshold > refinement.shortest {
+                threshold = refinement.shortest.max(threshold / 8.0);
+                continue;
+            }
+            let last = pending.iter().all(|part| part.level >= refinement.levels);
+            break if last { Ended::Levels } else { Ended::Shortest };
+        }
+        later.extend(now.split_off(now.len().min(TOGETHER)));
+        let found: Vec<Part> =
+            now.par_iter().flat_map_iter(|part| preimages(map, branches, part, &known)).collect();
+        let kept: Vec<Part> = found.iter().filter_map(inside).collect();
+        left -= length(&kept);
+        parts.extend(kept);
+        pending = later;
+        pending.extend(found);
+    };
+    Ok(IntervalBasins { window, parts: apart(parts), ended })
 }
 
 /// Sorted, with the ulp or two cut off that neighbours share where the map has equal values.
@@ -120,11 +151,10 @@ fn preimages(
     branches: &[Branch],
     part: &Part,
     known: &IntervalSet,
-    level: usize,
 ) -> Vec<Part> {
     let found = branches.iter().filter_map(|branch| branch.preimage(map, &part.interval)).collect();
     let fresh = IntervalSet::union(found).minus(known);
-    let label = part.label;
+    let (label, level) = (part.label, part.level + 1);
     fresh.intervals().iter().map(|&interval| Part { interval, label, level }).collect()
 }
 
@@ -140,7 +170,13 @@ impl IntervalBasins {
         let cut = |part: &Part| {
             part.interval.intersection(&window).map(|interval| Part { interval, ..*part })
         };
-        IntervalBasins { window, parts: self.parts.iter().filter_map(cut).collect() }
+        let parts = self.parts.iter().filter_map(cut).collect();
+        IntervalBasins { window, parts, ended: self.ended }
+    }
+
+    /// Why refining stopped.
+    pub fn ended(&self) -> Ended {
+        self.ended
     }
 
     /// All parts, from left to right.
@@ -175,7 +211,8 @@ impl IntervalBasins {
     }
 
     /// The length of the basin with a label: what is resolved, and bounds that hold whatever the
-    /// undecided rest is and with every end an ulp off.
+    /// undecided rest is, given that the branches are all there are and each end is right to an ulp or so of
+    /// its place. (Where the map is flat, its rounding shifts ends by more.)
     pub fn measure(&self, label: u16) -> Estimate {
         self.measure_of(|other| other == label)
     }
@@ -241,6 +278,62 @@ mod tests {
             (Interval { left: 0.8, right: 1.2 }, 2),
         ];
         (branches, traps)
+    }
+
+    /// x → x/2 on the right, x + 10 on the left: orbits leave the window [−1, 1] and come back.
+    #[test]
+    fn orbits_may_leave_the_window() {
+        let map = |x: f64| Some(if x < 0.0 { x + 10.0 } else { 0.5 * x });
+        let branch = |left: f64, right: f64, at_left: f64, at_right: f64| Branch {
+            domain: Interval { left, right },
+            at_left,
+            at_right,
+        };
+        let branches = [branch(-1.0, -1e-300, 9.0, 10.0), branch(0.0, 16.0, 0.0, 8.0)];
+        let traps = [
+            (Interval { left: 0.0, right: 0.25 }, 1),
+            (Interval { left: 0.25f64.next_up(), right: 0.3 }, 2),
+        ];
+        let window = Interval { left: -1.0, right: 1.0 };
+        let basins =
+            interval_basins(&map, &traps, &branches, window, Refinement::default()).unwrap();
+        assert_eq!(basins.ended(), Ended::Resolved);
+        let all = basins.measure_of(|_| true);
+        assert!(all.value <= 2.0 && all.covers(2.0) && basins.undecided() < 1e-6, "{all:?}");
+        assert!(
+            basins
+                .parts()
+                .iter()
+                .all(|part| part.interval.left >= -1.0 && part.interval.right <= 1.0)
+        );
+        let set = TrapSet::new(traps.to_vec()).unwrap();
+        for k in 0..200 {
+            let x = -0.9971 + 0.01 * f64::from(k);
+            let (fate, _) = classify(&map, &set, x, 100);
+            assert_eq!(basins.label(x).map(Fate::Trapped), Some(fate), "{x}");
+        }
+    }
+
+    /// Every limit ends the search, and is named; the undecided rest is under what was asked for or not.
+    #[test]
+    fn why_it_ended() {
+        let (branches, traps) = branches_and_traps();
+        let window = Interval { left: -2.2, right: 2.2 };
+        let found =
+            |refinement| interval_basins(&cubic, &traps, &branches, window, refinement).unwrap();
+        let fine = Refinement { undecided: 1e-9, ..Refinement::default() };
+        let resolved = found(fine);
+        assert!(resolved.ended() == Ended::Resolved && resolved.undecided() <= 1e-9);
+        for (refinement, ended) in [
+            (Refinement { shortest: 1e-2, ..fine }, Ended::Shortest),
+            (Refinement { levels: 3, ..fine }, Ended::Levels),
+            (Refinement { intervals: 8, ..fine }, Ended::Intervals),
+        ] {
+            let basins = found(refinement);
+            assert_eq!(basins.ended(), ended);
+            assert!(basins.undecided() > 1e-9);
+            assert!(basins.measure(1).covers(resolved.measure(1).value));
+        }
     }
 
     #[test]

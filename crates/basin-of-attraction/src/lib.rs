@@ -70,7 +70,7 @@ pub use entropy::entropy;
 pub use error::Error;
 pub use fate::{Fate, Reason, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
-pub use interval_basins::{IntervalBasins, Part, Refinement, interval_basins};
+pub use interval_basins::{Ended, IntervalBasins, Part, Refinement, interval_basins};
 pub use power_law::{PowerLaw, Warning, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{Node, PreimageTree, Remainder, geometric_limit};

@@ -23,7 +23,12 @@ pub struct PreimageTree {
     nodes: Vec<Node>,
     /// Where each level begins among the nodes, and an end.
     starts: Vec<usize>,
+    /// The first level from which a preimage may be missing, because its target has few ulps.
+    incomplete: Option<usize>,
 }
+
+/// Intervals narrower than so many ulps have no reliable preimages.
+const NARROW: f64 = 64.0;
 
 /// What remains of the window outside all levels, as far as the growth of the counts tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,7 +74,8 @@ impl PreimageTree {
         const MOST: usize = 1_000_000;
         let known = IntervalSet::union(vec![trap]);
         let root = Node { interval: trap, level: 0, parent: None, branch: 0 };
-        let mut tree = PreimageTree { window, nodes: vec![root], starts: vec![0, 1] };
+        let mut tree =
+            PreimageTree { window, nodes: vec![root], starts: vec![0, 1], incomplete: None };
         for level in 1..=depth {
             let last = tree.starts[level - 1]..tree.starts[level];
             if last.is_empty() || tree.nodes.len() > MOST {
@@ -79,9 +85,20 @@ impl PreimageTree {
                 let target = tree.nodes[parent].interval;
                 for (branch, piece) in branches.iter().enumerate() {
                     let Some(found) = piece.preimage(map, &target) else { continue };
-                    let fresh = IntervalSet::union(vec![found]).minus(&known);
+                    let ulps = |x: &Interval| x.length() / (f64::EPSILON * x.right.abs());
+                    let mut fresh =
+                        IntervalSet::union(vec![found]).minus(&known).intervals().to_vec();
+                    // What the two roundings of the trap's end leave between them is no preimage.
+                    fresh.retain(|x| {
+                        let beside = x.left == trap.right || x.right == trap.left;
+                        !(beside && ulps(x) < NARROW)
+                    });
+                    // A target of a few ulps may lose its own preimages to rounding.
+                    if fresh.iter().any(|x| ulps(x) < NARROW) {
+                        tree.incomplete.get_or_insert(level + 1);
+                    }
                     let node = |&interval| Node { interval, level, parent: Some(parent), branch };
-                    tree.nodes.extend(fresh.intervals().iter().map(node));
+                    tree.nodes.extend(fresh.iter().map(node));
                 }
             }
             tree.starts.push(tree.nodes.len());
@@ -107,6 +124,17 @@ impl PreimageTree {
         self.starts.len() - 1
     }
 
+    /// Number of levels from which nothing can be missing: later ones have targets of a few ulps.
+    pub fn complete_levels(&self) -> usize {
+        self.incomplete.map_or(self.levels(), |level| level.min(self.levels()))
+    }
+
+    /// The ends of all intervals: for box counts, whose slope is the dimension of what they accumulate at
+    /// (see [`occupied_boxes`](crate::occupied_boxes)).
+    pub fn ends(&self) -> Vec<f64> {
+        self.nodes.iter().flat_map(|node| [node.interval.left, node.interval.right]).collect()
+    }
+
     /// How many intervals each level has.
     pub fn counts(&self) -> Vec<usize> {
         (0..self.levels()).map(|level| self.level(level).len()).collect()
@@ -126,10 +154,11 @@ impl PreimageTree {
         IntervalSet::union(vec![self.window]).minus(&covered)
     }
 
-    /// How the counts grow over the later half of the levels: exponentially, which leaves a Cantor
-    /// set, or like a power of the level, which leaves a countable one.
+    /// How the counts grow over the later half of the complete levels: exponentially, which leaves a
+    /// Cantor set, or like a power of the level, which leaves a countable one.
     pub fn remainder(&self) -> Remainder {
-        let counts = self.counts();
+        let mut counts = self.counts();
+        counts.truncate(self.complete_levels());
         let late: Vec<(f64, f64)> = counts
             .iter()
             .enumerate()
@@ -139,6 +168,9 @@ impl PreimageTree {
             .collect();
         if late.len() < 4 {
             return Remainder::Undecided;
+        }
+        if late.iter().all(|point| point.1 == late[0].1) {
+            return Remainder::Countable { power: 0.0 };
         }
         let exponential = line(&late);
         let logarithmic: Vec<_> = late.iter().map(|&(k, n)| (pxfm::f_log(k), n)).collect();

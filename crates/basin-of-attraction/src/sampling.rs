@@ -60,7 +60,8 @@ pub fn equally_spaced_shares(
 
 /// The shares of the labels among independent uniform points, with Wilson's 95 % intervals.
 ///
-/// The same seed gives the same points, with any number of threads.
+/// The same seed gives the same points, with any number of threads. A label that no point has is not in the
+/// result: its share is [`wilson`]`(0, count)`.
 ///
 /// # Errors
 /// [`Error::BadTrials`] without points.
@@ -78,7 +79,9 @@ pub fn random_shares(
 /// The shares of the labels among `replicates` low-discrepancy sets of `count` points each: golden
 /// rotations with random starts, with Student's 95 % intervals over the replicates.
 ///
-/// For basins of few intervals the error falls like 1/`count` instead of its square root.
+/// For basins of few intervals the error falls like 1/`count` instead of its square root. Labels with few
+/// points are given Wilson's interval if that is wider; one that no point has is not in the result: its share
+/// is [`wilson`]`(0, count * replicates)`.
 ///
 /// # Errors
 /// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] without points.
@@ -108,11 +111,25 @@ pub fn low_discrepancy_shares(
         let share = |tally: &BTreeMap<u16, usize>| {
             tally.get(label).map_or(0.0, |&n| n as f64 / count as f64)
         };
-        let mut estimate = student(&tallies.iter().map(share).collect::<Vec<_>>())?;
-        (estimate.lower, estimate.upper) = (estimate.lower.max(0.0), estimate.upper.min(1.0));
-        shares.insert(*label, estimate);
+        let estimate = student(&tallies.iter().map(share).collect::<Vec<_>>())?;
+        let found: usize = tallies.iter().filter_map(|tally| tally.get(label)).sum();
+        shares.insert(*label, with_few(estimate, found, count * replicates)?);
     }
     if replicates < 2 { Err(Error::TooFewReplicates { replicates }) } else { Ok(shares) }
+}
+
+/// Hits, or misses, from which on a spread over replicates tells an error.
+const ENOUGH: usize = 100;
+
+/// An estimate over replicates, widened to Wilson's interval where a label has few hits or few misses: then
+/// replicates may all agree by chance.
+fn with_few(estimate: Estimate, found: usize, all: usize) -> Result<Estimate, Error> {
+    let Estimate { value, mut lower, mut upper } = estimate;
+    if found.min(all - found) < ENOUGH {
+        let few = wilson(found, all)?;
+        (lower, upper) = (lower.min(few.lower), upper.max(few.upper));
+    }
+    Ok(Estimate { value, lower: lower.max(0.0), upper: upper.min(1.0) })
 }
 
 /// The k-th of a sequence of uniform numbers in [0, 1), by the SplitMix64 mixer.

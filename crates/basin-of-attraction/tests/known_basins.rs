@@ -71,6 +71,10 @@ fn b1_two_colour_cantor_basin() {
     assert!((1.0 + law.exponent.value - 0.369_070_246_428_543).abs() < 1e-12);
     let shares = [extrapolated(&levels, 2, 0), extrapolated(&levels, 2, 1)];
     assert!((entropy(shares) - 0.673_011_667_009_256_5).abs() < 1e-12);
+    // The tool on what 16 levels decide: (2/3)^13 of a box at the third level is left.
+    let count = coloured(&levels, 2).boxes(1.0 / 27.0, 1e-4).unwrap();
+    let boundary = count.boundary_entropy().unwrap();
+    assert!((boundary - 0.673_011_667_009_256_5).abs() < (2.0f64 / 3.0).powi(13), "{boundary}");
 }
 
 #[test]
@@ -91,6 +95,37 @@ fn b1_leaves_a_cantor_set() {
     }
     let Remainder::Cantor { growth } = tree.remainder() else { panic!() };
     assert!((growth - 2f64.ln()).abs() < 1e-12);
+    assert_eq!(tree.complete_levels(), 13);
+    // Told by its dimension too: ends fill boxes a little off the triadic grid like 2ⁿ.
+    let boxes: Vec<(f64, f64)> = (2..=10)
+        .map(|n| {
+            let size = 3f64.powi(-n);
+            (size, occupied_boxes(&tree.ends(), -0.4 * size, size).unwrap() as f64)
+        })
+        .collect();
+    let law = power_law(&boxes).unwrap();
+    assert!((law.exponent.value + 0.630_929_753_571_457).abs() < 1e-12, "{law:?}");
+}
+
+/// B4's map leaves no Cantor set: two intervals a level, for ever.
+#[test]
+fn b4_leaves_a_countable_set() {
+    let map = |x: f64| Some(x + x * x);
+    let branches = [
+        Branch { domain: interval(-1.0, -0.5), at_left: 0.0, at_right: -0.25 },
+        Branch { domain: interval(-0.5, 0.0), at_left: -0.25, at_right: 0.0 },
+    ];
+    let trap = interval(-0.01, 0.0);
+    let tree = PreimageTree::grow(&map, &branches, trap, interval(-1.0, 0.0), 60);
+    assert_eq!(tree.remainder(), Remainder::Countable { power: 0.0 });
+    // A tree that holds together: every node maps into its parent.
+    for node in tree.nodes().iter().skip(1) {
+        let parent = tree.nodes()[node.parent.unwrap()];
+        assert_eq!(node.level, parent.level + 1);
+        let middle = 0.5 * (node.interval.left + node.interval.right);
+        assert!(parent.interval.contains(middle + middle * middle));
+        assert!(branches[node.branch].domain.contains(middle));
+    }
 }
 
 /// The levels as `colours` basins.
@@ -121,8 +156,9 @@ fn b2_three_colour_cantor_basin() {
     let window = interval(0.0, 1.0);
     let grid = Grid { x: window, y: window, columns: pixels, rows: 3 };
     let image = raster(grid, |x| cantor_label(x, 3), |&label, _| label, |_| Continue(())).unwrap();
-    let test = image.wada(4).unwrap();
-    assert!(test.apart < 0.05, "{test:?}");
+    // A gap of one colour is 3 pixels wide at the last but one level: 4 pixels reach all colours.
+    assert_eq!(image.wada(4).unwrap().boundary_apart, 0.0);
+    assert!(image.wada(1).unwrap().boundary_apart > 0.1);
 }
 
 #[test]
@@ -139,9 +175,10 @@ fn b4_one_way_fixed_point() {
     assert!(shares[&1].covers(0.5) && shares[&1].half_width() < 2e-3);
     // From −½ the distance to 0 falls under these after so many steps.
     let mut x = -0.5;
-    let mut marks = [(1e-2, 94), (1e-3, 992), (1e-4, 9990), (1e-5, 99_987)].into_iter();
+    let mut marks =
+        [(1e-2, 94), (1e-3, 992), (1e-4, 9990), (1e-5, 99_987), (1e-6, 999_985)].into_iter();
     let mut mark = marks.next();
-    for step in 1..=100_000 {
+    for step in 1..=1_000_000 {
         x += x * x;
         if let Some((distance, steps)) = mark
             && -x < distance
@@ -325,6 +362,36 @@ fn intervals_cover_as_often_as_they_say() {
             covered(&|seed| low_discrepancy_shares(window, 100, 20, seed, label).unwrap()[&basin]);
         assert!((930..=970).contains(&low), "{name}, low discrepancy: {low}");
     }
+}
+
+#[test]
+fn rare_labels_are_covered_too() {
+    // A basin that one point in fifty thousand hits: replicates mostly agree on none, or on one.
+    let unit = interval(0.0, 1.0);
+    let truth = 2e-5;
+    let covered = (0..300u64)
+        .filter(|&seed| {
+            let label = |x: f64| u16::from(x > 0.3 && x < 0.3 + truth);
+            let shares = low_discrepancy_shares(unit, 1000, 16, seed, label).unwrap();
+            let none = basin_of_attraction::wilson(0, 16_000).unwrap();
+            shares.get(&1).copied().unwrap_or(none).covers(truth)
+        })
+        .count();
+    assert!(covered >= 279, "{covered} of 300");
+}
+
+#[test]
+fn open_boxes_are_counted() {
+    // Known on [0, 0.1] and [0.9, 1] only: sixteen boxes of 0.05 between are open.
+    let traps = [(interval(0.0, 0.1), 1), (interval(0.9, 1.0), 2)];
+    let nothing = |_: f64| None;
+    let basins =
+        interval_basins(&nothing, &traps, &[], interval(0.0, 1.0), Refinement::default()).unwrap();
+    let count = basins.boxes(0.05, 1e-6).unwrap();
+    assert_eq!((count.boxes, count.mixed, count.open), (20, 0, 16));
+    let nowhere =
+        interval_basins(&nothing, &[], &[], interval(0.0, 1.0), Refinement::default()).unwrap();
+    assert_eq!(nowhere.boxes(0.05, 1e-6).unwrap().open, 20);
 }
 
 #[test]

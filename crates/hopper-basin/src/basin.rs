@@ -40,7 +40,7 @@ impl Shares {
 /// As [`Fates::new`], and [`Error::NoPoints`] if there are none.
 pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Result<Shares, Error> {
     let fates = Fates::new(mass_ratio)?;
-    let label = |alpha: f64| fates.fate(alpha).map_or(HopperFate::UNDECIDED, HopperFate::label);
+    let label = |alpha: f64| fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label);
     let mut counts = BTreeMap::new();
     for n in from..to {
         let hump = Interval::new(alpha_star(n).high, alpha_star(n + 1).high)?;
@@ -79,7 +79,7 @@ pub fn basin_raster(
     let prepare = |m: f64| MassRatio::new(m).map_err(Error::from).and_then(Fates::new).ok();
     let label = |fates: &Option<Fates>, alpha: f64| {
         let fate = fates.as_ref().and_then(|fates| fates.fate(alpha).ok());
-        fate.map_or(HopperFate::UNDECIDED, HopperFate::label)
+        fate.map_or(HopperFate::UNDECIDED_HOP, HopperFate::label)
     };
     Ok(raster(grid, prepare, label, progress)?)
 }

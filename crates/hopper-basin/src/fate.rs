@@ -24,18 +24,19 @@ pub enum HopperFate {
 impl HopperFate {
     /// The label of a grounded hopper in label images.
     pub const GROUNDED: u16 = u16::MAX - 1;
-    /// The label of a fate that is undecided because the budget of hops was used up, or that has no
-    /// label of its own.
+    /// The label of a fate that is undecided because the budget of hops was used up.
     pub const UNDECIDED: u16 = u16::MAX;
     /// The label of a fate that is undecided because the orbit stands still in `f64`.
     pub const UNDECIDED_PRECISION: u16 = u16::MAX - 2;
     /// The label of a fate that is undecided because a hop could not be decided.
     pub const UNDECIDED_HOP: u16 = u16::MAX - 3;
+    /// The label that fixed points beyond the last label share.
+    pub const BEYOND_LABELS: u16 = u16::MAX - 4;
     /// The largest n with a label.
     pub const LARGEST_LABEL: u64 = 65_000;
 
     /// The label of a fate: n for α*_n, so 0 for decaying. An n above 65 000 has no label of its
-    /// own and is [`UNDECIDED`](Self::UNDECIDED); rasters refuse such windows.
+    /// own: [`BEYOND_LABELS`](Self::BEYOND_LABELS); rasters refuse such windows.
     pub fn label(self) -> u16 {
         match self {
             HopperFate::Decaying => 0,
@@ -43,7 +44,8 @@ impl HopperFate {
             HopperFate::Grounded => Self::GROUNDED,
             HopperFate::Undecided(Reason::Precision { .. }) => Self::UNDECIDED_PRECISION,
             HopperFate::Undecided(Reason::Map { .. }) => Self::UNDECIDED_HOP,
-            HopperFate::Incessant { .. } | HopperFate::Undecided(Reason::Budget) => Self::UNDECIDED,
+            HopperFate::Incessant { .. } => Self::BEYOND_LABELS,
+            HopperFate::Undecided(Reason::Budget) => Self::UNDECIDED,
         }
     }
 
@@ -55,6 +57,7 @@ impl HopperFate {
             Self::UNDECIDED => "undecided: budget of hops".into(),
             Self::UNDECIDED_PRECISION => "undecided: precision of f64".into(),
             Self::UNDECIDED_HOP => "undecided: a hop".into(),
+            Self::BEYOND_LABELS => "to a fixed point beyond the labels".into(),
             n => format!("to α*_{n}"),
         }
     }

@@ -4,12 +4,12 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use basin_of_attraction::{Interval, Refinement};
+use basin_of_attraction::{Interval, PreimageTree, Refinement, Remainder};
 use hopper_basin::{
     Fates, HopperFate, ReachEdge, Trap, TrapEdge, crisis, grounding, hopper_basins, reach,
     recovery, shares,
 };
-use passive_hopper::{MassRatio, alpha_star};
+use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use serde_json::Value;
 
 fn rows(text: &str) -> Vec<Value> {
@@ -220,6 +220,68 @@ fn reaches_in_the_sudden_windows() {
     // At M = 20 the first fall is 2.4e-8 wide: a scan at 1e-3 does not see it.
     assert_eq!(reach(&fates(20.0), 1, 1e-3).unwrap().edge, ReachEdge::NotFound { width: 1e-3 });
     assert!(reach(&fates(10.0), 1, 0.0).is_err() && reach(&fates(10.0), 1, f64::NAN).is_err());
+}
+
+/// The counts of the tree are 2k − 3 on two humps, and grow like k² on three: countable.
+#[test]
+fn the_preimage_tree_leaves_a_countable_set() {
+    let fates = fates(0.2);
+    let trap = fates.trap(1).unwrap();
+    let trap = Interval::new(trap.star.high, trap.right()).unwrap();
+    for (top, power) in [(3, 1.0), (4, 2.0)] {
+        let window = Interval::new(alpha_star(1).high, alpha_star(top).high).unwrap();
+        let branches = hopper_basin::branches(&fates, 1, top, 400).unwrap();
+        let tree = PreimageTree::grow(&fates, &branches, trap, window, 40);
+        let Remainder::Countable { power: found } = tree.remainder() else {
+            panic!("{:?} of {:?}, {}", tree.remainder(), tree.counts(), tree.complete_levels())
+        };
+        assert!((found - power).abs() < 0.35, "{top}: {found}");
+        if top == 3 {
+            let counts = tree.counts();
+            assert!((5..tree.complete_levels()).all(|k| counts[k] == 2 * k - 1), "{counts:?}");
+        }
+    }
+}
+
+/// No hop is grounded for M below the onset on the contact parts; nor is one found in the sudden windows,
+/// where nothing is proved, at this spacing.
+#[test]
+fn grounding_is_not_found_below_its_onset() {
+    for m in [0.05, 0.2, 0.32, 3.2, 5.0, 20.0] {
+        let map = LiftOffMap::new(MassRatio::new(m).unwrap());
+        for k in 1..=20_000 {
+            let alpha = 0.001 * f64::from(k) + 0.000_5;
+            assert!(map.image(alpha).unwrap().is_some(), "M = {m}, α = {alpha}");
+        }
+    }
+}
+
+/// Labels that say why: each reason, and fixed points beyond the labels.
+#[test]
+fn labels_say_why() {
+    use basin_of_attraction::Reason;
+    let labels = [
+        HopperFate::Undecided(Reason::Budget),
+        HopperFate::Undecided(Reason::Precision { at: 1.0 }),
+        HopperFate::Undecided(Reason::Map { at: 1.0 }),
+        HopperFate::Grounded,
+        HopperFate::Decaying,
+        HopperFate::Incessant { n: 3 },
+        HopperFate::Incessant { n: 70_000 },
+    ]
+    .map(HopperFate::label);
+    for (k, label) in labels.into_iter().enumerate() {
+        assert_eq!(HopperFate::is_undecided(label), k < 3);
+        assert!(labels.iter().skip(k + 1).all(|other| *other != label));
+        assert!(!HopperFate::label_name(label).is_empty());
+    }
+    // An ulp left of a fixed point an orbit stands still in f64; from a little farther it takes long.
+    let fates = fates(0.2);
+    let alpha = alpha_star(2).high.next_down();
+    let (fate, _) = fates.fate_within(alpha, 5).unwrap();
+    assert_eq!(fate, HopperFate::Undecided(Reason::Precision { at: alpha }));
+    let (fate, hops) = fates.fate_within(alpha - 1e-9, 5).unwrap();
+    assert_eq!((fate, hops), (HopperFate::Undecided(Reason::Budget), 5));
 }
 
 #[test]
