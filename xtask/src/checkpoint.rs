@@ -7,7 +7,6 @@ use crate::Error;
 use crate::output::{Folder, digest};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
 
 const MAGIC: &[u8; 8] = b"HOPPIECE";
 
@@ -20,16 +19,12 @@ pub struct Checkpoint {
     description: String,
 }
 
-/// What tells this build of the program from others.
+/// What tells this build of the program from others: the size of its file and when it was written.
 pub(crate) fn program_digest() -> Result<String, Error> {
-    static DIGEST: OnceLock<String> = OnceLock::new();
-    if let Some(known) = DIGEST.get() {
-        return Ok(known.clone());
-    }
-    let program = std::env::current_exe()
-        .and_then(std::fs::read)
-        .map_err(|source| Error::File { path: "this program".into(), source })?;
-    Ok(DIGEST.get_or_init(|| digest(&program)).clone())
+    let fail = |source| Error::File { path: "this program".into(), source };
+    let data = std::env::current_exe().and_then(std::fs::metadata).map_err(fail)?;
+    let written = data.modified().map_err(fail)?;
+    Ok(digest(format!("{} {written:?}", data.len()).as_bytes()))
 }
 
 impl Checkpoint {
@@ -87,14 +82,22 @@ impl Checkpoint {
         bytes.extend_from_slice(payload);
         let sum = digest(&bytes);
         bytes.extend_from_slice(sum.as_bytes());
-        let (path, partial) = (self.path(piece), self.path(piece).with_extension("partial.tmp"));
+        let (path, partial) = (self.path(piece), self.partial(piece));
         let at = |path: &Path| {
             let path = path.to_path_buf();
             move |source| Error::File { path, source }
         };
         let mut file = std::fs::File::create(&partial).map_err(at(&partial))?;
         file.write_all(&bytes).and_then(|()| file.sync_all()).map_err(at(&partial))?;
-        std::fs::rename(&partial, &path).map_err(at(&path))
+        std::fs::rename(&partial, &path).map_err(at(&path))?;
+        // The name is on disk with its folder; where folders cannot be flushed, a kill is survived still.
+        let _ = std::fs::File::open(&self.folder).and_then(|folder| folder.sync_all());
+        Ok(())
+    }
+
+    /// A name of this process alone: two runs in one folder do not write into each other's files.
+    fn partial(&self, piece: usize) -> PathBuf {
+        self.path(piece).with_extension(format!("{}.partial.tmp", std::process::id()))
     }
 
     /// What the job is, for messages.
@@ -102,7 +105,7 @@ impl Checkpoint {
         &self.description
     }
 
-    /// Removes all pieces of a job that is done.
+    /// Removes all pieces of a job that is done, and what killed runs left half written.
     pub fn remove(self, pieces: usize) -> Result<(), Error> {
         for piece in 0..pieces {
             let path = self.path(piece);
@@ -112,7 +115,11 @@ impl Checkpoint {
                 }
                 _ => {}
             }
-            let _ = std::fs::remove_file(self.path(piece).with_extension("partial.tmp"));
+        }
+        for entry in std::fs::read_dir(&self.folder).into_iter().flatten().flatten() {
+            if entry.file_name().to_string_lossy().ends_with(".partial.tmp") {
+                let _ = std::fs::remove_file(entry.path());
+            }
         }
         // Not empty if somebody else keeps something in it: then it stays.
         let _ = std::fs::remove_dir(&self.folder);

@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Duration;
+use std::time::Instant;
 
 fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("hopper_killed_{name}_{}", std::process::id()));
@@ -21,36 +21,50 @@ fn raster(out: &Path, threads: &str) -> Command {
 
 fn results(folder: &Path) -> (Vec<u8>, Vec<u8>) {
     let read = |name| std::fs::read(folder.join(name)).unwrap();
-    (read("basin.npy"), read("basin.png"))
+    (read("basin.npy"), [read("basin.png"), read("legend.json")].concat())
+}
+
+/// Tiles that are finished in a folder.
+fn tiles(folder: &Path) -> usize {
+    let entries = std::fs::read_dir(folder.join("tiles")).into_iter().flatten().flatten();
+    entries.filter(|entry| entry.path().extension().is_some_and(|e| e == "bin")).count()
 }
 
 #[test]
 fn killed_and_started_again() {
     let (whole, broken) = (folder("whole"), folder("broken"));
+    let begin = Instant::now();
     assert!(raster(&whole, "1").status().unwrap().success());
-    // After a pseudo-random number of milliseconds, until one run gets through.
-    let (mut state, mut kills) = (1u64, 0);
-    for round in 0..200 {
-        let mut child = raster(&broken, if round % 2 == 0 { "1" } else { "2" }).spawn().unwrap();
+    let longest = begin.elapsed();
+    // After a pseudo-random share of that time, until a run gets through.
+    let (mut state, mut kept) = (1u64, Vec::new());
+    for round in 0..100 {
+        let threads = if round % 2 == 0 { "1" } else { "3" };
+        let mut child = raster(&broken, threads).spawn().unwrap();
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        std::thread::sleep(Duration::from_millis(15 + (state >> 33) % 80));
-        match child.try_wait().unwrap() {
-            Some(status) => {
-                assert!(status.success());
-                break;
-            }
-            None => {
-                child.kill().unwrap();
-                child.wait().unwrap();
-                kills += 1;
-            }
+        let share = (state >> 40) as f64 / (1u64 << 24) as f64;
+        // At first early, so that several runs are needed.
+        std::thread::sleep(longest.mul_f64(if round < 6 {
+            0.05 + 0.25 * share
+        } else {
+            1.1 * share
+        }));
+        if let Some(status) = child.try_wait().unwrap() {
+            assert!(status.success());
+            break;
         }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        kept.push(tiles(&broken));
     }
     if !broken.join("basin.npy").exists() {
         assert!(raster(&broken, "2").status().unwrap().success());
     }
-    assert!(kills > 1, "the runs were too short to be killed: {kills}");
+    // Runs were killed with some tiles finished, and later ones began with them.
+    let partly = kept.iter().filter(|&&tiles| tiles > 0).count();
+    assert!(partly > 1, "tiles after each kill: {kept:?}");
+    assert!(kept.windows(2).all(|pair| pair[0] <= pair[1]), "{kept:?}");
     assert!(results(&whole) == results(&broken));
     assert!(!broken.join("tiles").exists());
     std::fs::remove_dir_all(&whole).unwrap();

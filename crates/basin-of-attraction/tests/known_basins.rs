@@ -5,7 +5,7 @@
 use basin_of_attraction::{
     BoxCount, Branch, Fate, Grid, Interval, IntervalBasins, LabelImage, PreimageTree, Refinement,
     Remainder, TrapSet, classify, entropy, equally_spaced_shares, geometric_limit, interval_basins,
-    low_discrepancy_shares, occupied_boxes, power_law, random_shares, raster, uncertain_share,
+    occupied_boxes, power_law, raster, uncertain_share,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -15,8 +15,7 @@ fn interval(left: f64, right: f64) -> Interval {
 
 const THIRD: f64 = 1.0 / 3.0;
 
-/// Distance of 2x − 1 … as a label: which of `colours` the middle gap has in which x falls, by the
-/// number of steps of x → 3x mod 1 that lead to it.
+/// The colour of the gap in which x falls, by the number of steps of x → 3x mod 1 to the middle one.
 fn cantor_label(x: f64, colours: u16) -> u16 {
     let mut x = x;
     for step in 0..60u16 {
@@ -343,66 +342,6 @@ fn the_cubes_of_one_over_k_have_dimension_one_quarter() {
     assert_eq!(law.warning, None);
 }
 
-/// 95 % intervals hold the truth in 93 to 97 of 100 cases.
-#[test]
-fn intervals_cover_as_often_as_they_say() {
-    let unit = interval(0.0, 1.0);
-    let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
-    let wide = interval(-1.5, 0.5);
-    type Label<'a> = &'a (dyn Fn(f64) -> u16 + Sync);
-    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] =
-        [("B1", unit, &|x| cantor_label(x, 2), 0, 0.6), ("B4", wide, &step, 1, 0.5)];
-    for (name, window, label, basin, truth) in cases {
-        let covered = |shares: &dyn Fn(u64) -> basin_of_attraction::Estimate| {
-            (0..1000).filter(|&seed| shares(seed).covers(truth)).count()
-        };
-        let random = covered(&|seed| random_shares(window, 400, seed, label).unwrap()[&basin]);
-        assert!((930..=970).contains(&random), "{name}, random: {random}");
-        let low =
-            covered(&|seed| low_discrepancy_shares(window, 100, 20, seed, label).unwrap()[&basin]);
-        assert!((930..=970).contains(&low), "{name}, low discrepancy: {low}");
-    }
-}
-
-#[test]
-fn rare_labels_are_covered_too() {
-    // A basin that one point in fifty thousand hits: replicates mostly agree on none, or on one.
-    let unit = interval(0.0, 1.0);
-    let truth = 2e-5;
-    let covered = (0..300u64)
-        .filter(|&seed| {
-            let label = |x: f64| u16::from(x > 0.3 && x < 0.3 + truth);
-            let shares = low_discrepancy_shares(unit, 1000, 16, seed, label).unwrap();
-            let none = basin_of_attraction::wilson(0, 16_000).unwrap();
-            shares.get(&1).copied().unwrap_or(none).covers(truth)
-        })
-        .count();
-    assert!(covered >= 279, "{covered} of 300");
-}
-
-#[test]
-fn open_boxes_are_counted() {
-    // Known on [0, 0.1] and [0.9, 1] only: sixteen boxes of 0.05 between are open.
-    let traps = [(interval(0.0, 0.1), 1), (interval(0.9, 1.0), 2)];
-    let nothing = |_: f64| None;
-    let basins =
-        interval_basins(&nothing, &traps, &[], interval(0.0, 1.0), Refinement::default()).unwrap();
-    let count = basins.boxes(0.05, 1e-6).unwrap();
-    assert_eq!((count.boxes, count.mixed, count.open), (20, 0, 16));
-    let nowhere =
-        interval_basins(&nothing, &[], &[], interval(0.0, 1.0), Refinement::default()).unwrap();
-    assert_eq!(nowhere.boxes(0.05, 1e-6).unwrap().open, 20);
-}
-
-#[test]
-fn low_discrepancy_is_sharper_than_chance() {
-    let window = interval(-1.5, 0.5);
-    let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
-    let random = random_shares(window, 20_000, 1, label).unwrap()[&1];
-    let low = low_discrepancy_shares(window, 1000, 20, 1, label).unwrap()[&1];
-    assert!(low.half_width() < 0.1 * random.half_width());
-}
-
 /// By balls about the boundary, exactly: 2ε for each of the two ends of [−1, 0].
 #[test]
 fn exact_uncertain_shares() {
@@ -421,4 +360,18 @@ fn exact_uncertain_shares() {
         let sampled = uncertain_share(window, epsilon, 100_000, 5, label).unwrap();
         assert!(sampled.lower < share.value && share.value < sampled.upper, "{sampled:?}");
     }
+}
+
+#[test]
+fn open_boxes_are_counted() {
+    // Known on [0, 0.1] and [0.9, 1] only: sixteen boxes of 0.05 between are open.
+    let traps = [(interval(0.0, 0.1), 1), (interval(0.9, 1.0), 2)];
+    let nothing = |_: f64| None;
+    let basins =
+        interval_basins(&nothing, &traps, &[], interval(0.0, 1.0), Refinement::default()).unwrap();
+    let count = basins.boxes(0.05, 1e-6).unwrap();
+    assert_eq!((count.boxes, count.mixed, count.open), (20, 0, 16));
+    let nowhere =
+        interval_basins(&nothing, &[], &[], interval(0.0, 1.0), Refinement::default()).unwrap();
+    assert_eq!(nowhere.boxes(0.05, 1e-6).unwrap().open, 20);
 }

@@ -82,7 +82,7 @@ pub enum Error {
     },
     /// Events that follow one another without time passing.
     #[error("{events} events in a row at time {time}: the resets lead in a circle")]
-    InstantChain {
+    TimelessChain {
         /// When.
         time: f64,
         /// How many.

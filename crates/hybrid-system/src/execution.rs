@@ -59,11 +59,11 @@ pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     stop: Option<Stop>,
     history: History<N>,
     /// Events in a row that took no time.
-    instant: usize,
+    timeless: usize,
 }
 
 /// Events that may follow one another without time passing.
-const MOST_INSTANT: usize = 1000;
+const MOST_TIMELESS: usize = 1000;
 
 impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
     /// Starts in `mode` from `state` at hybrid time (0, 0).
@@ -78,7 +78,7 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             jump: 0,
             stop: None,
             history,
-            instant: 0,
+            timeless: 0,
         }
     }
 
@@ -130,9 +130,9 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
                     after,
                     certainty: crossing.certainty,
                 });
-                self.instant = if crossing.time > 0.0 { 0 } else { self.instant + 1 };
-                if self.instant > MOST_INSTANT {
-                    return Err(Error::InstantChain { time, events: self.instant });
+                self.timeless = if crossing.time > 0.0 { 0 } else { self.timeless + 1 };
+                if self.timeless > MOST_TIMELESS {
+                    return Err(Error::TimelessChain { time, events: self.timeless });
                 }
                 self.time = time;
                 self.jump += 1;

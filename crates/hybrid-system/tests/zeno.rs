@@ -184,5 +184,5 @@ fn chains_without_time_are_errors() {
     }
     let limits = Limits::new(1.0, usize::MAX);
     let last = Execution::new(&Circle, (), Vector1::new(0.0), limits).last().unwrap();
-    assert!(matches!(last, Err(Error::InstantChain { events: 1001, .. })));
+    assert!(matches!(last, Err(Error::TimelessChain { events: 1001, .. })));
 }

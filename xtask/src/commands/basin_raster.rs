@@ -9,9 +9,12 @@ use crate::progress::Progress;
 use basin_of_attraction::{Grid, Interval, LabelImage};
 use hopper_basin::{HopperFate, basin_raster};
 use passive_hopper::alpha_star;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::io::{BufWriter, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
@@ -20,10 +23,10 @@ pub struct Options {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Mass ratios from and to
-    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], default_values_t = [0.1, 1.0])]
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], default_values_t = [0.1, 1.0], allow_negative_numbers = true)]
     mass_ratio: Vec<f64>,
     /// Lift-off speeds from and to [default: the first and the sixth fixed point]
-    #[arg(long, num_args = 2, value_names = ["FROM", "TO"])]
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
     speed: Option<Vec<f64>>,
     /// Pixels across and up
     #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], default_values_t = [1024, 1024])]
@@ -32,6 +35,9 @@ pub struct Options {
 
 /// Columns of a tile.
 const TILE: usize = 16;
+
+/// Pixels of a raster, at most: 8 GiB of labels.
+const MOST_PIXELS: usize = 1 << 32;
 
 /// Pixels of the picture, at most, along each axis; a larger raster is thinned for it.
 const PICTURE: usize = 1200;
@@ -47,14 +53,16 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let kept = Checkpoint::open(&folder.path().join("tiles"), &description)?;
     let tiles = grid.columns.div_ceil(TILE);
     let bar = Progress.bar("basins", tiles as u64);
-    for tile in 0..tiles {
+    let done = AtomicU64::new(0);
+    (0..tiles).into_par_iter().try_for_each(|tile| {
         if kept.read(tile)?.is_none() {
             kept.write(tile, &columns(&grid, tile)?)?;
         }
-        bar.set(tile as u64 + 1);
-    }
+        bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
+        Ok::<(), Error>(())
+    })?;
     bar.finish();
-    let array = write_array(&folder, &kept, &grid)?;
+    let (array, counts) = write_array(&folder, &kept, &grid)?;
     let image = thinned(&kept, &grid)?;
     let window = Window {
         name: "basin",
@@ -65,12 +73,21 @@ pub fn run(options: &Options) -> Result<(), Error> {
     };
     let rendered = render("basin", &draw_basins(&window, &image)?, 2.0)?;
     folder.write("basin.png", &rendered.png)?;
+    let legend: Vec<_> = counts
+        .iter()
+        .map(|(&label, &pixels)| {
+            let name = HopperFate::label_name(label);
+            serde_json::json!({ "label": label, "name": name, "pixels": pixels })
+        })
+        .collect();
+    let text = serde_json::to_string_pretty(&legend)
+        .map_err(|e| Error::Render { what: "legend.json".into(), reason: e.to_string() })?;
+    folder.write("legend.json", text.as_bytes())?;
     kept.remove(tiles)?;
-    let legend = image.legend(HopperFate::label_name);
     let mut out = std::io::stdout().lock();
     let said = (|| {
-        for entry in legend {
-            writeln!(out, "label {:5}  {}", entry.label, entry.name)?;
+        for (&label, pixels) in &counts {
+            writeln!(out, "label {label:5}  {:40} {pixels} pixels", HopperFate::label_name(label))?;
         }
         writeln!(out, "{}\n{}", array.display(), folder.path().join("basin.png").display())
     })();
@@ -86,7 +103,19 @@ fn grid(options: &Options) -> Result<Grid, Error> {
     let [columns, rows] = options.pixels[..] else {
         return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
     };
+    let pixels = columns.checked_mul(rows).filter(|pixels| (1..=MOST_PIXELS).contains(pixels));
+    if pixels.is_none() {
+        return Err(basin_of_attraction::Error::BadRaster { columns, rows }.into());
+    }
     let speed = options.speed.as_deref().unwrap_or(&default);
+    for values in [&options.mass_ratio[..], speed] {
+        // Neighbouring pixels must differ.
+        if let [from, to] = *values
+            && !(to - from > 1e-12 * to.abs())
+        {
+            return Err(Error::CheckFailed(format!("a window from {from} to {to} has no pixels")));
+        }
+    }
     Ok(Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows })
 }
 
@@ -106,19 +135,28 @@ fn columns(grid: &Grid, tile: usize) -> Result<Vec<u8>, Error> {
 }
 
 /// All tiles as one NumPy array of shape (rows, columns), row 0 the lowest speed; in Fortran's order,
-/// in which tiles follow one another.
-fn write_array(folder: &Folder, kept: &Checkpoint, grid: &Grid) -> Result<PathBuf, Error> {
+/// in which tiles follow one another. Counts the labels on the way.
+fn write_array(
+    folder: &Folder,
+    kept: &Checkpoint,
+    grid: &Grid,
+) -> Result<(PathBuf, BTreeMap<u16, usize>), Error> {
     let (path, partial) =
         (folder.path().join("basin.npy"), folder.path().join("basin.npy.partial.tmp"));
     let fail = |source| Error::File { path: path.clone(), source };
     let mut file = BufWriter::new(std::fs::File::create(&partial).map_err(fail)?);
     file.write_all(&npy_header(grid.rows, grid.columns)).map_err(fail)?;
+    let mut counts = BTreeMap::new();
     for tile in 0..grid.columns.div_ceil(TILE) {
-        file.write_all(&piece(kept, tile)?).map_err(fail)?;
+        let bytes = piece(kept, tile)?;
+        for pair in bytes.chunks_exact(2) {
+            *counts.entry(u16::from_le_bytes([pair[0], pair[1]])).or_insert(0) += 1;
+        }
+        file.write_all(&bytes).map_err(fail)?;
     }
     file.into_inner().map_err(|e| fail(e.into_error()))?.sync_all().map_err(fail)?;
     std::fs::rename(&partial, &path).map_err(fail)?;
-    Ok(path)
+    Ok((path, counts))
 }
 
 /// The header of version 1.0 of the format: magic, length, and a dictionary padded to 64 bytes.
@@ -166,6 +204,27 @@ fn thinned(kept: &Checkpoint, grid: &Grid) -> Result<LabelImage, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn absurd_windows_are_refused_before_anything_is_written() {
+        let options = |mass_ratio: [f64; 2], speed: [f64; 2], pixels: [usize; 2]| Options {
+            out: PathBuf::from("/nowhere"),
+            mass_ratio: mass_ratio.to_vec(),
+            speed: Some(speed.to_vec()),
+            pixels: pixels.to_vec(),
+        };
+        let (m, alpha) = ([0.1, 1.0], [4.5, 20.0]);
+        assert!(grid(&options(m, alpha, [10, 20])).is_ok());
+        for pixels in [[0, 10], [10, 0], [usize::MAX, 2], [1 << 33, 1]] {
+            assert!(grid(&options(m, alpha, pixels)).is_err(), "{pixels:?}");
+        }
+        for window in
+            [[1.0, 1.0], [2.0, 1.0], [1.0, 1.0f64.next_up()], [f64::NAN, 1.0], [0.0, f64::INFINITY]]
+        {
+            assert!(grid(&options(window, alpha, [10, 10])).is_err(), "{window:?}");
+            assert!(grid(&options(m, window, [10, 10])).is_err(), "{window:?}");
+        }
+    }
 
     #[test]
     fn the_header_is_one_that_numpy_reads() {

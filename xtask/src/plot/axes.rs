@@ -132,6 +132,9 @@ impl Frame {
 
 /// Round tick positions on a linear axis, about `count` of them, with labels.
 pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
+    if !(low < high) {
+        return Vec::new();
+    }
     let rough = (high - low) / count.max(1) as f64;
     let power = pxfm::f_log10(rough).floor() as i32;
     let unit = 10f64.powi(power);
@@ -140,7 +143,7 @@ pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
         .map(|m| m * unit)
         .find(|&s| s >= rough * 0.999)
         .unwrap_or(unit);
-    let decimals = (-pxfm::f_log10(step).floor()).max(0.0) as usize;
+    let decimals = (-pxfm::f_log10(step).floor()).clamp(0.0, 17.0) as usize;
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
     (first..=last)
