@@ -54,12 +54,12 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
 }
 
 /// The page of new results.
-pub fn findings_page(findings: &[(Finding, Rendered)], seconds: f64) -> String {
+pub fn findings_page(findings: &[(Finding, Rendered)]) -> String {
     let mut out = format!(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Basins of a simple hopper</title>\
          <style>{STYLE}</style></head><body><h1>Basins of a simple hopper: what the paper could not say</h1>\
          <p>Beyond C. K. Reddy and R. Pratap's paper: measures with errors, the structure of the boundary, its \
-         dimension and entropy, and how far each answer is certain. Computed in {seconds:.0} s.</p>"
+         dimension and entropy, and how far each answer is certain.</p>"
     );
     for (finding, rendered) in findings {
         drawing(&mut out, &finding.figure, rendered, &findings_table(finding));

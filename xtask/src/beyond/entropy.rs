@@ -30,7 +30,7 @@ fn entropies(mass_ratio: f64) -> Result<(f64, f64, usize), Error> {
     };
     let mixed: Vec<f64> =
         (0..BOXES).into_par_iter().map(of_box).collect::<Vec<_>>().into_iter().flatten().collect();
-    let sum: f64 = mixed.iter().sum();
+    let sum = mixed.iter().fold(0.0, |sum, entropy| sum + entropy);
     let boundary = if mixed.is_empty() { 0.0 } else { sum / mixed.len() as f64 };
     Ok((sum / BOXES as f64, boundary, mixed.len()))
 }
@@ -82,7 +82,7 @@ pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
         table.row([
             format!("{:.3}", row.0),
             format!("{:.3}", row.1),
-            format!("{:.3}", row.2),
+            if row.3 > 0.0 { format!("{:.3}", row.2) } else { "–".into() },
             format!("{}", row.3),
         ]);
     }
@@ -93,7 +93,8 @@ pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
             title: "Basin entropy against the mass ratio".into(),
             paper: "No measure of the mixing of basins is given.".into(),
             notes: "500 boxes on the five humps of [$α$^{∗}_{1}, $α$^{∗}_{6}], 100 starts in each, natural \
-                    logarithms; all fates count, decaying and grounded too. Grounding, possible from $M$ = 0.3275 \
+                    logarithms; all fates count, decaying and grounded too. From 100 starts an entropy comes out low by \
+                    about (fates − 1)/200 a mixed box, and a box is mixed only if a start shows it. Grounding, possible from $M$ = 0.3275 \
                     to the inverse of that, lifts both. The boundary entropy stays under ln 2 but at some \
                     large $M$; above it, elsewhere, is taken for a proof of a fractal boundary: at a fixed size \
                     of boxes it is none, since this boundary is countable."

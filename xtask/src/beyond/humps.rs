@@ -8,12 +8,15 @@ use basin_of_attraction::Refinement;
 use hopper_basin::hopper_basins;
 
 const M: f64 = 0.2;
-const LAST: u64 = 8;
+const LAST: u64 = 6;
+
+/// A share with what is undecided of the hump.
+type Share = (f64, f64);
 
 /// The share of each hump that each fixed point below attracts.
 pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
-    let refinement = Refinement { shortest: 1e-6, ..Refinement::default() };
+    let refinement = Refinement { undecided: 2e-4, intervals: 4_000_000, ..Refinement::default() };
     let basins = hopper_basins(&fates, 1, LAST + 1, 400, refinement)?.basins;
     let mut table = Table::new(&[
         "hump",
@@ -26,10 +29,11 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         "all",
         "undecided",
     ]);
-    let mut shares: Vec<Vec<f64>> = Vec::new();
+    let mut shares: Vec<Vec<Share>> = Vec::new();
     for n in 1..=LAST {
         let part = basins.within(hump(n)?);
         let length = part.window().length();
+        let undecided = part.undecided() / length;
         let row: Vec<f64> =
             (1..=n as u16).map(|label| part.measure(label).value / length).collect();
         let cell =
@@ -37,13 +41,9 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         let all = part.measure_of(is_incessant).value / length;
         let mut cells = vec![format!("{n}"), cell(Some(&(fates.trap(n)?.delta / length)))];
         cells.extend((0..4).map(|k| cell(row.get(k))));
-        cells.extend([
-            cell(row.last()),
-            cell(Some(&all)),
-            cell(Some(&(part.undecided() / length))),
-        ]);
+        cells.extend([cell(row.last()), cell(Some(&all)), cell(Some(&undecided))]);
         table.row(cells);
-        shares.push(row);
+        shares.push(row.into_iter().map(|share| (share, share + undecided)).collect());
     }
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame {
@@ -58,13 +58,13 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     };
     // Those of higher fixed points are in the data.
     for m in 1..=5u16 {
-        let points: Vec<_> = (u64::from(m)..=LAST)
-            .map(|n| (n as f64, shares[n as usize - 1][usize::from(m) - 1]))
-            .collect();
+        let at = |n: u64| shares[n as usize - 1][usize::from(m) - 1];
+        let points: Vec<_> = (u64::from(m)..=LAST).map(|n| (n as f64, at(n).0)).collect();
         let color = palette::css(m);
         frame.polyline(&mut svg, &points, Pen::solid(color, 1.5));
-        for &point in &points {
+        for (n, &point) in (u64::from(m)..).zip(&points) {
             let (x, y) = frame.at(point);
+            svg.line((x, y), frame.at((n as f64, at(n).1)), Pen::solid(color, 0.9));
             svg.dot(x, y, 3.2, color);
         }
         if let Some(&end) = points.last() {
@@ -75,22 +75,23 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let n_ticks: Vec<_> = (1..=LAST).map(|n| (n as f64, format!("{n}"))).collect();
     frame.axes(&mut svg, &n_ticks, &decades(frame.y, 1), "hump $n$", "share of hump $n$");
     let data = shares.iter().zip(1u64..).flat_map(|(row, n)| {
-        row.iter()
-            .zip(1u64..)
-            .map(move |(share, m)| vec![Some(n as f64), Some(m as f64), Some(*share)])
+        row.iter().zip(1u64..).map(move |(share, m)| {
+            vec![Some(n as f64), Some(m as f64), Some(share.0), Some(share.1)]
+        })
     });
     Ok(Finding {
         figure: Figure {
             name: "beyond_humps",
             title: "Nested basins: every hump holds copies of the basins below, $M$ = 0.2".into(),
             paper: "The structure repeats and becomes finer upwards (Fig. 6); basins are nested.".into(),
-            notes: "Share of each hump ($α$^{∗}_{n}, $α$^{∗}_{n+1}) that goes to $α$^{∗}_{m}, by intervals. Along a \
-                    line, the basin of one fixed point takes an almost constant share of all humps above: \
-                    they fall through the humps below in the same way. The share of a hump's own fixed \
-                    point falls with its trap, like $n$^{−3}."
+            notes: "Share of each hump ($α$^{∗}_{n}, $α$^{∗}_{n+1}) that goes to $α$^{∗}_{m}, by intervals; bars up to \
+                    what it would be with all that is undecided. From its second hump on the basin of one fixed \
+                    point takes a share of every hump above that changes slowly: they fall through the humps \
+                    below in similar ways. The share of a hump's own fixed point falls with its trap, like \
+                    $n$^{−3}."
                 .into(),
             svg: svg.finish(),
-            data: vec![csv_file("humps.csv", &["hump", "fixed_point", "share"], data)?],
+            data: vec![csv_file("humps.csv", &["hump", "fixed_point", "share_lower", "share_upper"], data)?],
         },
         table,
     })

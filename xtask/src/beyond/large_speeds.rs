@@ -105,8 +105,9 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
             paper: "Whether the basins are riddled is left open.".into(),
             notes: "20 000 random starts on a hump (2 000 from hump 1000 on), their fate against that of starts ± $ε$ \
                     away, 95 % intervals. From hump 100 on an error of 10^{−8} leaves as many starts uncertain \
-                    as any other would: as many as if fates were drawn by lot. An ulp of $α$ is 10^{−13} there: \
-                    the final state cannot be predicted from the start. Yet no basin is riddled: a point whose orbit \
+                    as any other would: as many as if fates were drawn by lot. The fates there are those of orbits \
+                    rounded to an ulp of $α$, 10^{−13} to 10^{−12}, at every hop, and not of the exact start: \
+                    the final state cannot be predicted from it in f64. Yet no basin is riddled: a point whose orbit \
                     enters the inside of a trap has a neighbourhood that does too, since the map is piecewise \
                     continuous and fates are continuous across its jumps. Every basin is a union of intervals, \
                     and the curves must fall where $ε$ is smaller than most of them."

@@ -9,6 +9,7 @@ use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Pen, Scale, Svg, decades, palette};
 use basin_of_attraction::{
     Estimate, Interval, Refinement, equally_spaced_shares, low_discrepancy_shares, random_shares,
+    wilson,
 };
 use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
 use std::collections::BTreeMap;
@@ -48,10 +49,15 @@ fn shares(mass_ratio: f64) -> Result<Shares, Error> {
     let together = |place: f64| if is_incessant(at(place)) { ALL } else { 0 };
     let all = low_discrepancy_shares(window()?, POINTS, REPLICATES, SEED, together)?;
     shares.extend(all.get(&ALL).map(|&share| (ALL, share)));
+    // A label that no point has may still have a share.
+    let unseen = wilson(0, POINTS * REPLICATES)?;
+    LABELS.into_iter().for_each(|label| {
+        shares.entry(label).or_insert(unseen);
+    });
     Ok(shares)
 }
 
-/// The same with certain bounds, by intervals: means over the humps.
+/// The same with bounds, by intervals: means over the humps.
 fn interval_shares(fates: &Fates, shortest: f64) -> Result<Shares, Error> {
     let refinement = Refinement { shortest, ..Refinement::default() };
     let found = hopper_basins(fates, FROM, TO, 400, refinement)?.basins;
@@ -66,7 +72,7 @@ fn interval_shares(fates: &Fates, shortest: f64) -> Result<Shares, Error> {
             share.lower += scale * measure.lower;
             share.upper += scale * measure.upper;
         };
-        for label in found.labels() {
+        for label in LABELS.into_iter().filter(|&label| label != ALL) {
             add(label, part.measure(label));
         }
         add(ALL, part.measure_of(is_incessant));
@@ -141,13 +147,14 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                 .into(),
             notes: format!(
                 "Shares of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
-                 for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with certain bounds; beyond, by {POINTS} points \
-                 of a golden rotation with {REPLICATES} random starts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = \
-                 {touch:.5}: there it falls through its fixed point. From then on to $M$ = 1 the \
-                 measure follows the lengths of the traps. For $M$ > 1 it recovers, but not at \
-                 1/$M$_{{c}}(1): orbits still fall through the sudden windows, in needles that grow \
-                 ever narrower. The largest $M$ at which a share under 1 is seen is a matter of \
-                 the number of points."
+                 for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with bounds that hold for the branches found \
+                 and up to rounding; beyond, by {POINTS} points of a golden rotation with {REPLICATES} random \
+                 starts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
+                 there it falls through its fixed point. Between it and its inverse the measure falls and \
+                 rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
+                 $α$^{{∗}}_{{1}} at once (near $M$ = 0.172, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
+                 of it is back; what is missing beyond, a thousandth and less, falls through needles in the \
+                 sudden windows."
             ),
             svg: svg.finish(),
             data: vec![data],
@@ -172,7 +179,7 @@ fn curve(
     frame.clipped(svg, |svg| {
         let line: Vec<_> = found.iter().map(|(m, share)| (*m, share.value)).collect();
         frame.polyline(svg, &line, Pen::solid(color, width));
-        for (m, share) in found.iter().filter(|(_, share)| share.lower > frame.y.0) {
+        for (m, share) in &found {
             let ends = [share.lower.max(frame.y.0), share.upper].map(|y| frame.at((*m, y)));
             svg.line(ends[0], ends[1], Pen::solid(color, 0.8));
         }
@@ -203,7 +210,7 @@ fn legend(svg: &mut Svg) {
 fn three_ways() -> Result<Table, Error> {
     let mut table = Table::new(&[
         "$M$",
-        "intervals (certain)",
+        "intervals (bounds)",
         "equally spaced, 50 000 (as the paper)",
         "random, 50 000",
         "low discrepancy, 16 × 3125",
@@ -245,10 +252,14 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         let sum = |bit: u16| -> f64 {
             counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.value).sum()
         };
-        Ok(vec![sum(1), sum(2), sum(4)])
+        // Half widths of 95 %, those of the kinds added up.
+        let width = |bit: u16| -> f64 {
+            counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.half_width()).sum()
+        };
+        Ok([1, 2, 4].into_iter().flat_map(|bit| [sum(bit) + 0.0, width(bit) + 0.0]).collect())
     })?;
     let rows: Vec<Row> =
-        ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[1], row[2])).collect();
+        ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[2], row[4])).collect();
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame {
         left: 70.0,
@@ -282,11 +293,14 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         "share of the window",
     );
     let mut table = Table::new(&["$M$", "incessant at $M$", "at 1/$M$", "fates differ"]);
-    for row in rows.iter().step_by(6) {
-        let cell = |share: f64| format!("{:.3} %", 100.0 * share);
-        table.row([format!("{:.4}", row.0), cell(row.1), cell(row.2), cell(row.3)]);
+    for (m, row) in ratios.iter().zip(&scan).step_by(6) {
+        let cell = |k: usize| format!("{:.3} ± {:.3} %", 100.0 * row[k], 100.0 * row[k + 1]);
+        table.row([format!("{m:.4}"), cell(0), cell(2), cell(4)]);
     }
-    let data = rows.iter().map(|row| vec![Some(row.0), Some(row.1), Some(row.2), Some(row.3)]);
+    let data = ratios
+        .iter()
+        .zip(&scan)
+        .map(|(&m, row)| std::iter::once(m).chain(row.iter().copied()).map(Some).collect());
     Ok(Finding {
         figure: Figure {
             name: "beyond_asymmetry",
@@ -302,7 +316,15 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
             svg: svg.finish(),
             data: vec![csv_file(
                 "asymmetry.csv",
-                &["mass_ratio", "incessant", "incessant_at_inverse", "fates_differ"],
+                &[
+                    "mass_ratio",
+                    "incessant",
+                    "incessant_half_width",
+                    "incessant_at_inverse",
+                    "incessant_at_inverse_half_width",
+                    "fates_differ",
+                    "fates_differ_half_width",
+                ],
                 data,
             )?],
         },

@@ -30,10 +30,17 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60);
     let growth = match deep.remainder() {
         Remainder::Countable { power } => {
-            format!("like $k$^{{{power:.2}}} over levels 30 to 60: a countable rest")
+            let levels = deep.complete_levels();
+            format!(
+                "like $k$^{{{power:.1}}} over levels {} to {} (2$k$ − 1 of them, in fact): a countable rest, where \
+                 Cantor's would double",
+                levels / 2,
+                levels - 1
+            )
         }
-        Remainder::Cantor { growth } => format!("like e^{{{growth:.3}$k$}}: a Cantor set"),
-        Remainder::Undecided => "in no clear way".into(),
+        other => {
+            return Err(Error::CheckFailed(format!("the tree leaves no countable set: {other:?}")));
+        }
     };
     let mut table = Table::new(&[
         "level $k$",

@@ -33,9 +33,11 @@ pub fn run(options: &Options) -> Result<(), Error> {
             .map_err(|source| Error::File { path: "standard output".into(), source })?;
         made.push((finding, rendered));
     }
-    let page = report::findings_page(&made, begin.elapsed().as_secs_f64());
-    folder.write("report.html", page.as_bytes())?;
+    let page = report::findings_page(&made);
+    // A part of the results does not take the place of all.
+    let name = if options.only.is_empty() { "report.html" } else { "report_part.html" };
+    folder.write(name, page.as_bytes())?;
     job.done()?;
-    writeln!(std::io::stdout(), "report {}", folder.path().join("report.html").display())
+    writeln!(std::io::stdout(), "report {}", folder.path().join(name).display())
         .map_err(|source| Error::File { path: "standard output".into(), source })
 }
