@@ -45,14 +45,14 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         table.row(cells);
         shares.push(row.into_iter().map(|share| (share, share + undecided)).collect());
     }
-    let mut svg = Svg::new(640.0, 430.0);
+    let mut svg = Svg::new(560.0, 430.0);
     let frame = Frame {
         left: 70.0,
         top: 20.0,
         width: 440.0,
         height: 350.0,
         x: (0.8, LAST as f64 + 0.2),
-        y: (1e-5, 0.1),
+        y: (1e-4, 0.1),
         x_scale: Scale::Linear,
         y_scale: Scale::Log,
     };
@@ -67,10 +67,10 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
             svg.line((x, y), frame.at((n as f64, at(n).1)), Pen::solid(color, 0.9));
             svg.dot(x, y, 3.2, color);
         }
-        if let Some(&end) = points.last() {
-            let (x, y) = frame.at(end);
-            svg.text(x + 10.0, y + 4.0, Anchor::Start, 11.5, &palette::name(m));
-        }
+        let y = 318.0 - 18.0 * f64::from(5 - m);
+        svg.line((90.0, y), (112.0, y), Pen::solid(color, 1.5));
+        svg.dot(101.0, y, 3.2, color);
+        svg.text(120.0, y + 4.0, Anchor::Start, 11.5, &palette::name(m));
     }
     let n_ticks: Vec<_> = (1..=LAST).map(|n| (n as f64, format!("{n}"))).collect();
     frame.axes(&mut svg, &n_ticks, &decades(frame.y, 1), "hump $n$", "share of hump $n$");

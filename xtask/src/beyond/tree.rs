@@ -13,12 +13,17 @@ const M: f64 = 0.2;
 /// Levels drawn, and levels grown without leaving out the short intervals.
 const DRAWN: usize = 20;
 const GROWN: usize = 10;
+const SHORTEST: f64 = 1e-8;
 
 /// Counts and lengths level by level.
 pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
-    let refinement = Refinement { shortest: 1e-8, undecided: 0.0, ..Refinement::default() };
+    let refinement = Refinement { shortest: SHORTEST, undecided: 0.0, ..Refinement::default() };
     let basins = hopper_basins(&fates, FROM, TO, 400, refinement)?.basins;
+    let long = |level: usize| {
+        let own = basins.parts().iter().filter(|part| part.label == 1 && part.level == level);
+        own.filter(|part| part.interval.length() >= SHORTEST).count()
+    };
     let levels = basins.levels(1);
     let total = basins.measure(1);
     let window = Interval::new(alpha_star(FROM).high, alpha_star(TO).high)?;
@@ -51,9 +56,10 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
         "of the basin",
     ]);
     let (mut sum, mut rows) = (0.0, Vec::new());
-    for (&level, &(count, length)) in levels.iter().take_while(|(level, _)| **level <= DRAWN) {
+    for (&level, &(_, length)) in levels.iter().take_while(|(level, _)| **level <= DRAWN) {
         sum += length;
         let grown = tree.counts().get(level).copied();
+        let count = long(level);
         rows.push((level, count, length, sum));
         if level <= 12 || level % 6 == 0 {
             table.row([
