@@ -42,8 +42,8 @@ const INTERVALS: usize = 1_000_000;
 impl Signal {
     /// The first crossing of zero strictly after time zero, up to `horizon`, in one direction.
     ///
-    /// A start at zero counts by the side to which the signal leaves it. A signal that is zero
-    /// throughout never crosses.
+    /// A start at zero, but for rounding, counts by the side to which the signal leaves it. A signal that is
+    /// zero throughout never crosses.
     ///
     /// ```
     /// use hybrid_system::{Direction, FirstCrossing, Signal};
@@ -58,8 +58,8 @@ impl Signal {
     ///
     /// # Errors
     /// [`Error::NotFinite`] for coefficients that are not; [`Error::BadLimit`] unless `horizon` is
-    /// finite and not negative; [`Error::UndecidedSign`] if the side on which it starts is hidden by
-    /// rounding; [`Error::NoConvergence`] after a million intervals.
+    /// finite and not negative; [`Error::UndecidedSign`] if the side to which it leaves zero is hidden
+    /// by rounding; [`Error::NoConvergence`] after a million intervals.
     pub fn first_crossing(
         &self,
         direction: Direction,
@@ -81,7 +81,9 @@ impl Signal {
         for order in 0..=ORDERS {
             let value = derivative.value(0.0);
             let next = derivative.derivative();
-            if value == 0.0 {
+            // After an event on its surface the guard is zero but for rounding.
+            let on_surface = order == 0 && value.abs() <= derivative.rounding(0.0);
+            if value == 0.0 || on_surface {
                 if next.bound(horizon) == 0.0 {
                     return Ok(None);
                 }

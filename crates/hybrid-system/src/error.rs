@@ -88,6 +88,22 @@ pub enum Error {
         /// How many.
         events: usize,
     },
+    /// An event at which the guard is crossed too slowly for a derivative: nearby orbits may miss it.
+    #[error(
+        "no sensitivity through the event at time {time}: the guard changes at a rate of {rate}"
+    )]
+    GrazingSensitivity {
+        /// When.
+        time: f64,
+        /// ∇g·f⁻.
+        rate: f64,
+    },
+    /// An arc without an end that a change of its start could be followed to.
+    #[error("no sensitivity along the arc from time {time}: it does not end in one event")]
+    NoSensitivity {
+        /// Its start.
+        time: f64,
+    },
     /// The model could not answer.
     #[error("the model failed: {reason}")]
     Model {

@@ -16,6 +16,7 @@
 //! | [`Arc`], [`Event`], [`ArcEnd`] | what an execution consists of, with both one-sided states |
 //! | [`Accumulation`] | infinitely many events in finite time (Zeno): the limit, and what follows |
 //! | `Integration`, `Tolerances` | flows given as ẋ = f(t, x), step by step (feature `ode`) |
+//! | [`Differentiable`], [`sensitivity`] | small changes of the start, through arcs and events (saltation) |
 //! | [`bracketed_root`] | Brent's method on a bracket that is certain |
 //!
 //! A ball that loses half of its speed at every bounce:
@@ -68,13 +69,14 @@
 //! says so in its [`Certainty`].
 //!
 //! # Not here
-//! Guards along integrated flows, sensitivities. In the sampled search
+//! Guards along integrated flows. In the sampled search
 //! a start exactly on a surface that the flow then crosses within the first sample is an error, not a
 //! guess.
 //!
 //! # References
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
-//! time (t, j).
+//! time (t, j); R. I. Leine, H. Nijmeijer, *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*,
+//! Springer (2004), for saltation.
 
 mod accumulation;
 mod arc;
@@ -86,6 +88,7 @@ mod execution;
 mod guard;
 #[cfg(feature = "ode")]
 mod ode;
+mod sensitivity;
 mod signal;
 mod system;
 
@@ -99,5 +102,6 @@ pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard};
 #[cfg(feature = "ode")]
 pub use ode::{Integration, Tolerances};
+pub use sensitivity::{Differentiable, arc_sensitivity, sensitivity};
 pub use signal::Signal;
 pub use system::{HybridSystem, Reset, State};

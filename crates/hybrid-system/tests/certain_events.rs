@@ -123,6 +123,13 @@ fn starts_at_zero_are_left_by_their_derivatives() {
             assert_eq!(signal.first_crossing(not, 5.0).unwrap(), FirstCrossing::Never);
         }
     }
+    // On the surface but for rounding, as after an event.
+    let rounded = Signal::cosine(0.3, 1.0) + Signal::polynomial(&[-0.3 + 5e-17, 1.0, -0.5]);
+    let FirstCrossing::At { time } = rounded.first_crossing(Direction::Falling, 9.0).unwrap()
+    else {
+        panic!()
+    };
+    assert!(time > 1.0);
     let nothing = Signal::polynomial(&[0.0, 0.0]);
     assert_eq!(nothing.first_crossing(Direction::Either, 1.0).unwrap(), FirstCrossing::Never);
     // Tiny values are values.
