@@ -86,7 +86,7 @@ pub fn interval_basins(
     refinement: Refinement,
 ) -> Result<IntervalBasins, Error> {
     /// Intervals followed at once, between looks at the limits.
-    const TOGETHER: usize = 1024;
+    const TOGETHER: usize = 16_384;
     crate::TrapSet::new(traps.to_vec())?;
     let known = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
     // Orbits may leave the window and come back: whole intervals are followed, their parts inside kept.

@@ -8,7 +8,7 @@ use crate::plot::render::render;
 use crate::progress::Progress;
 use basin_of_attraction::{Grid, Interval, LabelImage};
 use hopper_basin::{HopperFate, basin_raster};
-use passive_hopper::alpha_star;
+use passive_hopper::{MassRatio, alpha_star};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::{BufWriter, Write};
@@ -115,6 +115,9 @@ fn grid(options: &Options) -> Result<Grid, Error> {
         {
             return Err(Error::CheckFailed(format!("a window from {from} to {to} has no pixels")));
         }
+    }
+    for &m in &options.mass_ratio {
+        MassRatio::new(m)?;
     }
     Ok(Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows })
 }
