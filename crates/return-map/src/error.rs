@@ -29,4 +29,12 @@ pub enum Error {
         /// Number of samples asked for.
         samples: usize,
     },
+    /// Newton's method found no periodic point.
+    #[error("no periodic point: the residual is {residual} after {steps} Newton steps")]
+    NoPeriodicPoint {
+        /// The largest component of fᵖ(x) − x.
+        residual: f64,
+        /// Newton steps taken.
+        steps: usize,
+    },
 }

@@ -11,6 +11,7 @@
 //! | [`ReturnMap`], [`Return`] | image, return time and number of events, in any dimension |
 //! | [`orbit`], [`cobweb`] | iterates of a scalar map, and their drawing |
 //! | [`fixed_points`], [`FixedPoint`] | crossings of the diagonal, and touches of it |
+//! | [`periodic_point`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
 //! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
 //!
 //! Each half of a ball's flight is half as long as the one before:
@@ -55,12 +56,12 @@
 //! A return is as exact as the system's crossings. [`fixed_points`] sees what its samples reveal.
 //!
 //! # Not here
-//! Derivatives of return maps, Newton's method in several dimensions, sections of plain flows that
-//! are not guards of the system.
+//! Derivatives of return maps along the flow, sections of plain flows that are not guards of the system.
 
 mod error;
 mod fixed_point;
 mod orbit;
+mod periodic_point;
 mod return_map;
 mod section;
 mod stability;
@@ -68,6 +69,7 @@ mod stability;
 pub use error::Error;
 pub use fixed_point::{FixedPoint, Meeting, fixed_points};
 pub use orbit::{cobweb, orbit};
+pub use periodic_point::{PeriodicPoint, periodic_point};
 pub use return_map::{Return, ReturnMap};
 pub use section::Section;
 pub use stability::{OneSidedStability, Side, Stability, one_sided_stability};

@@ -1,0 +1,181 @@
+//! Periodic points in any dimension, by Newton's method.
+
+use crate::Error;
+use nalgebra::{Complex, DMatrix, DVector, SMatrix, SVector};
+
+/// A point that a map takes back to itself after `period` steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PeriodicPoint<const K: usize> {
+    /// The point.
+    pub location: SVector<f64, K>,
+    /// Steps after which it comes back.
+    pub period: usize,
+    /// |fᵖ(x) − x|, the largest component.
+    pub residual: f64,
+    /// The multipliers: eigenvalues of the derivative of fᵖ there. All inside the unit circle: it
+    /// attracts.
+    pub multipliers: Vec<Complex<f64>>,
+    /// Newton steps taken.
+    pub steps: usize,
+}
+
+/// Most Newton steps.
+const STEPS: usize = 50;
+
+/// Steps are halved until the residual falls, so many times at most.
+const HALVINGS: usize = 30;
+
+/// A point of period `period` of `map`, by damped Newton steps from `start`.
+///
+/// Derivatives are central differences, so that multipliers are right to some 1e-9 for a map of machine
+/// precision; a map that is not differentiable at the point has none, whatever they say. A period found
+/// may be a multiple of the least one.
+///
+/// ```
+/// use nalgebra::Vector2;
+/// // Hénon's map: its fixed point is a saddle.
+/// let henon = |x: &Vector2<f64>| Ok(Vector2::new(1.0 - 1.4 * x[0] * x[0] + x[1], 0.3 * x[0]));
+/// let point = return_map::periodic_point(henon, &Vector2::new(0.5, 0.2), 1)?;
+/// assert!((point.location[0] - 0.631354477089505).abs() < 1e-14);
+/// assert!(point.multipliers.iter().any(|m| m.norm() > 1.0));
+/// # Ok::<(), return_map::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::NoPeriodicPoint`] if the steps end before the residual is at rounding level, for a derivative
+/// that does not allow a step, and for a period of zero; errors of the map.
+pub fn periodic_point<const K: usize>(
+    map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
+    start: &SVector<f64, K>,
+    period: usize,
+) -> Result<PeriodicPoint<K>, Error> {
+    let displacement = |x: &SVector<f64, K>| {
+        let mut image = *x;
+        for _ in 0..period {
+            image = map(&image)?;
+        }
+        Ok::<_, Error>(image - x)
+    };
+    let none = |residual: f64, steps: usize| Error::NoPeriodicPoint { residual, steps };
+    if period == 0 {
+        return Err(none(f64::NAN, 0));
+    }
+    let (mut x, mut rest) = (*start, displacement(start)?);
+    for steps in 0..=STEPS {
+        let slope = derivative(&displacement, &x)?;
+        // A few roundings of the map: further steps would follow noise.
+        let rounding = 16.0 * f64::EPSILON * period as f64 * (1.0 + x.amax());
+        let step = solve(&slope, &rest);
+        let tiny = step.is_some_and(|step| step.amax() <= rounding);
+        if rest.amax() <= rounding && (tiny || rest.amax() == 0.0 || steps == STEPS) {
+            let whole = slope + SMatrix::identity();
+            if !whole.iter().all(|entry| entry.is_finite()) {
+                return Err(none(rest.amax(), steps));
+            }
+            let multipliers =
+                DMatrix::from_column_slice(K, K, whole.as_slice()).complex_eigenvalues();
+            return Ok(PeriodicPoint {
+                location: x,
+                period,
+                residual: rest.amax(),
+                multipliers: multipliers.iter().copied().collect(),
+                steps,
+            });
+        }
+        let Some(mut step) = step else { return Err(none(rest.amax(), steps)) };
+        let size = rest.amax();
+        let mut halvings = 0;
+        loop {
+            // A step may leave the domain of the map.
+            if let Ok(next) = displacement(&(x - step))
+                && (next.amax() < size || size <= rounding)
+            {
+                (x, rest) = (x - step, next);
+                break;
+            }
+            step *= 0.5;
+            halvings += 1;
+            if halvings > HALVINGS {
+                return Err(none(size, steps));
+            }
+        }
+    }
+    Err(none(rest.amax(), STEPS))
+}
+
+/// The solution of slope · step = rest; nothing for a singular matrix.
+fn solve<const K: usize>(
+    slope: &SMatrix<f64, K, K>,
+    rest: &SVector<f64, K>,
+) -> Option<SVector<f64, K>> {
+    let matrix = DMatrix::from_column_slice(K, K, slope.as_slice());
+    let side = DVector::from_column_slice(rest.as_slice());
+    let solution = matrix.lu().solve(&side)?;
+    Some(SVector::from_column_slice(solution.as_slice()))
+}
+
+/// By central differences.
+fn derivative<const K: usize>(
+    f: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
+    x: &SVector<f64, K>,
+) -> Result<SMatrix<f64, K, K>, Error> {
+    // The cube root of an ulp balances rounding and curvature.
+    const STEP: f64 = 6e-6;
+    let mut slope = SMatrix::<f64, K, K>::zeros();
+    for axis in 0..K {
+        let step = STEP * (1.0 + x[axis].abs());
+        let (mut up, mut down) = (*x, *x);
+        up[axis] += step;
+        down[axis] -= step;
+        slope.set_column(axis, &((f(&up)? - f(&down)?) / (up[axis] - down[axis])));
+    }
+    Ok(slope)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{Vector1, Vector2};
+    use proptest::prelude::*;
+
+    #[test]
+    fn a_two_cycle_of_the_logistic_map() {
+        let map = |x: &Vector1<f64>| Ok(Vector1::new(3.2 * x[0] * (1.0 - x[0])));
+        let point = periodic_point(map, &Vector1::new(0.5), 2).unwrap();
+        // Roots of the second iterate: (r + 1 ± √((r+1)(r−3)))/(2r); its multiplier is 4 + 2r − r².
+        let exact = (4.2 - (4.2f64 * 0.2).sqrt()) / 6.4;
+        assert!((point.location[0] - exact).abs() < 1e-14, "{point:?}");
+        assert!((point.multipliers[0].re - 0.16).abs() < 1e-8);
+    }
+
+    #[test]
+    fn what_has_no_periodic_point_is_an_error() {
+        let shift = |x: &Vector1<f64>| Ok(Vector1::new(x[0] + 1.0));
+        assert!(matches!(
+            periodic_point(shift, &Vector1::new(0.0), 1),
+            Err(Error::NoPeriodicPoint { .. })
+        ));
+        let gap = |x: &Vector1<f64>| Ok(Vector1::new(x[0] * x[0] + 1.0));
+        assert!(periodic_point(gap, &Vector1::new(0.3), 1).is_err());
+        assert!(periodic_point(gap, &Vector1::new(0.3), 0).is_err());
+        let nowhere = |_: &Vector1<f64>| Ok(Vector1::new(f64::NAN));
+        assert!(periodic_point(nowhere, &Vector1::new(0.3), 1).is_err());
+    }
+
+    proptest! {
+        /// A linear map about a planted point: location and multipliers.
+        #[test]
+        fn planted(a in -5.0..5.0f64, b in -5.0..5.0f64, p in -0.9..0.9f64, q in 1.1..3.0f64, turn in 0.0..3.0f64) {
+            let (sin, cos) = pxfm::f_sincos(turn);
+            let rotation = SMatrix::<f64, 2, 2>::new(cos, -sin, sin, cos);
+            let matrix = rotation * SMatrix::<f64, 2, 2>::new(p, 0.0, 0.0, q) * rotation.transpose();
+            let center = Vector2::new(a, b);
+            let map = |x: &Vector2<f64>| Ok(center + matrix * (x - center));
+            let point = periodic_point(map, &Vector2::zeros(), 1).unwrap();
+            prop_assert!((point.location - center).amax() < 1e-11);
+            let mut found: Vec<f64> = point.multipliers.iter().map(|m| m.re).collect();
+            found.sort_by(f64::total_cmp);
+            prop_assert!((found[0] - p).abs() < 1e-7 && (found[1] - q).abs() < 1e-7, "{:?}", found);
+        }
+    }
+}
