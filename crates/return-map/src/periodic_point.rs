@@ -62,7 +62,7 @@ pub fn periodic_point<const K: usize>(
     }
     let (mut x, mut rest) = (*start, displacement(start)?);
     for steps in 0..=STEPS {
-        let slope = derivative(&displacement, &x)?;
+        let slope = derivative(displacement, &x)?;
         // A few roundings of the map: further steps would follow noise.
         let rounding = 16.0 * f64::EPSILON * period as f64 * (1.0 + x.amax());
         let step = solve(&slope, &rest);
