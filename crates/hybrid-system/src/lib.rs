@@ -69,9 +69,8 @@
 //! says so in its [`Certainty`].
 //!
 //! # Not here
-//! Guards along integrated flows. In the sampled search
-//! a start exactly on a surface that the flow then crosses within the first sample is an error, not a
-//! guess.
+//! Guards along integrated flows. In the sampled search a start exactly on a surface that the flow then
+//! crosses within the first sample is an error, not a guess.
 //!
 //! # References
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
