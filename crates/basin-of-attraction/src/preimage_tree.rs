@@ -208,3 +208,57 @@ pub fn geometric_limit(terms: &[f64]) -> Option<(f64, f64)> {
     let (value, before) = (limit(terms)?, limit(&terms[..terms.len() - 1])?);
     Some((value, (value - before).abs()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        /// Two linear branches with a gap between them: every level doubles, nodes are disjoint, and each is
+        /// mapped onto its parent by its branch.
+        #[test]
+        fn trees_of_two_linear_branches(left in 0.15..0.45f64, right in 0.55..0.85f64, flip: bool) {
+            let map = move |x: f64| {
+                Some(if x < 0.5 {
+                    x / left
+                } else if flip {
+                    (1.0 - x) / (1.0 - right)
+                } else {
+                    (x - right) / (1.0 - right)
+                })
+            };
+            let ends = if flip { (1.0, 0.0) } else { (0.0, 1.0) };
+            let branches = [
+                Branch { domain: Interval { left: 0.0, right: left }, at_left: 0.0, at_right: 1.0 },
+                Branch { domain: Interval { left: right, right: 1.0 }, at_left: ends.0, at_right: ends.1 },
+            ];
+            let gap = Interval { left, right };
+            let tree = PreimageTree::grow(&map, &branches, gap, Interval { left: 0.0, right: 1.0 }, 8);
+            prop_assert_eq!(tree.counts(), (0..=8).map(|k| 1 << k).collect::<Vec<usize>>());
+            let share = left + (1.0 - right);
+            for (level, length) in tree.lengths().into_iter().enumerate() {
+                prop_assert!((length - (right - left) * share.powi(level as i32)).abs() < 1e-12);
+                prop_assert!((tree.gaps(level).measure() - share.powi(level as i32 + 1)).abs() < 1e-12);
+            }
+            for node in tree.nodes().iter().skip(1) {
+                let Some(parent) = node.parent.map(|at| tree.nodes()[at]) else { panic!() };
+                let middle = 0.5 * (node.interval.left + node.interval.right);
+                let image = map(middle).unwrap_or(f64::NAN);
+                let wanted = 0.5 * (parent.interval.left + parent.interval.right);
+                prop_assert!((image - wanted).abs() < 1e-9 && branches[node.branch].domain.contains(middle));
+            }
+            let mut sorted: Vec<Interval> = tree.nodes().iter().map(|node| node.interval).collect();
+            sorted.sort_by(|a, b| a.left.total_cmp(&b.left));
+            prop_assert!(sorted.windows(2).all(|pair| pair[0].right <= pair[1].left + 1e-15));
+            let cantor = matches!(tree.remainder(), Remainder::Cantor { .. });
+            prop_assert!(cantor);
+        }
+    }
+
+    #[test]
+    fn limits_of_geometric_sums() {
+        assert_eq!(geometric_limit(&[1.0, 0.5, 0.25]), None);
+        assert_eq!(geometric_limit(&[1.0, 2.0, 4.0, 8.0]), None);
+    }
+}
