@@ -96,6 +96,9 @@ pub fn low_discrepancy_shares(
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
+    if replicates < 2 {
+        return Err(Error::TooFewReplicates { replicates });
+    }
     let tallies: Vec<BTreeMap<u16, usize>> = (0..replicates)
         .map(|replicate| {
             let start = uniform(seed, replicate as u64);
@@ -115,7 +118,7 @@ pub fn low_discrepancy_shares(
         let found: usize = tallies.iter().filter_map(|tally| tally.get(label)).sum();
         shares.insert(*label, with_few(estimate, found, count * replicates)?);
     }
-    if replicates < 2 { Err(Error::TooFewReplicates { replicates }) } else { Ok(shares) }
+    Ok(shares)
 }
 
 /// Hits, or misses, from which on a spread over replicates tells an error.

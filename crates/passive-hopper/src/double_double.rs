@@ -102,7 +102,7 @@ impl DoubleDouble {
 const TERMS: usize = 17;
 
 /// 1/k! for k up to 40.
-pub(crate) fn inverse_factorials() -> &'static [DoubleDouble; 40] {
+fn inverse_factorials() -> &'static [DoubleDouble; 40] {
     static TABLE: OnceLock<[DoubleDouble; 40]> = OnceLock::new();
     TABLE.get_or_init(|| {
         let mut table = [DoubleDouble::ONE; 40];

@@ -92,14 +92,32 @@ impl LiftOffMap {
     /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
     /// sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
-        if alpha <= LARGEST_PLAIN_SPEED || !alpha.is_finite() {
-            let hop = self.plain_hop(alpha, |_| ())?;
+        self.decide(alpha, |_| ()).map(|(hop, _)| hop)
+    }
+
+    /// The hop with its landings, in the arithmetic that decided it.
+    pub(crate) fn path(&self, alpha: f64) -> Result<(Hop, Vec<Landing>), Error> {
+        let mut plain = Vec::new();
+        let (hop, longer) = self.decide(alpha, |landing| plain.push(*landing))?;
+        Ok((hop, longer.unwrap_or(plain)))
+    }
+
+    /// The hop, with the landings of the longer arithmetic if that was needed; `see` sees those in plain
+    /// `f64`.
+    fn decide(
+        &self,
+        alpha: f64,
+        see: impl FnMut(&Landing),
+    ) -> Result<(Hop, Option<Vec<Landing>>), Error> {
+        check_speed(alpha)?;
+        if alpha <= LARGEST_PLAIN_SPEED {
+            let hop = self.plain_hop(alpha, see)?;
             if hop.certain || hop.sudden > DoubleDouble::SUDDEN_BUDGET {
-                return Ok(hop);
+                return Ok((hop, None));
             }
         }
-        self.landings(alpha)?; // checks α
-        Ok(self.rounded(alpha, &wide_hop(Start::Speed(alpha), self.mass_ratio)?))
+        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
+        Ok((self.rounded(alpha, &hop), Some(hop.landings)))
     }
 
     /// The hop in plain `f64`, certain or not.
@@ -137,38 +155,26 @@ impl LiftOffMap {
         }
     }
 
-    /// The hop with its landings, in the arithmetic that decided it.
-    pub(crate) fn path(&self, alpha: f64) -> Result<(Hop, Vec<Landing>), Error> {
-        let mut landings = Vec::new();
-        if alpha <= LARGEST_PLAIN_SPEED || !alpha.is_finite() {
-            let hop = self.plain_hop(alpha, |landing| landings.push(*landing))?;
-            if hop.certain || hop.sudden > DoubleDouble::SUDDEN_BUDGET {
-                return Ok((hop, landings));
-            }
-        }
-        self.landings(alpha)?; // checks α
-        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
-        Ok((self.rounded(alpha, &hop), hop.landings))
-    }
-
     /// The landings of the hop that starts with speed `alpha`, one after the other, in plain `f64`: of a
     /// hop that is decided in longer arithmetic the later ones may be others.
     ///
     /// # Errors
     /// As [`hop`](Self::hop), the budget's from the iterator.
     pub fn landings(&self, alpha: f64) -> Result<Landings, Error> {
-        if !(alpha > 0.0) || !alpha.is_finite() {
-            return Err(Error::LiftOffSpeed { value: alpha });
-        }
-        if alpha > LARGEST_LIFT_OFF_SPEED {
-            return Err(Error::LiftOffSpeedTooLarge {
-                value: alpha,
-                largest: LARGEST_LIFT_OFF_SPEED,
-            });
-        }
+        check_speed(alpha)?;
         let start = TakeOff { excess: 0.0, velocity: alpha };
         Ok(Landings { kappa: self.kappa, start: Some(start), flights: 0 })
     }
+}
+
+fn check_speed(alpha: f64) -> Result<(), Error> {
+    if !(alpha > 0.0) || !alpha.is_finite() {
+        return Err(Error::LiftOffSpeed { value: alpha });
+    }
+    if alpha > LARGEST_LIFT_OFF_SPEED {
+        return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
+    }
+    Ok(())
 }
 
 /// The landings between two gradual lift-offs; see [`LiftOffMap::landings`].

@@ -1,9 +1,9 @@
 //! What the boundary of the basins is: countable, of dimension one quarter.
 
-use super::{Finding, Job, Table, fates, hump, label};
+use super::{Finding, Job, Table, estimate, fates, hump, label};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
-use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, ticks};
+use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, ticks};
 use basin_of_attraction::{
     Estimate, IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law,
     uncertain_share,
@@ -41,16 +41,7 @@ fn basins() -> Result<IntervalBasins, Error> {
 pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
     let basins = basins()?;
     let mut svg = Svg::new(860.0, 400.0);
-    let frame = Frame {
-        left: 66.0,
-        top: 34.0,
-        width: 350.0,
-        height: 310.0,
-        x: (1e-16, 1e-1),
-        y: (0.0, 0.6),
-        x_scale: Scale::Log,
-        y_scale: Scale::Linear,
-    };
+    let frame = Frame::linear(66.0, 34.0, 350.0, 310.0, (1e-16, 1e-1), (0.0, 0.6)).log_x();
     frame.polyline(&mut svg, &[(1e-16, 0.25), (1e-1, 0.25)], Pen::dashed("#555", 1.0, "5 3"));
     svg.text(frame.left + 6.0, frame.at((1e-16, 0.25)).1 - 6.0, Anchor::Start, 11.5, "1/4");
     let mut table = Table::new(&[
@@ -209,16 +200,9 @@ fn accumulation(svg: &mut Svg, generations: &[f64]) -> Result<(), Error> {
     };
     let chosen = (1..=GENERATIONS).filter(|k| k % (k / 10).max(1) == 0);
     let points: Vec<_> = chosen.map(ratio).collect();
-    let frame = Frame {
-        left: 490.0,
-        top: 34.0,
-        width: 340.0,
-        height: 310.0,
-        x: (1.0, GENERATIONS as f64),
-        y: (0.5, 1e3),
-        x_scale: Scale::Log,
-        y_scale: Scale::Log,
-    };
+    let frame = Frame::linear(490.0, 34.0, 340.0, 310.0, (1.0, GENERATIONS as f64), (0.5, 1e3))
+        .log_x()
+        .log_y();
     svg.text(frame.left, 22.0, Anchor::Start, 13.0, "(b)  generations left of $α$^{∗}_{2}");
     frame.polyline(svg, &[(1.0, 1.0), (GENERATIONS as f64, 1.0)], Pen::dashed("#555", 1.0, "5 3"));
     frame.clipped(svg, |svg| frame.polyline(svg, &points, Pen::solid("#000", 1.7)));
@@ -239,10 +223,8 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         let share = uncertain_share(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
         Ok(vec![epsilon, share.value, share.lower, share.upper])
     })?;
-    let sampled: Vec<(f64, Estimate)> = rows
-        .iter()
-        .map(|row| (row[0], Estimate { value: row[1], lower: row[2], upper: row[3] }))
-        .collect();
+    let sampled: Vec<(f64, Estimate)> =
+        rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
     let mut widest: f64 = 0.0;
     let exact: Vec<(f64, f64)> = (0..=16)
         .map(|k| {
@@ -254,16 +236,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         .collect::<Result<_, Error>>()?;
     let law = power_law(&exact)?;
     let mut svg = Svg::new(640.0, 430.0);
-    let frame = Frame {
-        left: 70.0,
-        top: 20.0,
-        width: 540.0,
-        height: 350.0,
-        x: (1e-10, 1e-1),
-        y: (1e-8, 1.0),
-        x_scale: Scale::Log,
-        y_scale: Scale::Log,
-    };
+    let frame = Frame::linear(70.0, 20.0, 540.0, 350.0, (1e-10, 1e-1), (1e-8, 1.0)).log_x().log_y();
     let guide: Vec<_> =
         [1e-10, 1e-3].into_iter().map(|e: f64| (e, 2e-8 * pxfm::f_pow(e / 1e-10, 0.75))).collect();
     frame.clipped(&mut svg, |svg| {

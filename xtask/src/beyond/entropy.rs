@@ -4,7 +4,7 @@ use super::measure::ratio_ticks;
 use super::{FROM, Finding, Job, TO, Table, by_humps, fates, geometric, label};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
-use crate::plot::{Anchor, Frame, Pen, Scale, Svg, ticks};
+use crate::plot::{Anchor, Frame, Pen, Svg, ticks};
 use basin_of_attraction::entropy;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -45,16 +45,7 @@ pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
     let rows: Vec<Row> =
         ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[1], row[2])).collect();
     let mut svg = Svg::new(640.0, 430.0);
-    let frame = Frame {
-        left: 62.0,
-        top: 20.0,
-        width: 550.0,
-        height: 350.0,
-        x: (0.02, 50.0),
-        y: (0.0, 1.0),
-        x_scale: Scale::Log,
-        y_scale: Scale::Linear,
-    };
+    let frame = Frame::linear(62.0, 20.0, 550.0, 350.0, (0.02, 50.0), (0.0, 1.0)).log_x();
     let ln_2 = std::f64::consts::LN_2;
     frame.polyline(&mut svg, &[(0.02, ln_2), (50.0, ln_2)], Pen::dashed("#555", 1.0, "5 3"));
     svg.text(

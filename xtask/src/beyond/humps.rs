@@ -3,7 +3,7 @@
 use super::{Finding, Job, Table, fates, hump, is_incessant};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
-use crate::plot::{Anchor, Frame, Pen, Scale, Svg, decades, palette};
+use crate::plot::{Anchor, Frame, Pen, Svg, decades, palette};
 use basin_of_attraction::Refinement;
 use hopper_basin::hopper_basins;
 
@@ -46,16 +46,8 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         shares.push(row.into_iter().map(|share| (share, share + undecided)).collect());
     }
     let mut svg = Svg::new(560.0, 430.0);
-    let frame = Frame {
-        left: 70.0,
-        top: 20.0,
-        width: 440.0,
-        height: 350.0,
-        x: (0.8, LAST as f64 + 0.2),
-        y: (1e-4, 0.1),
-        x_scale: Scale::Linear,
-        y_scale: Scale::Log,
-    };
+    let frame =
+        Frame::linear(70.0, 20.0, 440.0, 350.0, (0.8, LAST as f64 + 0.2), (1e-4, 0.1)).log_y();
     // Those of higher fixed points are in the data.
     for m in 1..=5u16 {
         let at = |n: u64| shares[n as usize - 1][usize::from(m) - 1];

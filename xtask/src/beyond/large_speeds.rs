@@ -1,9 +1,9 @@
 //! Final-state uncertainty at large speeds, and whether the basins are riddled.
 
-use super::{Finding, Job, Table, fates, hump, is_incessant, label};
+use super::{Finding, Job, Table, estimate, fates, hump, is_incessant, label};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
-use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, palette};
+use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, palette};
 use basin_of_attraction::{Estimate, random_shares, uncertain_share};
 
 const M: f64 = 0.2;
@@ -28,16 +28,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         Ok(vec![epsilon, share.value, share.lower, share.upper])
     })?;
     let mut svg = Svg::new(640.0, 430.0);
-    let frame = Frame {
-        left: 70.0,
-        top: 20.0,
-        width: 440.0,
-        height: 350.0,
-        x: (1e-9, 1e-1),
-        y: (1e-5, 1.0),
-        x_scale: Scale::Log,
-        y_scale: Scale::Log,
-    };
+    let frame = Frame::linear(70.0, 20.0, 440.0, 350.0, (1e-9, 1e-1), (1e-5, 1.0)).log_x().log_y();
     let mut table = Table::new(&[
         "hump $n$",
         "$α$ about",
@@ -51,10 +42,8 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     for (k, n) in HUMPS.into_iter().enumerate() {
         let window = hump(n)?;
         let rows = &scan[k * DECADES..(k + 1) * DECADES];
-        let points: Vec<(f64, Estimate)> = rows
-            .iter()
-            .map(|row| (row[0], Estimate { value: row[1], lower: row[2], upper: row[3] }))
-            .collect();
+        let points: Vec<(f64, Estimate)> =
+            rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
         data.extend(rows.iter().map(|row| {
             std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()
         }));

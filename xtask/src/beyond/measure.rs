@@ -1,12 +1,12 @@
 //! The measure of each basin against the mass ratio, and how M and 1/M differ.
 
 use super::{
-    FROM, Finding, Job, TO, Table, bounds, by_humps, fates, geometric, hump, is_incessant, label,
-    percent,
+    FROM, Finding, Job, TO, Table, bounds, by_humps, estimate, fates, geometric, hump,
+    is_incessant, label, percent,
 };
 use crate::Error;
 use crate::figures::{Figure, csv_file};
-use crate::plot::{Anchor, Frame, Pen, Scale, Svg, decades, palette};
+use crate::plot::{Anchor, Frame, Pen, Svg, decades, palette};
 use basin_of_attraction::{
     Estimate, Interval, Refinement, equally_spaced_shares, low_discrepancy_shares, random_shares,
     wilson,
@@ -89,21 +89,12 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
             |label: u16| shares.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
         Ok(LABELS.into_iter().flat_map(numbers).collect())
     })?;
-    let estimate = |three: &[f64]| Estimate { value: three[0], lower: three[1], upper: three[2] };
     let shares_of = |row: &Vec<f64>| LABELS.into_iter().zip(row.chunks(3).map(estimate)).collect();
     let all: Vec<(f64, Shares)> =
         ratios.iter().zip(&scan).map(|(&m, row)| (m, shares_of(row))).collect();
     let mut svg = Svg::new(700.0, 470.0);
-    let frame = Frame {
-        left: 70.0,
-        top: 20.0,
-        width: 600.0,
-        height: 380.0,
-        x: (RATIOS.0, RATIOS.1),
-        y: (1e-5, 1.5),
-        x_scale: Scale::Log,
-        y_scale: Scale::Log,
-    };
+    let frame =
+        Frame::linear(70.0, 20.0, 600.0, 380.0, (RATIOS.0, RATIOS.1), (1e-5, 1.5)).log_x().log_y();
     let touch = crisis(1)?.mass_ratio;
     for m in [touch, 1.0 / touch] {
         let x = frame.at((m, 1.0)).0;
@@ -261,16 +252,8 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
     let rows: Vec<Row> =
         ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[2], row[4])).collect();
     let mut svg = Svg::new(640.0, 430.0);
-    let frame = Frame {
-        left: 70.0,
-        top: 20.0,
-        width: 540.0,
-        height: 350.0,
-        x: (RATIOS.0, 1.0),
-        y: (1e-3, 1.5),
-        x_scale: Scale::Log,
-        y_scale: Scale::Log,
-    };
+    let frame =
+        Frame::linear(70.0, 20.0, 540.0, 350.0, (RATIOS.0, 1.0), (1e-3, 1.5)).log_x().log_y();
     type Column = fn(&Row) -> f64;
     let curves: [(Column, Pen, &str); 3] = [
         (|row| row.1, Pen::solid("#0072b2", 1.8), "incessant at $M$"),

@@ -158,6 +158,11 @@ fn by_humps(place: f64) -> f64 {
     left + (right - left) * (place - whole as f64)
 }
 
+/// Three numbers of a scan: value, lower and upper end.
+fn estimate(three: &[f64]) -> Estimate {
+    Estimate { value: three[0], lower: three[1], upper: three[2] }
+}
+
 /// A share with its interval, in per cent.
 fn percent(share: &Estimate) -> String {
     let digits = if share.half_width() > 5e-4 { 2 } else { 4 };

@@ -3,7 +3,7 @@
 use super::{Finding, Job, Table, fates};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
-use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, palette};
+use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, palette};
 use hopper_basin::{ReachEdge, crisis, reach, recovery};
 
 const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
@@ -37,16 +37,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
         table.row(cells);
     }
     let mut svg = Svg::new(640.0, 430.0);
-    let frame = Frame {
-        left: 70.0,
-        top: 20.0,
-        width: 540.0,
-        height: 350.0,
-        x: (1e-5, 1e-1),
-        y: (8.0, 120.0),
-        x_scale: Scale::Log,
-        y_scale: Scale::Log,
-    };
+    let frame = Frame::linear(70.0, 20.0, 540.0, 350.0, (1e-5, 1e-1), (8.0, 120.0)).log_x().log_y();
     let mut data = Vec::new();
     for n in 1..=humps as u64 {
         let color = palette::css(n as u16);

@@ -3,7 +3,7 @@
 use super::{FROM, Finding, Job, TO, Table, fates};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
-use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades, ticks};
+use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, ticks};
 use basin_of_attraction::{Interval, PreimageTree, Refinement, Remainder};
 use hopper_basin::{branches, hopper_basins};
 use passive_hopper::alpha_star;
@@ -73,16 +73,7 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
         }
     }
     let mut svg = Svg::new(640.0, 430.0);
-    let frame = Frame {
-        left: 70.0,
-        top: 20.0,
-        width: 480.0,
-        height: 350.0,
-        x: (0.0, DRAWN as f64),
-        y: (1e-8, 1.0),
-        x_scale: Scale::Linear,
-        y_scale: Scale::Log,
-    };
+    let frame = Frame::linear(70.0, 20.0, 480.0, 350.0, (0.0, DRAWN as f64), (1e-8, 1.0)).log_y();
     let left: Vec<_> =
         rows.iter().map(|row| (row.0 as f64, (total.value - row.3).max(1e-8))).collect();
     frame.clipped(&mut svg, |svg| frame.polyline(svg, &left, Pen::solid("#0072b2", 1.5)));

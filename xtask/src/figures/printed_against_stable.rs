@@ -3,7 +3,7 @@
 use super::{Figure, csv_file};
 use crate::Error;
 use crate::output::repository;
-use crate::plot::{Anchor, Frame, Marker, Scale, Svg, decades};
+use crate::plot::{Anchor, Frame, Marker, Svg, decades};
 use crate::progress::Progress;
 use crate::reference::{number, parse_rows};
 use hopper_asymptotics::{Coefficients, Form, Left, Right};
@@ -38,18 +38,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     for (k, (sign, name)) in
         [(-1.0, "left: $δ$ < 0"), (1.0, "right: $δ$ > 0")].into_iter().enumerate()
     {
-        let (x_scale, y_scale) = (Scale::Log, Scale::Log);
         let left = 64.0 + 372.0 * k as f64;
-        let frame = Frame {
-            left,
-            top: 30.0,
-            width: 340.0,
-            height: 290.0,
-            x: OFFSETS,
-            y: ERRORS,
-            x_scale,
-            y_scale,
-        };
+        let frame = Frame::linear(left, 30.0, 340.0, 290.0, OFFSETS, ERRORS).log_x().log_y();
         svg.text(left + 170.0, 20.0, Anchor::Middle, 13.0, name);
         side(&mut svg, &frame, rows.iter().filter(|row| row.offset * sign > 0.0));
         let mut y_ticks = decades(ERRORS, 2);

@@ -1,6 +1,6 @@
 //! Time against error of every way to compute a hop, class by class.
 
-use crate::plot::{Anchor, Frame, Marker, Pen, Scale, Svg, decades};
+use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades};
 use crate::work_precision::{METHODS, Method, Score};
 use std::time::Duration;
 
@@ -66,8 +66,7 @@ pub(crate) fn work_precision_figure(scores: &[Score], unit: Duration) -> String 
 }
 
 fn frame(left: f64, top: f64, width: f64, height: f64) -> Frame {
-    let (x_scale, y_scale) = (Scale::Log, Scale::Log);
-    Frame { left, top, width, height, x: TIMES, y: ERRORS, x_scale, y_scale }
+    Frame::linear(left, top, width, height, TIMES, ERRORS).log_x().log_y()
 }
 
 fn axes(svg: &mut Svg, frame: &Frame, named_y: bool, named_x: bool) {

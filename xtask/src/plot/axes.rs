@@ -59,6 +59,18 @@ impl Frame {
         Frame { left, top, width, height, x, y, x_scale: Scale::Linear, y_scale: Scale::Linear }
     }
 
+    /// The same with x laid out in equal factors.
+    #[must_use]
+    pub fn log_x(self) -> Self {
+        Frame { x_scale: Scale::Log, ..self }
+    }
+
+    /// The same with y laid out in equal factors.
+    #[must_use]
+    pub fn log_y(self) -> Self {
+        Frame { y_scale: Scale::Log, ..self }
+    }
+
     /// Data to page.
     pub fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (
