@@ -1,7 +1,6 @@
 //! Infinitely many events in finite time (Zeno): recognised by their durations, with the limit.
 
 use crate::State;
-use std::collections::VecDeque;
 
 /// The limit of infinitely many events.
 ///
@@ -33,33 +32,37 @@ const LONGEST: usize = 4;
 /// What may be left, relative to the time so far.
 const LEFT: f64 = 1e-12;
 
-/// The last arcs: how long each was, and the state after it.
+/// Arcs that are kept: those of the longest period, so often as they must agree, and once more.
+const KEPT: usize = (PERIODS + 1) * LONGEST;
+
+/// The last arcs: how long each was, and the state after it; the newest last.
 #[derive(Debug, Clone)]
 pub(crate) struct History<const N: usize> {
-    arcs: VecDeque<(f64, State<N>)>,
+    durations: [f64; KEPT],
+    states: [State<N>; KEPT],
+    arcs: usize,
 }
 
 impl<const N: usize> History<N> {
     pub(crate) fn new() -> Self {
-        History { arcs: VecDeque::new() }
+        History { durations: [0.0; KEPT], states: [State::zeros(); KEPT], arcs: 0 }
     }
 
     pub(crate) fn push(&mut self, duration: f64, after: State<N>) {
-        if self.arcs.len() == (PERIODS + 1) * LONGEST {
-            self.arcs.pop_front();
-        }
-        self.arcs.push_back((duration, after));
+        self.durations.rotate_left(1);
+        self.states.rotate_left(1);
+        (self.durations[KEPT - 1], self.states[KEPT - 1]) = (duration, after);
+        self.arcs = (self.arcs + 1).min(KEPT);
     }
 
     pub(crate) fn clear(&mut self) {
-        self.arcs.clear();
+        self.arcs = 0;
     }
 
     /// The limit, if the events accumulate; `time` is that of the last of so many.
     pub(crate) fn accumulation(&self, time: f64, events: usize) -> Option<Accumulation<N>> {
         // The common case first: the last arc is no small part of all.
-        let &(last, _) = self.arcs.back()?;
-        if !(last < 1e-3 * time) {
+        if self.arcs == 0 || !(self.durations[KEPT - 1] < 1e-3 * time) {
             return None;
         }
         let mut limit = (1..=LONGEST).find_map(|period| self.with_period(period, time))?;
@@ -69,15 +72,15 @@ impl<const N: usize> History<N> {
     }
 
     fn with_period(&self, period: usize, time: f64) -> Option<Accumulation<N>> {
-        let newest = self.arcs.len();
-        let start = newest.checked_sub((PERIODS + 1) * period)?;
-        let sums: Vec<f64> = (0..=PERIODS)
-            .map(|k| {
-                let from = start + k * period;
-                self.arcs.range(from..from + period).map(|(duration, _)| duration).sum()
-            })
-            .collect();
-        let ratios: Vec<f64> = sums.windows(2).map(|pair| pair[1] / pair[0]).collect();
+        let needed = (PERIODS + 1) * period;
+        if self.arcs < needed {
+            return None;
+        }
+        let start = KEPT - needed;
+        let sums: [f64; PERIODS + 1] = std::array::from_fn(|k| {
+            self.durations[start + k * period..][..period].iter().sum()
+        });
+        let ratios: [f64; PERIODS] = std::array::from_fn(|k| sums[k + 1] / sums[k]);
         let lowest = ratios.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = ratios.iter().copied().fold(0.0, f64::max);
         if !(highest < 1.0 && lowest > 0.0 && highest - lowest <= 0.01 * highest) {
@@ -88,8 +91,8 @@ impl<const N: usize> History<N> {
         if !(rest(highest) <= LEFT * time) {
             return None;
         }
-        let (now, before) = (self.arcs[newest - 1].1, self.arcs[newest - 1 - period].1);
-        let step = now - before;
+        let now = self.states[KEPT - 1];
+        let step = now - self.states[KEPT - 1 - period];
         Some(Accumulation {
             time: time + rest(ratio),
             time_error: rest(highest) - rest(lowest),

@@ -1,6 +1,6 @@
 //! Arcs and events: the pieces of an execution.
 
-use crate::{Accumulation, Certainty, HybridSystem, State};
+use crate::{Accumulation, Certainty, Error, HybridSystem, State};
 
 /// A jump between two arcs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,11 +56,19 @@ pub struct Arc<M, S, const N: usize> {
 
 impl<M: Copy, S: Copy, const N: usize> Arc<M, S, N> {
     /// The state `elapsed` after the start of the arc, by the flow of `system`.
-    pub fn state<T>(&self, system: &T, elapsed: f64) -> State<N>
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`] where the flow has none.
+    pub fn state<T>(&self, system: &T, elapsed: f64) -> Result<State<N>, Error>
     where
         T: HybridSystem<N, Mode = M, Surface = S>,
     {
-        system.flow(self.mode, &self.start, elapsed)
+        let state = system.flow(self.mode, &self.start, elapsed);
+        if state.iter().all(|component| component.is_finite()) {
+            return Ok(state);
+        }
+        let (time, jumps) = (self.time + elapsed, self.jump);
+        Err(Error::StateNotFinite { time, jumps, state: state.iter().copied().collect() })
     }
 
     /// The event that ends the arc, if one does.

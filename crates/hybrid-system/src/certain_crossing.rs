@@ -20,6 +20,8 @@ pub enum FirstCrossing {
     At {
         /// When.
         time: f64,
+        /// Whether it goes from negative to positive.
+        rising: bool,
     },
     /// It comes so close to zero here that rounding hides whether it touches, crosses twice or stays
     /// away; before, it does not cross.
@@ -49,7 +51,8 @@ impl Signal {
     /// use hybrid_system::{Direction, FirstCrossing, Signal};
     /// // t³ − t⁴ leaves zero upwards, cubically, and comes back at 1.
     /// let g = Signal::polynomial(&[0.0, 0.0, 0.0, 1.0, -1.0]);
-    /// assert_eq!(g.first_crossing(Direction::Either, 9.0)?, FirstCrossing::At { time: 1.0 });
+    /// let back = FirstCrossing::At { time: 1.0, rising: false };
+    /// assert_eq!(g.first_crossing(Direction::Either, 9.0)?, back);
     /// // (t − 1)² touches.
     /// let g = Signal::polynomial(&[1.0, -2.0, 1.0]);
     /// assert!(matches!(g.first_crossing(Direction::Either, 9.0)?, FirstCrossing::Grazing { .. }));
@@ -65,24 +68,34 @@ impl Signal {
         direction: Direction,
         horizon: f64,
     ) -> Result<FirstCrossing, Error> {
+        self.first_crossing_from(direction, horizon, 0.0)
+    }
+
+    /// The same for a start that may be off by `start_error`.
+    pub(crate) fn first_crossing_from(
+        &self,
+        direction: Direction,
+        horizon: f64,
+        start_error: f64,
+    ) -> Result<FirstCrossing, Error> {
         self.check()?;
         if !(horizon >= 0.0 && horizon.is_finite()) {
             return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
         }
-        let Some(start) = self.leave(horizon)? else { return Ok(FirstCrossing::Never) };
+        let Some(start) = self.leave(horizon, start_error)? else { return Ok(FirstCrossing::Never) };
         Search::new(self).run(start, direction, horizon)
     }
 
     /// How the signal leaves its start: a time up to which it does not vanish again, and its sign;
     /// nothing if it is zero throughout.
-    fn leave(&self, horizon: f64) -> Result<Option<(f64, f64)>, Error> {
+    fn leave(&self, horizon: f64, start_error: f64) -> Result<Option<(f64, f64)>, Error> {
         let mut derivative = self.clone();
         let mut factorial = 1.0; // k!
         for order in 0..=ORDERS {
             let value = derivative.value(0.0);
             let next = derivative.derivative();
             // After an event on its surface the guard is zero but for rounding.
-            let on_surface = order == 0 && value.abs() <= derivative.rounding(0.0);
+            let on_surface = order == 0 && value.abs() <= derivative.rounding(0.0) + start_error;
             if value == 0.0 || on_surface {
                 if next.bound(horizon) == 0.0 {
                     return Ok(None);
@@ -174,7 +187,7 @@ impl<'a> Search<'a> {
                         if direction.admits(sign, -sign) {
                             let time = self.root(left, beyond, sign)?;
                             return Ok(if time <= horizon {
-                                FirstCrossing::At { time }
+                                FirstCrossing::At { time, rising: sign < 0.0 }
                             } else {
                                 FirstCrossing::Never
                             });
@@ -227,6 +240,13 @@ impl<'a> Search<'a> {
         if value(left) * sign <= 0.0 {
             return Ok(left);
         }
-        bracketed_root(value, left, right)
+        // A search that goes on from there does not find it again.
+        let mut time = bracketed_root(value, left, right)?;
+        let mut step = 1;
+        while time < right && value(time) * sign > 0.0 {
+            time = f64::from_bits(time.to_bits() + step).min(right);
+            step *= 2;
+        }
+        Ok(time)
     }
 }

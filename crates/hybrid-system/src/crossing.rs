@@ -1,6 +1,7 @@
 //! The first crossing of a guard along a flow, and how sure it is.
 
-use crate::{Error, FirstCrossing, Guard, HybridSystem, Signal, State, bracketed_root};
+use crate::enclosure::Enclosed;
+use crate::{Error, FirstCrossing, Guard, HybridSystem, State, bracketed_root};
 
 /// How sure it is that a crossing is the first one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,6 +10,9 @@ pub enum Certainty {
     Exact,
     /// Bracketed under a bound: no earlier crossing can exist.
     Certain,
+    /// Found along an integrated flow, on polynomials through the guard's values on the integrator's
+    /// interpolant: none of theirs was missed. The flow itself is as exact as its tolerances.
+    Interpolated,
     /// Looked for at an interval; two crossings inside one interval would have been missed.
     Sampled {
         /// The interval.
@@ -30,67 +34,8 @@ pub struct Crossing<S, const N: usize> {
     pub certainty: Certainty,
 }
 
-/// The search under bounds of [`HybridSystem::first_crossing`]; nothing unless the horizon is finite and all
-/// guards are signals.
-pub(crate) fn certain_crossing<T, const N: usize>(
-    system: &T,
-    mode: T::Mode,
-    start: &State<N>,
-    horizon: f64,
-) -> Option<Result<Option<Crossing<T::Surface, N>>, Error>>
-where
-    T: HybridSystem<N> + ?Sized,
-{
-    let guards = system.guards(mode);
-    if !horizon.is_finite() || guards.is_empty() {
-        return None;
-    }
-    let signals: Option<Vec<(Guard<T::Surface>, Signal)>> = guards
-        .iter()
-        .map(|&guard| Some((guard, system.guard_signal(mode, guard.surface, start)?)))
-        .collect();
-    Some(earliest(system, mode, start, horizon, &signals?))
-}
-
-/// The earliest of the signals' crossings; of equal ones that of the guard listed first.
-fn earliest<T, const N: usize>(
-    system: &T,
-    mode: T::Mode,
-    start: &State<N>,
-    horizon: f64,
-    signals: &[(Guard<T::Surface>, Signal)],
-) -> Result<Option<Crossing<T::Surface, N>>, Error>
-where
-    T: HybridSystem<N> + ?Sized,
-{
-    let mut best: Option<(f64, T::Surface)> = None;
-    let mut grazing: Option<(f64, f64, T::Surface)> = None;
-    for (guard, signal) in signals {
-        match signal.first_crossing(guard.direction, horizon)? {
-            FirstCrossing::At { time } if best.is_none_or(|(first, _)| time < first) => {
-                best = Some((time, guard.surface));
-            }
-            FirstCrossing::Grazing { time, value }
-                if grazing.is_none_or(|(first, ..)| time < first) =>
-            {
-                grazing = Some((time, value, guard.surface));
-            }
-            _ => {}
-        }
-    }
-    if let Some((time, value, surface)) = grazing
-        && best.is_none_or(|(first, _)| time <= first)
-    {
-        return Err(Error::Grazing { surface: format!("{surface:?}"), time, value });
-    }
-    Ok(best.map(|(time, surface)| {
-        let state = system.flow(mode, start, time);
-        Crossing { surface, time, state, certainty: Certainty::Certain }
-    }))
-}
-
 /// The provided search of [`HybridSystem::first_crossing`].
-pub(crate) fn sampled_crossing<T, const N: usize>(
+pub(crate) fn earliest_crossing<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     start: &State<N>,
@@ -100,52 +45,168 @@ pub(crate) fn sampled_crossing<T, const N: usize>(
 where
     T: HybridSystem<N> + ?Sized,
 {
+    let mut best: Option<(f64, usize)> = None;
+    let mut grazing: Option<(f64, f64, usize)> = None;
+    let mut unbounded = Vec::new();
     let guards = system.guards(mode);
-    let Some(first) = guards.first() else { return Ok(None) };
-    let interval = interval
-        .ok_or_else(|| Error::NoSamplingInterval { surface: format!("{:?}", first.surface) })?;
+    for (index, &guard) in guards.iter().enumerate() {
+        match certain_crossing(system, mode, start, horizon, guard)? {
+            Some(FirstCrossing::At { time, .. }) if best.is_none_or(|(first, _)| time < first) => {
+                best = Some((time, index));
+            }
+            Some(FirstCrossing::Grazing { time, value })
+                if grazing.is_none_or(|(first, ..)| time < first) =>
+            {
+                grazing = Some((time, value, index));
+            }
+            Some(_) => {}
+            None => unbounded.push(index),
+        }
+    }
+    let mut certainty = Certainty::Certain;
+    if let Some(&first) = unbounded.first() {
+        let surface = || format!("{:?}", guards[first].surface);
+        let interval = interval.ok_or_else(|| Error::NoSamplingInterval { surface: surface() })?;
+        certainty = Certainty::Sampled { interval };
+        let until = best.map_or(horizon, |(time, _)| time);
+        let sampled = sampled_crossing(system, mode, start, until, interval, &unbounded)?;
+        if let Some(found) = sampled
+            && best.is_none_or(|best| found < best)
+        {
+            best = Some(found);
+        }
+    }
+    if let Some((time, value, index)) = grazing
+        && best.is_none_or(|(first, _)| time <= first)
+    {
+        let surface = format!("{:?}", guards[index].surface);
+        return Err(Error::Grazing { surface, time, value });
+    }
+    Ok(best.map(|(time, index)| {
+        let state = system.flow(mode, start, time);
+        Crossing { surface: guards[index].surface, time, state, certainty }
+    }))
+}
+
+/// The first crossing of one guard for which the model gives bounds, up to a finite horizon.
+fn certain_crossing<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    start: &State<N>,
+    horizon: f64,
+    guard: Guard<T::Surface>,
+) -> Result<Option<FirstCrossing>, Error>
+where
+    T: HybridSystem<N> + ?Sized,
+{
+    if !horizon.is_finite() {
+        return Ok(None);
+    }
+    let Guard { surface, direction } = guard;
+    let value = |time: f64| system.guard_value(surface, &system.flow(mode, start, time));
+    let behind = |found| match found {
+        FirstCrossing::At { time, rising } => {
+            FirstCrossing::At { time: behind(value, time, rising).min(horizon), rising }
+        }
+        other => other,
+    };
+    let error = rounding_at(start, &start.abs(), |state| system.guard_value(surface, state));
+    if let Some(signal) = system.guard_signal(mode, surface, start) {
+        return signal.first_crossing_from(direction, horizon, error).map(behind).map(Some);
+    }
+    let enclosure = |order, times| system.guard_enclosure(mode, surface, start, order, times);
+    if enclosure(0, (0.0, 0.0)).is_none() {
+        return Ok(None);
+    }
+    Enclosed { value, enclosure }.first_crossing(direction, horizon, error).map(behind).map(Some)
+}
+
+/// Ulps of its time that a crossing may be moved by: the square root of one, as between two roots so close that
+/// they are hardly seen.
+const MOST_ULPS: u64 = 1 << 27;
+
+/// The first time from that of a crossing on at which the guard as the model has it is not before its surface
+/// any more: a search that goes on from there does not find the crossing again.
+fn behind(value: impl Fn(f64) -> f64, crossing: f64, rising: bool) -> f64 {
+    let (mut time, mut step) = (crossing, 1u64);
+    while (value(time) < 0.0) == rising && value(time) != 0.0 {
+        if step > MOST_ULPS {
+            return crossing;
+        }
+        time = f64::from_bits(time.to_bits() + step);
+        step *= 2;
+    }
+    time
+}
+
+/// How much a rounding of each component, relative to its `size`, changes a guard: what a guard that is zero
+/// may show instead.
+pub(crate) fn rounding_at<const N: usize>(
+    state: &State<N>,
+    size: &State<N>,
+    guard: impl Fn(&State<N>) -> f64,
+) -> f64 {
+    let value = guard(state);
+    let change = |axis: usize| {
+        let mut moved = *state;
+        moved[axis] += 2.0 * f64::EPSILON * size[axis];
+        (guard(&moved) - value).abs()
+    };
+    let sum: f64 = (0..N).map(change).sum();
+    if sum.is_finite() { 2.0 * sum } else { 0.0 }
+}
+
+/// The first crossing, and the place in the list, of the guards `watched`, by samples.
+fn sampled_crossing<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    start: &State<N>,
+    horizon: f64,
+    interval: f64,
+    watched: &[usize],
+) -> Result<Option<(f64, usize)>, Error>
+where
+    T: HybridSystem<N> + ?Sized,
+{
     if !(interval > 0.0) || !horizon.is_finite() || horizon + interval == horizon {
         return Err(Error::BadSamplingInterval { interval, horizon });
     }
-
-    let mut watches: Vec<Watch<T::Surface>> = guards
+    let guards = system.guards(mode);
+    let mut watches: Vec<Watch<T::Surface>> = watched
         .iter()
-        .map(|&guard| Watch::new(guard, system.guard_value(guard.surface, start)))
+        .map(|&index| {
+            Watch::new(guards[index], system.guard_value(guards[index].surface, start))
+        })
         .collect();
-    let mut index = 0u64;
+    let mut sample = 0u64;
     loop {
-        index += 1;
-        let time = (index as f64 * interval).min(horizon);
-        let sample = system.flow(mode, start, time);
-        let mut earliest: Option<(f64, T::Surface)> = None;
-        for watch in &mut watches {
-            let value = system.guard_value(watch.guard.surface, &sample);
+        sample += 1;
+        let time = (sample as f64 * interval).min(horizon);
+        let state = system.flow(mode, start, time);
+        let mut earliest: Option<(f64, usize)> = None;
+        for (watch, &index) in watches.iter_mut().zip(watched) {
+            let surface = watch.guard.surface;
+            let value = system.guard_value(surface, &state);
             if !value.is_finite() {
                 return Err(Error::NotFinite { at: time, value });
             }
             let Some(bracket) = watch.advance(time, value, interval)? else { continue };
-            let surface = watch.guard.surface;
             let along = |t: f64| system.guard_value(surface, &system.flow(mode, start, t));
             let at = bracketed_root(along, bracket.0, bracket.1)?;
             let at = beyond(along, at, bracket.1, value);
             if earliest.is_none_or(|(best, _)| at < best) {
-                earliest = Some((at, surface));
+                earliest = Some((at, index));
             }
         }
-        if let Some((time, surface)) = earliest {
-            let state = system.flow(mode, start, time);
-            let certainty = Certainty::Sampled { interval };
-            return Ok(Some(Crossing { surface, time, state, certainty }));
-        }
-        if time >= horizon {
-            return Ok(None);
+        if earliest.is_some() || time >= horizon {
+            return Ok(earliest);
         }
     }
 }
 
 /// The first time from `root` on at which the guard has the sign it has at `right`: an execution
 /// that goes on from there does not cross again.
-fn beyond(along: impl Fn(f64) -> f64, root: f64, right: f64, at_right: f64) -> f64 {
+pub(crate) fn beyond(along: impl Fn(f64) -> f64, root: f64, right: f64, at_right: f64) -> f64 {
     let mut time = root;
     let mut step = 1u64;
     while time < right && along(time).signum() != at_right.signum() || along(time) == 0.0 {

@@ -70,6 +70,20 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A bound on a guard that is no interval.
+    #[error("the guard's bounds of order {order} on [{from}, {to}] are [{low}, {high}]")]
+    BadEnclosure {
+        /// Order of the derivative.
+        order: u32,
+        /// Start of the stretch of time.
+        from: f64,
+        /// Its end.
+        to: f64,
+        /// Lower bound.
+        low: f64,
+        /// Upper bound.
+        high: f64,
+    },
     /// A guard that comes so close to its surface that rounding hides whether it crosses.
     #[error("guard {surface} grazes its surface at time {time}, with value {value}")]
     Grazing {

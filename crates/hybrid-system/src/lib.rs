@@ -82,6 +82,7 @@ mod arc;
 mod bracketed_root;
 mod certain_crossing;
 mod crossing;
+mod enclosure;
 mod error;
 mod execution;
 mod guard;
@@ -96,11 +97,14 @@ pub use arc::{Arc, ArcEnd, Event};
 pub use bracketed_root::bracketed_root;
 pub use certain_crossing::FirstCrossing;
 pub use crossing::{Certainty, Crossing};
+pub use enclosure::Enclosure;
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard};
 #[cfg(feature = "ode")]
-pub use ode::{Integration, Tolerances};
-pub use sensitivity::{Differentiable, arc_sensitivity, sensitivity};
+pub use ode::{
+    Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
+};
+pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use signal::Signal;
-pub use system::{HybridSystem, Reset, State};
+pub use system::{HybridSystem, Reset, State, VectorField};

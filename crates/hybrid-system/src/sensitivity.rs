@@ -10,14 +10,11 @@
 //! with the reset R, the vector fields f⁻, f⁺ on both sides and the guard g (Müller 1995; Leine and
 //! Nijmeijer 2004). Where the orbit only grazes, ∇g·f⁻ = 0 and there is no such matrix.
 
-use crate::{Arc, Error, HybridSystem, State};
-use nalgebra::SMatrix;
+use crate::{Arc, ArcEnd, Error, Event, State, VectorField};
+use nalgebra::{RowSVector, SMatrix};
 
 /// The derivatives of a hybrid system that sensitivities need.
-pub trait Differentiable<const N: usize>: HybridSystem<N> {
-    /// f of ẋ = f(x) in `mode`.
-    fn vector_field(&self, mode: Self::Mode, state: &State<N>) -> State<N>;
-
+pub trait Differentiable<const N: usize>: VectorField<N> {
     /// ∂φ(t; x₀)/∂x₀.
     fn flow_jacobian(&self, mode: Self::Mode, start: &State<N>, time: f64) -> SMatrix<f64, N, N>;
 
@@ -66,10 +63,12 @@ const SLOWEST: f64 = 1e-12;
 ///         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
 ///     }
 /// }
-/// impl Differentiable<2> for Ball {
+/// impl VectorField<2> for Ball {
 ///     fn vector_field(&self, _: (), x: &State<2>) -> State<2> {
 ///         Vector2::new(x[1], -1.0)
 ///     }
+/// }
+/// impl Differentiable<2> for Ball {
 ///     fn flow_jacobian(&self, _: (), _: &State<2>, t: f64) -> SMatrix<f64, 2, 2> {
 ///         Matrix2::new(1.0, t, 0.0, 1.0)
 ///     }
@@ -91,7 +90,8 @@ const SLOWEST: f64 = 1e-12;
 ///
 /// # Errors
 /// [`Error::GrazingSensitivity`] if the guard is crossed so slowly that there is no derivative;
-/// [`Error::NoSensitivity`] for an arc that never ends, or ends in an accumulation.
+/// [`Error::NoSensitivity`] for an arc that never ends, or ends in an accumulation, or along which the flow
+/// has no derivative.
 pub fn arc_sensitivity<T, const N: usize>(
     system: &T,
     arc: &Arc<T::Mode, T::Surface, N>,
@@ -99,21 +99,71 @@ pub fn arc_sensitivity<T, const N: usize>(
 where
     T: Differentiable<N>,
 {
-    if !arc.duration.is_finite() || matches!(arc.end, crate::ArcEnd::Accumulation { .. }) {
+    let along = transition(system, arc)?;
+    let Some(event) = arc.event() else { return Ok(along) };
+    let Some((mode, after)) = event.after else { return Ok(along) };
+    let (before, arrival) = arrival(system, arc.mode, event)?;
+    let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
+    let jump = system.vector_field(mode, &after) - reset * before;
+    Ok((reset - jump * arrival) * along)
+}
+
+/// How a small change at the start of `arc` shows right after the event that ends it, and in the time of that
+/// event: (∂x⁺/∂x₀, ∂τ/∂x₀). Compared at the event, whenever it is, not at the same time.
+///
+/// # Errors
+/// As [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the execution.
+pub fn event_sensitivity<T, const N: usize>(
+    system: &T,
+    arc: &Arc<T::Mode, T::Surface, N>,
+) -> Result<(SMatrix<f64, N, N>, RowSVector<f64, N>), Error>
+where
+    T: Differentiable<N>,
+{
+    let none = Error::NoSensitivity { time: arc.time };
+    let event = arc.event().filter(|event| event.after.is_some()).ok_or(none)?;
+    let along = transition(system, arc)?;
+    let (before, arrival) = arrival(system, arc.mode, event)?;
+    let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
+    // The state on the surface moves by Φδx₀ + f⁻δτ.
+    let on_surface = along + before * (arrival * along);
+    Ok((reset * on_surface, arrival * along))
+}
+
+/// Φ along the whole arc.
+fn transition<T, const N: usize>(
+    system: &T,
+    arc: &Arc<T::Mode, T::Surface, N>,
+) -> Result<SMatrix<f64, N, N>, Error>
+where
+    T: Differentiable<N>,
+{
+    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Accumulation { .. }) {
         return Err(Error::NoSensitivity { time: arc.time });
     }
     let along = system.flow_jacobian(arc.mode, &arc.start, arc.duration);
-    let Some(event) = arc.event() else { return Ok(along) };
-    let Some((mode, after)) = event.after else { return Ok(along) };
+    if along.iter().all(|entry| entry.is_finite()) {
+        return Ok(along);
+    }
+    Err(Error::NoSensitivity { time: arc.time })
+}
+
+/// f⁻, and how the time of the event changes with the state before it: −∇gᵀ/(∇g·f⁻).
+fn arrival<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    event: &Event<T::Mode, T::Surface, N>,
+) -> Result<(State<N>, RowSVector<f64, N>), Error>
+where
+    T: Differentiable<N>,
+{
     let gradient = system.guard_gradient(event.surface, &event.before);
-    let before = system.vector_field(arc.mode, &event.before);
+    let before = system.vector_field(mode, &event.before);
     let rate = gradient.dot(&before);
     if !(rate.abs() > SLOWEST * gradient.norm() * before.norm()) {
         return Err(Error::GrazingSensitivity { time: event.time, rate });
     }
-    let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
-    let jump = system.vector_field(mode, &after) - reset * before;
-    Ok((reset + jump * gradient.transpose() / rate) * along)
+    Ok((before, -gradient.transpose() / rate))
 }
 
 /// How a small change at the start of the first of `arcs` shows at the end of the last.

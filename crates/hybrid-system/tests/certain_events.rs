@@ -11,7 +11,7 @@ use std::f64::consts::PI;
 fn crossings(signal: &Signal, shift: impl Fn(f64) -> Signal, horizon: f64) -> Vec<f64> {
     let (mut times, mut from) = (Vec::new(), 0.0);
     let mut now = signal.clone();
-    while let FirstCrossing::At { time } =
+    while let FirstCrossing::At { time, .. } =
         now.first_crossing(Direction::Either, horizon - from).unwrap()
     {
         from += time;
@@ -57,7 +57,7 @@ fn roots_wherever_they_are() {
         let mut from = 0.0;
         for &root in &roots {
             // Ahead of each root, from halfway to the one before.
-            let FirstCrossing::At { time } =
+            let FirstCrossing::At { time, .. } =
                 with_roots(&roots, from).first_crossing(Direction::Either, 2.0).unwrap()
             else {
                 panic!("{root} is missed")
@@ -79,7 +79,7 @@ fn oscillator_zeros_in_one_direction() {
         (Direction::Either, PI / 2.0),
     ] {
         let found = cosine.first_crossing(direction, 100.0).unwrap();
-        let FirstCrossing::At { time } = found else { panic!("{found:?}") };
+        let FirstCrossing::At { time, .. } = found else { panic!("{found:?}") };
         assert!((time - zero).abs() <= 4.0 * f64::EPSILON);
     }
     assert_eq!(cosine.first_crossing(Direction::Falling, 1.5).unwrap(), FirstCrossing::Never);
@@ -96,7 +96,7 @@ fn tangency() {
         panic!("it touches")
     };
     assert!((time - 1.0).abs() < 1e-6 && value.abs() < 1e-12);
-    let FirstCrossing::At { time } = guard(1e-12).first_crossing(Direction::Either, 3.0).unwrap()
+    let FirstCrossing::At { time, .. } = guard(1e-12).first_crossing(Direction::Either, 3.0).unwrap()
     else {
         panic!("it crosses")
     };
@@ -118,14 +118,14 @@ fn starts_at_zero_are_left_by_their_derivatives() {
                 (Direction::Rising, Direction::Falling)
             };
             let found = signal.first_crossing(there, 5.0).unwrap();
-            let FirstCrossing::At { time } = found else { panic!("{order}: {found:?}") };
+            let FirstCrossing::At { time, .. } = found else { panic!("{order}: {found:?}") };
             assert!((time - 1.0).abs() < 1e-14);
             assert_eq!(signal.first_crossing(not, 5.0).unwrap(), FirstCrossing::Never);
         }
     }
     // On the surface but for rounding, as after an event.
     let rounded = Signal::cosine(0.3, 1.0) + Signal::polynomial(&[-0.3 + 5e-17, 1.0, -0.5]);
-    let FirstCrossing::At { time } = rounded.first_crossing(Direction::Falling, 9.0).unwrap()
+    let FirstCrossing::At { time, .. } = rounded.first_crossing(Direction::Falling, 9.0).unwrap()
     else {
         panic!()
     };
@@ -136,7 +136,7 @@ fn starts_at_zero_are_left_by_their_derivatives() {
     let tiny = Signal::polynomial(&[1e-166, -1e-166]);
     assert_eq!(
         tiny.first_crossing(Direction::Either, 2.0).unwrap(),
-        FirstCrossing::At { time: 1.0 }
+        FirstCrossing::At { time: 1.0, rising: false }
     );
     assert!(tiny.first_crossing(Direction::Either, f64::INFINITY).is_err());
     assert!(Signal::polynomial(&[f64::NAN]).first_crossing(Direction::Either, 1.0).is_err());
@@ -201,7 +201,7 @@ fn a_ball_between_two_walls_needs_no_sampling() {
 fn a_narrow_dip_is_not_missed() {
     // cos 40t + 1 − 10⁻¹⁰: below zero for 7e-7 of time around π/40.
     let signal = Signal::cosine(1.0, 40.0) + Signal::polynomial(&[1.0 - 1e-10]);
-    let FirstCrossing::At { time } = signal.first_crossing(Direction::Falling, 10.0).unwrap()
+    let FirstCrossing::At { time, .. } = signal.first_crossing(Direction::Falling, 10.0).unwrap()
     else {
         panic!("missed")
     };
@@ -219,7 +219,7 @@ proptest! {
         match roots.iter().find(|root| **root > 0.0) {
             None => prop_assert_eq!(found, FirstCrossing::Never),
             Some(root) => {
-                let FirstCrossing::At { time } = found else { panic!("{found:?}") };
+                let FirstCrossing::At { time, .. } = found else { panic!("{found:?}") };
                 prop_assert!((time - root).abs() < 1e-9, "{} {}", time, root);
             }
         }
@@ -233,7 +233,7 @@ proptest! {
         prop_assume!(start.abs() > 1e-9);
         let found = signal.first_crossing(Direction::Either, 20.0).unwrap();
         let until = match found {
-            FirstCrossing::At { time } => time,
+            FirstCrossing::At { time, .. } => time,
             FirstCrossing::Grazing { time, .. } => time,
             FirstCrossing::Never => 20.0,
         };
@@ -241,7 +241,7 @@ proptest! {
             let t = until * f64::from(k) / 4000.0;
             prop_assert!(signal.value(t) * start >= -1e-12, "{} before {}", t, until);
         }
-        if let FirstCrossing::At { time } = found {
+        if let FirstCrossing::At { time, .. } = found {
             prop_assert!(signal.value(time).abs() < 1e-12);
         }
     }

@@ -102,7 +102,7 @@ fn drake_elastic_ball() {
     assert_eq!(execution.stop(), Some(Stop::TimeLimit));
     assert_eq!(arcs.len(), 12);
     let last = arcs.last().unwrap();
-    let end = last.state(&ball, last.duration);
+    let end = last.state(&ball, last.duration).unwrap();
     assert_relative_eq!(end[0], 0.978_321_975_404_438, max_relative = 1e-12);
     assert_relative_eq!(end[1], -0.652_167_802_459_556_2, max_relative = 1e-11);
 }

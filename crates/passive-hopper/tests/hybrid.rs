@@ -252,7 +252,7 @@ proptest! {
             let arc = arc.unwrap();
             let at_start = energy(ratio, &arc.start.into());
             for k in 0..=16 {
-                let state = arc.state(&hopper, arc.duration * f64::from(k) / 16.0);
+                let state = arc.state(&hopper, arc.duration * f64::from(k) / 16.0).unwrap();
                 prop_assert!((energy(ratio, &state.into()) - at_start).abs() < 1e-13 * scale);
             }
             let Some(event) = arc.event() else { continue };

@@ -178,10 +178,10 @@ fn motion(ratio: MassRatio, alpha: f64) -> Result<Vec<Motion>, Error> {
         let samples = (arc.duration / 0.12).ceil().max(4.0) as usize;
         let piece = (0..=samples).map(|k| {
             let elapsed = arc.duration * (k as f64 / samples as f64);
-            let state = arc.state(&hopper, elapsed);
-            (arc.time + elapsed, state[0], state[2])
+            let state = arc.state(&hopper, elapsed)?;
+            Ok((arc.time + elapsed, state[0], state[2]))
         });
-        pieces.push(piece.collect());
+        pieces.push(piece.collect::<Result<_, Error>>()?);
     }
     Ok(pieces)
 }

@@ -207,7 +207,7 @@ fn motion() -> Result<Scene, Error> {
             }
             for k in 0..states {
                 let part = f64::from(k) / f64::from(states);
-                highest = highest.max(arc.state(hopper, part * arc.duration)[0]);
+                highest = highest.max(arc.state(hopper, part * arc.duration)?[0]);
             }
         }
         Ok::<_, hybrid_system::Error>((time, highest))

@@ -1,7 +1,8 @@
-//! Flows given as ẋ = f(t, x): steps of an integrator, each with a polynomial inside (feature `ode`).
+//! Solutions of ẋ = f(t, x), step by step, each step with a polynomial inside.
 //!
-//! The only file that uses `differential-equations`: Verner's 9(8) pair with its interpolant of order 8.
+//! The only folder that uses `differential-equations`: Verner's 9(8) pair with its interpolant of order 8.
 
+use super::first_step;
 use crate::{Error, State};
 use differential_equations::error::Error as Failure;
 use differential_equations::interpolate::Interpolation;
@@ -25,6 +26,13 @@ impl Tolerances {
     /// The same relative and absolute tolerance, and 100 000 steps.
     pub const fn both(tolerance: f64) -> Self {
         Tolerances { relative: tolerance, absolute: tolerance, steps: 100_000 }
+    }
+
+    pub(super) fn check(&self) -> Result<(), Error> {
+        match [self.relative, self.absolute].into_iter().find(|t| !(*t > 0.0 && t.is_finite())) {
+            Some(value) => Err(Error::BadTolerance { value }),
+            None => Ok(()),
+        }
     }
 }
 
@@ -69,14 +77,12 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
     /// [`Error::StateNotFinite`] for a start or a first derivative that is not finite.
     pub fn new(field: F, start: &State<N>, tolerances: Tolerances) -> Result<Self, Error> {
         let Tolerances { relative, absolute, steps } = tolerances;
-        for value in [relative, absolute] {
-            if !(value > 0.0 && value.is_finite()) {
-                return Err(Error::BadTolerance { value });
-            }
-        }
+        tolerances.check()?;
         finite(start, 0.0)?;
         finite(&field(0.0, start), 0.0)?;
-        let mut method = Method::rkv988e().rtol(relative).atol(absolute).max_steps(steps);
+        let first = first_step(&field, start, tolerances);
+        let mut method =
+            Method::rkv988e().rtol(relative).atol(absolute).max_steps(steps).h0(first);
         let field = Field(field);
         method.init(&field, 0.0, f64::MAX, &(*start).into()).map_err(|failure| named(&failure))?;
         Ok(Integration { field, method })
@@ -106,6 +112,18 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         finite(&self.state(), self.method.t())
     }
 
+    /// The state at a time in the last step, by a step of its own that ends there: without the rounding of
+    /// the interpolant, whose coefficients are large.
+    pub(super) fn directly_at(&self, time: f64) -> Result<State<N>, Error> {
+        let from = self.method.t_prev();
+        let mut method = Method::rkv988e().rtol(f64::MAX).atol(f64::MAX).h0(time - from);
+        let failed = |failure| named(&failure);
+        method.init(&self.field, from, f64::MAX, self.method.y_prev()).map_err(failed)?;
+        method.step(&self.field).map_err(failed)?;
+        let state = State::from(*method.y());
+        finite(&state, time).map(|()| state)
+    }
+
     /// The state at a time in the last step, by its interpolant.
     ///
     /// # Errors
@@ -115,7 +133,7 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
     }
 }
 
-fn finite<const N: usize>(state: &State<N>, time: f64) -> Result<(), Error> {
+pub(super) fn finite<const N: usize>(state: &State<N>, time: f64) -> Result<(), Error> {
     if state.iter().all(|x| x.is_finite()) {
         return Ok(());
     }
@@ -123,7 +141,7 @@ fn finite<const N: usize>(state: &State<N>, time: f64) -> Result<(), Error> {
 }
 
 /// The integrator's failure in our words.
-fn named<const N: usize>(failure: &Failure<f64, [f64; N]>) -> Error {
+pub(super) fn named<Y: differential_equations::traits::State<f64>>(failure: &Failure<f64, Y>) -> Error {
     let (reason, time) = match failure {
         Failure::MaxSteps { t, .. } => ("no steps are left", *t),
         Failure::StepSize { t, .. } => ("the step size has become too small", *t),

@@ -1,0 +1,109 @@
+//! The first crossing of all guards of a mode along an integrated flow.
+
+use super::step::Step;
+use super::watch::Watch;
+use super::{Integration, Tolerances};
+use crate::crossing::beyond;
+use crate::{Certainty, Crossing, Error, FirstCrossing, HybridSystem, State, bracketed_root};
+
+/// Shares of the step that a crossing may move by; the least that shows a change of sign.
+const NEAR: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
+
+/// Guards of one mode that are followed without allocating.
+const GUARDS: usize = 8;
+
+/// Follows `field` from `start` until a guard of `mode` is crossed, or to `horizon`.
+pub(super) fn search<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    start: &State<N>,
+    horizon: f64,
+    field: impl Fn(f64, &State<N>) -> State<N>,
+    tolerances: Tolerances,
+) -> Result<Option<Crossing<T::Surface, N>>, Error>
+where
+    T: HybridSystem<N> + ?Sized,
+{
+    if !(horizon >= 0.0) {
+        return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
+    }
+    let guards = system.guards(mode);
+    if guards.is_empty() || horizon == 0.0 {
+        return Ok(None);
+    }
+    let value = |surface| move |state: &State<N>| system.guard_value(surface, state);
+    let mut few: [Option<Watch>; GUARDS] = [const { None }; GUARDS];
+    let mut many = Vec::new();
+    let watches = if guards.len() <= GUARDS {
+        &mut few[..guards.len()]
+    } else {
+        many.resize_with(guards.len(), || None);
+        &mut many[..]
+    };
+    for (watch, guard) in watches.iter_mut().zip(guards) {
+        *watch = Some(Watch::new(guard.direction, start, value(guard.surface))?);
+    }
+    let mut integration = Integration::new(field, start, tolerances)?;
+    while integration.interval().1 < horizon {
+        integration.step()?;
+        let step = Step::last_of(&mut integration)?;
+        let until = step.to.min(horizon);
+        let mut first: Option<(f64, T::Surface)> = None;
+        let mut touch: Option<(f64, f64, T::Surface)> = None;
+        for (watch, guard) in watches.iter_mut().zip(guards) {
+            let Some(watch) = watch else { continue };
+            match watch.crossing(&step, until, value(guard.surface))? {
+                FirstCrossing::At { time, .. } if first.is_none_or(|(best, _)| time < best) => {
+                    first = Some((time, guard.surface));
+                }
+                FirstCrossing::Grazing { time, value }
+                    if touch.is_none_or(|(best, ..)| time < best) =>
+                {
+                    touch = Some((time, value, guard.surface));
+                }
+                _ => {}
+            }
+        }
+        if let Some((time, value, surface)) = touch
+            && first.is_none_or(|(best, _)| time <= best)
+        {
+            return Err(Error::Grazing { surface: format!("{surface:?}"), time, value });
+        }
+        if let Some((time, surface)) = first {
+            let value = value(surface);
+            let (time, state) = polished(&integration, step, time, until, value)?;
+            return Ok(Some(Crossing { surface, time, state, certainty: Certainty::Interpolated }));
+        }
+    }
+    Ok(None)
+}
+
+/// A crossing without the rounding of the interpolant: its time on the step moved to where a step that ends
+/// there leads, and the state then.
+fn polished<F, const N: usize>(
+    integration: &Integration<F, N>,
+    step: Step<N>,
+    time: f64,
+    until: f64,
+    guard: impl Fn(&State<N>) -> f64,
+) -> Result<(f64, State<N>), Error>
+where
+    F: Fn(f64, &State<N>) -> State<N>,
+{
+    if time <= step.from {
+        return Ok((time, step.state(time)));
+    }
+    let moved = step.moved(integration.directly_at(time)? - step.state(time));
+    let along = |time: f64| guard(&moved.state(time));
+    for share in NEAR {
+        let reach = share * (step.to - step.from);
+        let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
+        let (before, after) = (along(left), along(right));
+        if before.signum() != after.signum() {
+            let time = beyond(along, bracketed_root(along, left, right)?, right, after).min(until);
+            return Ok((time, moved.state(time)));
+        }
+    }
+    // Crossed so slowly that the difference matters: it stays where the interpolant has it.
+    Ok((time, step.state(time)))
+}

@@ -1,0 +1,395 @@
+//! Events along integrated flows: none missed, none doubled, no step caps. Names say where a case comes from.
+
+#![cfg(feature = "ode")]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+#![allow(clippy::excessive_precision)] // published digits, as they are printed
+
+use hybrid_system::*;
+use nalgebra::{SMatrix, Vector1, Vector2, Vector3};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+const TIGHT: Tolerances = Tolerances::both(1e-13);
+
+/// A plain flow ẋ = f(x) watched by functions of the state; events change nothing.
+struct Watched<'a, F, G, const N: usize> {
+    field: F,
+    values: G,
+    guards: &'a [Guard<usize>],
+    tolerances: Tolerances,
+}
+
+impl<F, G, const N: usize> VectorField<N> for Watched<'_, F, G, N>
+where
+    F: Fn(&State<N>) -> State<N>,
+    G: Fn(usize, &State<N>) -> f64,
+{
+    fn vector_field(&self, _: (), x: &State<N>) -> State<N> {
+        (self.field)(x)
+    }
+}
+
+impl<F, G, const N: usize> HybridSystem<N> for Watched<'_, F, G, N>
+where
+    F: Fn(&State<N>) -> State<N>,
+    G: Fn(usize, &State<N>) -> f64,
+{
+    type Mode = ();
+    type Surface = usize;
+    fn flow(&self, mode: (), x: &State<N>, t: f64) -> State<N> {
+        integrated_flow(self, mode, x, t, self.tolerances)
+    }
+    fn guards(&self, _: ()) -> &[Guard<usize>] {
+        self.guards
+    }
+    fn guard_value(&self, surface: usize, x: &State<N>) -> f64 {
+        (self.values)(surface, x)
+    }
+    fn reset(&self, _: (), _: usize, x: &State<N>) -> Reset<(), N> {
+        Reset::Jump { mode: (), state: *x }
+    }
+    fn first_crossing(
+        &self,
+        mode: (),
+        x: &State<N>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<usize, N>>, Error> {
+        integrated_crossing(self, mode, x, horizon, self.tolerances)
+    }
+}
+
+/// Times and surfaces of all events up to `time`.
+fn events<T: HybridSystem<N, Mode = (), Surface = usize>, const N: usize>(
+    system: &T,
+    start: State<N>,
+    time: f64,
+) -> Vec<Event<(), usize, N>> {
+    Execution::new(system, (), start, Limits::new(time, 1000))
+        .filter_map(|arc| arc.unwrap().event().copied())
+        .collect()
+}
+
+/// E2: y₁ = t/(t+10), y₂ = 10t/(t+10)² from t = 5; two guards with powers of the state.
+#[test]
+fn scipy_test_events() {
+    let field = |x: &State<3>| {
+        let [t, y1, y2] = [x[0], x[1], x[2]];
+        Vector3::new(1.0, y2 / t, y2 * (y1 + 2.0 * y2 - 1.0) / (t * (y1 - 1.0)))
+    };
+    let values = |surface: usize, x: &State<3>| {
+        if surface == 0 { x[1] - x[2].powf(0.7) } else { x[2].powf(0.6) - x[1] }
+    };
+    let guards = [Guard::rising(0), Guard::falling(1)];
+    let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+    let start = Vector3::new(5.0, 1.0 / 3.0, 2.0 / 9.0);
+    let found = events(&system, start, 3.0);
+    let times: Vec<_> = found.iter().map(|event| (event.surface, 5.0 + event.time)).collect();
+    assert_eq!(times.len(), 2, "{times:?}");
+    assert_eq!((times[0].0, times[1].0), (0, 1));
+    assert!((times[0].1 - 5.55057576624077608).abs() < 1e-12, "{times:?}");
+    assert!((times[1].1 - 7.5487766624669276).abs() < 1e-12, "{times:?}");
+    assert!(found.iter().all(|event| event.certainty == Certainty::Interpolated));
+    // The other directions have no event.
+    let guards = [Guard::falling(0), Guard::rising(1)];
+    let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+    assert!(events(&system, start, 3.0).is_empty());
+}
+
+/// E8: half a return of the Lorenz system to z = 27 from above.
+#[test]
+fn lorenz_section() {
+    let field = |x: &State<3>| {
+        Vector3::new(
+            10.0 * (x[1] - x[0]),
+            x[0] * (28.0 - x[2]) - x[1],
+            x[0] * x[1] - 8.0 / 3.0 * x[2],
+        )
+    };
+    let values = |_: usize, x: &State<3>| x[2] - 27.0;
+    let guards = [Guard::falling(0)];
+    let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+    let start = Vector3::new(-2.1473674741633753, 2.0780481172873415, 27.0);
+    let found = events(&system, start, 1.0);
+    assert_eq!(found.len(), 1, "the start on the section is no return");
+    assert!((found[0].time - 0.77932610853932338).abs() < 1e-12, "{}", found[0].time);
+    let image = Vector3::new(2.1473675875613338, -2.0780482713004851, 27.0);
+    assert!((found[0].before - image).amax() < 2e-12, "{}", found[0].before - image);
+}
+
+/// y′ = 3x² + 12x − 4 on (−8, 4): SciPy finds one zero of three.
+#[test]
+fn scipy_9228() {
+    let field = |x: &State<2>| Vector2::new(1.0, (3.0 * x[0] + 12.0) * x[0] - 4.0);
+    let values = |_: usize, x: &State<2>| x[1];
+    let guards = [Guard::either(0)];
+    for tolerance in [1e-3, 1e-6, 1e-13] {
+        let tolerances = Tolerances::both(tolerance);
+        let system = Watched { field, values, guards: &guards, tolerances };
+        let found = events(&system, Vector2::new(-8.0, -120.0), 12.0);
+        assert_eq!(found.len(), 3);
+        for (event, zero) in found.iter().zip([-6.0, -2.0, 2.0]) {
+            assert!((event.before[0] - zero).abs() < 1e-12, "{event:?}");
+        }
+    }
+}
+
+#[test]
+fn oscillator_zeros() {
+    let field = |x: &State<2>| Vector2::new(x[1], -x[0]);
+    let values = |_: usize, x: &State<2>| x[0];
+    let guards = [Guard::either(0)];
+    let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+    let found = events(&system, Vector2::new(1.0, 0.0), 12.0);
+    assert_eq!(found.len(), 4);
+    for (k, event) in found.iter().enumerate() {
+        assert!((event.time - (k as f64 + 0.5) * PI).abs() < 1e-12, "{k}: {}", event.time);
+    }
+}
+
+/// E4 and E7 on ẋ = 1, whose steps grow tenfold.
+#[test]
+fn roots_within_long_steps_and_tangency() {
+    let field = |_: &State<1>| Vector1::new(1.0);
+    let product = |_: usize, x: &State<1>| {
+        (1..10).map(|k| x[0] - f64::from(k) / 10.0).product::<f64>()
+    };
+    let guards = [Guard::either(0)];
+    let system = Watched { field, values: product, guards: &guards, tolerances: TIGHT };
+    let found = events(&system, Vector1::new(0.0), 50.0);
+    assert_eq!(found.len(), 9);
+    for (k, event) in (1..).zip(&found) {
+        assert!((event.before[0] - f64::from(k) / 10.0).abs() < 1e-12);
+    }
+    let touching = |y0: f64| {
+        let values = move |_: usize, x: &State<1>| y0 - x[0] * x[0];
+        let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+        Execution::new(&system, (), Vector1::new(-1.0), Limits::new(2.0, 1)).next().unwrap()
+    };
+    assert!(touching(-1e-9).unwrap().event().is_none());
+    let Err(Error::Grazing { time, value, .. }) = touching(0.0) else { panic!() };
+    assert!((time - 1.0).abs() < 1e-6 && value.abs() < 1e-12);
+    let at = touching(1e-12).unwrap().event().unwrap().time;
+    assert!((at - 1.0 + 1e-6).abs() < 1e-9, "{at}");
+}
+
+/// A start on the surface, to any order, is left; it comes back once.
+#[test]
+fn starts_at_zero() {
+    let field = |_: &State<1>| Vector1::new(1.0);
+    for order in 1..=4 {
+        for sign in [1.0, -1.0] {
+            let values = |_: usize, x: &State<1>| sign * x[0].powi(order) * (3.0 - x[0]);
+            let guards = [Guard::either(0)];
+            let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+            let found = events(&system, Vector1::new(0.0), 10.0);
+            assert_eq!(found.len(), 1, "{order} {sign}: {found:?}");
+            assert!((found[0].time - 3.0).abs() < 1e-13);
+        }
+    }
+}
+
+#[test]
+fn kinks_tiny_values_and_many_guards() {
+    let field = |_: &State<1>| Vector1::new(1.0);
+    // |x − 1| − ½ is not smooth; 1e-166 (x − 0.37) is tiny.
+    let values = |surface: usize, x: &State<1>| match surface {
+        0 => (x[0] - 1.0).abs() - 0.5,
+        1 => 1e-166 * (x[0] - 0.37),
+        k => x[0] - 2.0 - k as f64,
+    };
+    let guards: Vec<_> = (0..12).map(Guard::either).collect();
+    let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+    let found = events(&system, Vector1::new(0.0), 20.0);
+    let exact = [0.37, 0.5, 1.5].into_iter().chain((2..12).map(|k| 2.0 + f64::from(k)));
+    assert_eq!(found.len(), 13, "{found:?}");
+    for (event, exact) in found.iter().zip(exact) {
+        assert!((event.time - exact).abs() < 1e-13, "{} {exact}", event.time);
+    }
+}
+
+#[test]
+fn what_has_no_flow_is_an_error() {
+    let field = |x: &State<1>| Vector1::new(x[0] * x[0]);
+    let values = |_: usize, x: &State<1>| x[0] - 1e300;
+    let guards = [Guard::rising(0)];
+    let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+    let first = Execution::new(&system, (), Vector1::new(1.0), Limits::new(2.0, 1)).next().unwrap();
+    assert!(matches!(first, Err(Error::Integration { .. } | Error::StateNotFinite { .. })));
+    let arc = Arc {
+        mode: (),
+        time: 0.0,
+        jump: 0,
+        start: Vector1::new(1.0),
+        duration: 2.0,
+        end: ArcEnd::<(), usize, 1>::TimeLimit,
+    };
+    assert!(matches!(arc.state(&system, 2.0), Err(Error::StateNotFinite { .. })));
+    assert!((arc.state(&system, 0.5).unwrap()[0] - 2.0).abs() < 1e-11);
+    let nan = |_: usize, _: &State<1>| f64::NAN;
+    let system = Watched { field, values: nan, guards: &guards, tolerances: TIGHT };
+    let first = Execution::new(&system, (), Vector1::new(1.0), Limits::new(0.5, 1)).next().unwrap();
+    assert!(matches!(first, Err(Error::NotFinite { .. })));
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mode {
+    /// In air that slows it down: integrated.
+    Air,
+    /// On a spring: closed form.
+    Spring,
+}
+
+/// A ball that falls through air onto a spring of stiffness one: one mode of each kind.
+struct Trampoline {
+    drag: f64,
+}
+
+impl VectorField<2> for Trampoline {
+    fn vector_field(&self, mode: Mode, x: &State<2>) -> State<2> {
+        match mode {
+            Mode::Air => Vector2::new(x[1], -1.0 - self.drag * x[1] * x[1].abs()),
+            Mode::Spring => Vector2::new(x[1], -1.0 - x[0]),
+        }
+    }
+}
+
+impl HybridSystem<2> for Trampoline {
+    type Mode = Mode;
+    type Surface = ();
+    fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
+        match mode {
+            Mode::Air => integrated_flow(self, mode, x, t, TIGHT),
+            Mode::Spring => {
+                let (sin, cos) = t.sin_cos();
+                let depth = x[0] + 1.0;
+                Vector2::new(depth * cos + x[1] * sin - 1.0, x[1] * cos - depth * sin)
+            }
+        }
+    }
+    fn guards(&self, mode: Mode) -> &[Guard<()>] {
+        match mode {
+            Mode::Air => const { &[Guard::falling(())] },
+            Mode::Spring => const { &[Guard::rising(())] },
+        }
+    }
+    fn guard_value(&self, _: (), x: &State<2>) -> f64 {
+        x[0]
+    }
+    fn guard_signal(&self, _: Mode, _: (), x: &State<2>) -> Option<Signal> {
+        let swing = Signal::cosine(x[0] + 1.0, 1.0) + Signal::sine(x[1], 1.0);
+        Some(swing + Signal::polynomial(&[-1.0]))
+    }
+    fn reset(&self, mode: Mode, _: (), x: &State<2>) -> Reset<Mode, 2> {
+        let next = if mode == Mode::Air { Mode::Spring } else { Mode::Air };
+        Reset::Jump { mode: next, state: Vector2::new(0.0, x[1]) }
+    }
+    fn first_crossing(
+        &self,
+        mode: Mode,
+        x: &State<2>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<(), 2>>, Error> {
+        match mode {
+            Mode::Air => integrated_crossing(self, mode, x, horizon, TIGHT),
+            Mode::Spring => self.guard_signal(mode, (), x).map_or(Ok(None), |signal| {
+                let FirstCrossing::At { time, .. } =
+                    signal.first_crossing(Direction::Rising, horizon)?
+                else {
+                    return Ok(None);
+                };
+                let (state, certainty) = (self.flow(mode, x, time), Certainty::Certain);
+                Ok(Some(Crossing { surface: (), time, state, certainty }))
+            }),
+        }
+    }
+}
+
+/// Through air and spring in turn, against the closed form v² → (1 − e^(−2kh))/k of each fall.
+#[test]
+fn one_mode_integrated_and_one_in_closed_form() {
+    let ball = Trampoline { drag: 0.3 };
+    let arcs: Vec<_> =
+        Execution::new(&ball, Mode::Air, Vector2::new(2.0, 0.0), Limits::new(60.0, 100))
+            .collect::<Result<_, _>>()
+            .unwrap();
+    let k = ball.drag;
+    let mut speed = ((1.0 - (-2.0 * k * 2.0f64).exp()) / k).sqrt();
+    let mut bounces = 0;
+    for arc in &arcs {
+        let Some(event) = arc.event() else { continue };
+        match arc.mode {
+            Mode::Air => {
+                assert!((event.before[1] + speed).abs() < 1e-11, "{} {speed}", event.before[1]);
+                assert_eq!(event.certainty, Certainty::Interpolated);
+            }
+            Mode::Spring => {
+                // The spring gives back what it took; up it goes to h = ln(1 + k v²)/2k.
+                assert!((event.before[1] - speed).abs() < 1e-11);
+                assert_eq!(event.certainty, Certainty::Certain);
+                let height = (k * speed * speed).ln_1p() / (2.0 * k);
+                speed = (-(-2.0 * k * height).exp_m1() / k).sqrt();
+                bounces += 1;
+            }
+        }
+    }
+    assert!(bounces > 3);
+}
+
+impl Linearized<2> for Trampoline {
+    fn field_jacobian(&self, _: Mode, x: &State<2>) -> SMatrix<f64, 2, 2> {
+        SMatrix::<f64, 2, 2>::new(0.0, 1.0, 0.0, -2.0 * self.drag * x[1].abs())
+    }
+}
+
+#[test]
+fn the_variational_equation_gives_the_derivative_of_the_flow() {
+    let ball = Trampoline { drag: 0.3 };
+    let (start, time) = (Vector2::new(2.0, 0.7), 1.9);
+    let jacobian = integrated_jacobian(&ball, Mode::Air, &start, time, TIGHT).unwrap();
+    for axis in 0..2 {
+        let mut shift = Vector2::zeros();
+        shift[axis] = 1e-4;
+        let end = |x: State<2>| integrated_flow(&ball, Mode::Air, &x, time, TIGHT);
+        let difference = (end(start + shift) - end(start - shift)) / 2e-4;
+        assert!((difference - jacobian.column(axis)).amax() < 1e-7);
+    }
+    let bad = Tolerances::both(-1.0);
+    assert!(integrated_jacobian(&ball, Mode::Air, &start, time, bad).is_err());
+}
+
+proptest! {
+    /// Planted roots at random, also close together and close to the start: each once, in order. Those so close
+    /// that rounding hides them are reported, not passed over.
+    #[test]
+    fn planted_roots(mut roots in proptest::collection::vec(1e-3..5.0f64, 1..7), twin in -9.0..-3.0f64) {
+        let twin = 10f64.powf(twin);
+        roots.push(roots[0] + twin);
+        roots.push(twin);
+        roots.sort_by(f64::total_cmp);
+        let field = |_: &State<1>| Vector1::new(1.0);
+        let values = |_: usize, x: &State<1>| roots.iter().map(|root| x[0] - root).product::<f64>();
+        let guards = [Guard::either(0)];
+        let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
+        let mut ahead = roots.iter();
+        for arc in Execution::new(&system, (), Vector1::new(0.0), Limits::new(6.0, 100)) {
+            match arc {
+                Ok(arc) => match arc.event() {
+                    Some(event) => {
+                        let root = ahead.next().unwrap();
+                        prop_assert!((event.before[0] - root).abs() < 1e-10, "{} {}", event.before[0], root);
+                    }
+                    None => prop_assert!(ahead.next().is_none()),
+                },
+                Err(Error::Grazing { value, .. }) => {
+                    // The product between the closest two is all that there is.
+                    prop_assert!(value.abs() < 1e-9, "{}", value);
+                    prop_assert!(roots.windows(2).any(|pair| pair[1] - pair[0] < 1e-3) || roots[0] < 1e-3);
+                    break;
+                }
+                Err(error) => panic!("{error}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! A million guards with planted roots, also within a few ulps of each other, of the start and of the end: none
+//! missed, none doubled.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use hybrid_system::*;
+use nalgebra::Vector1;
+
+/// Events are looked for in (0, END].
+const END: f64 = 4.0;
+
+/// Roots farther than this from all others, from the start and from the end stand alone.
+const ALONE: f64 = 0.05;
+
+/// How well a root that stands alone is known from rounded coefficients.
+const KNOWN: f64 = 1e-6;
+
+/// Pairs closer than this may be hidden by the rounding of coefficients.
+const CLOSE: f64 = 1e-2;
+
+/// Uniform numbers in [0, 1) (`SplitMix64`).
+struct Random(u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+    fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 * 2f64.powi(-53)
+    }
+
+    /// Up to five roots in [−1, 5], often crowded.
+    fn roots(&mut self) -> Vec<f64> {
+        let mut roots: Vec<f64> = Vec::new();
+        for _ in 0..1 + self.bits() % 5 {
+            let anywhere = 6.0 * self.unit() - 1.0;
+            let ulps = (self.bits() % 17) as i64 - 8;
+            let near = |x: f64| x + ulps as f64 * f64::EPSILON * x.abs().max(1.0);
+            roots.push(match (self.bits() % 8, roots.last()) {
+                (0, _) => near(0.0),
+                (1, _) => near(END),
+                (2 | 3, Some(&other)) => near(other),
+                (4, Some(&other)) => other + 1e-6 * self.unit(),
+                _ => anywhere,
+            });
+        }
+        roots.sort_by(f64::total_cmp);
+        roots
+    }
+}
+
+/// Time as the state, with a guard given by its zeros.
+struct Planted<'a> {
+    roots: &'a [f64],
+    form: Form,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    /// Π (t − r) as a polynomial.
+    Polynomial,
+    /// Π sin(ω(t − r)) as a sum of sines.
+    Trigonometric,
+    /// Π (t − r) as it stands, with enclosures.
+    Enclosed,
+}
+
+/// Other zeros of the sines are beyond the end.
+const OMEGA: f64 = 0.6;
+
+impl HybridSystem<1> for Planted<'_> {
+    type Mode = ();
+    type Surface = ();
+    fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
+        Vector1::new(x[0] + t)
+    }
+    fn guards(&self, _: ()) -> &[Guard<()>] {
+        const { &[Guard::either(())] }
+    }
+    fn guard_value(&self, _: (), x: &State<1>) -> f64 {
+        self.roots.iter().map(|root| x[0] - root).product()
+    }
+    fn guard_signal(&self, _: (), _: (), x: &State<1>) -> Option<Signal> {
+        let factor = |root: f64| match self.form {
+            Form::Polynomial => Some(Signal::polynomial(&[x[0] - root, 1.0])),
+            Form::Trigonometric => {
+                let (sin, cos) = (OMEGA * (x[0] - root)).sin_cos();
+                Some(Signal::sine(cos, OMEGA) + Signal::cosine(sin, OMEGA))
+            }
+            Form::Enclosed => None,
+        };
+        let one = Signal::polynomial(&[1.0]);
+        self.roots.iter().try_fold(one, |product, root| Some(product * factor(*root)?))
+    }
+    fn guard_enclosure(
+        &self,
+        _: (),
+        _: (),
+        x: &State<1>,
+        order: u32,
+        (from, to): (f64, f64),
+    ) -> Option<Enclosure> {
+        let factors: Vec<_> = self
+            .roots
+            .iter()
+            .map(|root| {
+                // x + t rounds, and then its difference with the root.
+                let at = |t: f64| Enclosure::around(x[0] + t - root, 4.0 * f64::EPSILON * 8.0);
+                Enclosure::new(at(from).low, at(to).high)
+            })
+            .collect();
+        match order {
+            0 => Some(product(factors.iter().copied())),
+            // (Π fᵢ)′ = Σ Π_{j≠i} fⱼ
+            1 => (0..factors.len())
+                .map(|i| product(factors.iter().copied().enumerate().filter_map(|(j, f)| (j != i).then_some(f))))
+                .reduce(|a, b| outward(a.low + b.low, a.high + b.high)),
+            _ => None,
+        }
+    }
+    fn reset(&self, _: (), _: (), x: &State<1>) -> Reset<(), 1> {
+        Reset::Jump { mode: (), state: *x }
+    }
+}
+
+fn product(factors: impl Iterator<Item = Enclosure>) -> Enclosure {
+    factors.fold(Enclosure::new(1.0, 1.0), |a, b| {
+        let ends = [a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high];
+        outward(
+            ends.iter().copied().fold(f64::INFINITY, f64::min),
+            ends.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        )
+    })
+}
+
+fn outward(low: f64, high: f64) -> Enclosure {
+    Enclosure::new(low.next_down(), high.next_up())
+}
+
+/// Follows one guard and holds its events against its roots.
+fn check(roots: &[f64], form: Form) {
+    let system = Planted { roots, form };
+    let mut found = Vec::new();
+    let mut open = END;
+    for arc in Execution::new(&system, (), Vector1::new(0.0), Limits::new(END, 100)) {
+        match arc {
+            Ok(arc) => found.extend(arc.event().map(|event| event.before[0])),
+            // Where rounding hides the crossings it says so, and only there.
+            Err(Error::Grazing { time, .. }) => {
+                let at = found.last().unwrap_or(&0.0) + time;
+                let crowd = roots.iter().filter(|root| (*root - at).abs() < ALONE).count();
+                assert!(crowd >= 2 || at < ALONE || at > END - ALONE, "{roots:?}: grazing at {at}");
+                open = at;
+            }
+            Err(Error::UndecidedSign { .. }) => {
+                let at = found.last().copied().unwrap_or(0.0);
+                let crowd = roots.iter().filter(|root| (*root - at).abs() < ALONE).count();
+                assert!(crowd >= 2, "{roots:?}: undecided at {at}");
+                open = at;
+            }
+            Err(error) => panic!("{roots:?}: {error}"),
+        }
+    }
+    let close = |a: f64, b: f64| (a - b).abs() < KNOWN;
+    for (k, &root) in roots.iter().enumerate() {
+        let neighbours = [k.checked_sub(1).map_or(0.0, |k| roots[k]), *roots.get(k + 1).unwrap_or(&END)];
+        let alone = neighbours.iter().chain(&[0.0, END]).all(|other| (root - other).abs() > ALONE);
+        if alone && root > 0.0 && root < open - ALONE {
+            let times = found.iter().filter(|time| close(**time, root)).count();
+            assert_eq!(times, 1, "{roots:?}: {root} in {found:?}");
+        }
+    }
+    // Nothing is invented: next to every event is a root, and there are no more events than roots.
+    for time in &found {
+        let nearest = roots.iter().map(|root| (root - time).abs()).fold(f64::INFINITY, f64::min);
+        assert!(nearest < CLOSE, "{roots:?}: {time}");
+    }
+    assert!(found.len() <= roots.len(), "{roots:?}: {found:?}");
+}
+
+fn run(seed: u64, cases: usize, form: Form) {
+    let mut random = Random(seed);
+    for _ in 0..cases {
+        check(&random.roots(), form);
+    }
+}
+
+#[test]
+fn polynomials() {
+    run(1, 600_000, Form::Polynomial);
+}
+
+#[test]
+fn sums_of_sines() {
+    run(2, 200_000, Form::Trigonometric);
+}
+
+#[test]
+fn enclosures() {
+    run(3, 200_000, Form::Enclosed);
+}
