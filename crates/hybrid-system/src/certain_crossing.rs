@@ -183,7 +183,10 @@ impl<'a> Search<'a> {
                 Found::Monotone(slope) => {
                     // Towards the other sign, and beyond it at the end?
                     let beyond = self.beyond(right, slope, horizon);
-                    if slope * sign < 0.0 && self.signal.value(beyond) * sign < 0.0 {
+                    let value = self.signal.value(beyond);
+                    // Within rounding the other side is not certain: the next interval tells, if there is one.
+                    let clear = value.abs() > self.signal.rounding(beyond) || right >= horizon;
+                    if slope * sign < 0.0 && value * sign < 0.0 && clear {
                         if direction.admits(sign, -sign) {
                             let time = self.root(left, beyond, sign)?;
                             return Ok(if time <= horizon {

@@ -12,10 +12,13 @@ const END: f64 = 4.0;
 /// Roots farther than this from all others, from the start and from the end stand alone.
 const ALONE: f64 = 0.05;
 
+/// Roots of a crowd as wide as this may hide one another behind rounding.
+const CROWD: f64 = 0.2;
+
 /// How well a root that stands alone is known from rounded coefficients.
 const KNOWN: f64 = 1e-6;
 
-/// Pairs closer than this may be hidden by the rounding of coefficients.
+/// How well roots of a crowd are known.
 const CLOSE: f64 = 1e-2;
 
 /// Uniform numbers in [0, 1) (`SplitMix64`).
@@ -151,13 +154,13 @@ fn check(roots: &[f64], form: Form) {
             // Where rounding hides the crossings it says so, and only there.
             Err(Error::Grazing { time, .. }) => {
                 let at = found.last().unwrap_or(&0.0) + time;
-                let crowd = roots.iter().filter(|root| (*root - at).abs() < ALONE).count();
-                assert!(crowd >= 2 || at < ALONE || at > END - ALONE, "{roots:?}: grazing at {at}");
+                let crowd = roots.iter().filter(|root| (*root - at).abs() < CROWD).count();
+                assert!(crowd >= 2 || at < CROWD || at > END - CROWD, "{roots:?}: grazing at {at}");
                 open = at;
             }
             Err(Error::UndecidedSign { .. }) => {
                 let at = found.last().copied().unwrap_or(0.0);
-                let crowd = roots.iter().filter(|root| (*root - at).abs() < ALONE).count();
+                let crowd = roots.iter().filter(|root| (*root - at).abs() < CROWD).count();
                 assert!(crowd >= 2, "{roots:?}: undecided at {at}");
                 open = at;
             }
@@ -168,7 +171,7 @@ fn check(roots: &[f64], form: Form) {
     for (k, &root) in roots.iter().enumerate() {
         let neighbours = [k.checked_sub(1).map_or(0.0, |k| roots[k]), *roots.get(k + 1).unwrap_or(&END)];
         let alone = neighbours.iter().chain(&[0.0, END]).all(|other| (root - other).abs() > ALONE);
-        if alone && root > 0.0 && root < open - ALONE {
+        if alone && root > 0.0 && root < open - CROWD {
             let times = found.iter().filter(|time| close(**time, root)).count();
             assert_eq!(times, 1, "{roots:?}: {root} in {found:?}");
         }
