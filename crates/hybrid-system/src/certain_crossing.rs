@@ -88,35 +88,50 @@ impl Signal {
 
     /// How the signal leaves its start: a time up to which it does not vanish again, and its sign;
     /// nothing if it is zero throughout.
+    ///
+    /// Derivatives within their rounding count as zero, if the signal stays within its own rounding as long
+    /// as they could outweigh the first one that is not.
     fn leave(&self, horizon: f64, start_error: f64) -> Result<Option<(f64, f64)>, Error> {
+        let hidden = self.rounding(0.0) + start_error;
         let mut derivative = self.clone();
         let mut factorial = 1.0; // k!
+        let mut lower = [0.0; ORDERS as usize + 1]; // bounds on the hidden g⁽ʲ⁾(0)/j!
         for order in 0..=ORDERS {
             let value = derivative.value(0.0);
             let next = derivative.derivative();
-            // After an event on its surface the guard is zero but for rounding.
-            let on_surface = order == 0 && value.abs() <= derivative.rounding(0.0) + start_error;
-            if value == 0.0 || on_surface {
-                if next.bound(horizon) == 0.0 {
+            let rounding = derivative.rounding(0.0) + if order == 0 { start_error } else { 0.0 };
+            if value.abs() <= rounding {
+                if next.bound(horizon) == 0.0 && self.bound(horizon) <= hidden {
                     return Ok(None);
                 }
+                lower[order as usize] = (value.abs() + rounding) / factorial;
                 derivative = next;
                 factorial *= f64::from(order + 1);
                 continue;
             }
-            if value.abs() <= derivative.rounding(0.0) {
-                return Err(Error::UndecidedSign { order, value });
-            }
             if order == 0 {
                 return Ok(Some((0.0, value.signum())));
             }
-            // |g| ≥ tᵏ (|c| − M t/(k+1)!) with c = value/k!.
+            // |g| ≥ tᵏ (|c| − M t/(k+1)!) with c = value/k!, but for the lower terms.
             let leading = value.abs() / factorial;
             let mut time = horizon;
             while time > 0.0
                 && !(leading > 2.0 * next.bound(time) * time / (factorial * f64::from(order + 1)))
             {
                 time *= 0.5;
+            }
+            // From here on ½ c tᵏ outweighs them.
+            let share = 2.0 * f64::from(order) / leading;
+            let clear = (1..order as usize)
+                .map(|j| pxfm::f_pow(share * lower[j], 1.0 / (f64::from(order) - j as f64)))
+                .fold(0.0, f64::max);
+            let reached: f64 = (1..=order as usize)
+                .map(|j| if j < order as usize { lower[j] } else { 2.0 * leading })
+                .enumerate()
+                .map(|(j, term)| term * pxfm::f_pow(clear, (j + 1) as f64))
+                .sum();
+            if clear >= time && time > 0.0 || reached > hidden {
+                return Err(Error::UndecidedSign { order, value });
             }
             return Ok(Some((time, value.signum())));
         }

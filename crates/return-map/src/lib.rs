@@ -9,9 +9,10 @@
 //! |---|---|
 //! | [`Section`] | coordinates of a section: where a start lies, which events count as returns |
 //! | [`ReturnMap`], [`Return`] | image, return time and number of events, in any dimension |
+//! | [`SmoothSection`], [`SmoothReturn`] | the derivative of the map, through flows and events |
 //! | [`orbit`], [`cobweb`] | iterates of a scalar map, and their drawing |
 //! | [`fixed_points`], [`FixedPoint`] | crossings of the diagonal, and touches of it |
-//! | [`periodic_point`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
+//! | [`periodic_point`], [`periodic_point_with_derivative`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
 //! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
 //!
 //! Each half of a ball's flight is half as long as the one before:
@@ -53,10 +54,16 @@
 //! ```
 //!
 //! # Accuracy
-//! A return is as exact as the system's crossings. [`fixed_points`] sees what its samples reveal.
+//! A return is as exact as the system's crossings, and its derivative as the system's derivatives.
+//! [`fixed_points`] sees what its samples reveal.
+//!
+//! # Poincaré sections of plain flows
+//! A plain flow is a hybrid system with one mode and a guard whose reset changes nothing: the example
+//! `lorenz` does it for the Lorenz system, with its derivative.
 //!
 //! # Not here
-//! Derivatives of return maps along the flow, sections of plain flows that are not guards of the system.
+//! Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure,
+//! a return map among them.
 
 mod error;
 mod fixed_point;
@@ -69,7 +76,7 @@ mod stability;
 pub use error::Error;
 pub use fixed_point::{FixedPoint, Meeting, fixed_points};
 pub use orbit::{cobweb, orbit};
-pub use periodic_point::{PeriodicPoint, periodic_point};
-pub use return_map::{Return, ReturnMap};
-pub use section::Section;
+pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
+pub use return_map::{Return, ReturnMap, SmoothReturn};
+pub use section::{Section, SmoothSection};
 pub use stability::{OneSidedStability, Side, Stability, one_sided_stability};

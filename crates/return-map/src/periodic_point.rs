@@ -49,26 +49,63 @@ pub fn periodic_point<const K: usize>(
     start: &SVector<f64, K>,
     period: usize,
 ) -> Result<PeriodicPoint<K>, Error> {
-    let displacement = |x: &SVector<f64, K>| {
-        let mut image = *x;
+    let image = |x: &SVector<f64, K>| map(x);
+    let slope = |x: &SVector<f64, K>| derivative(|x| iterate(&map, x, period), x);
+    newton(image, slope, start, period)
+}
+
+/// The same for a map that gives its derivative beside the image, as
+/// [`next_with_derivative`](crate::ReturnMap::next_with_derivative) does: multipliers as exact as that.
+///
+/// # Errors
+/// As [`periodic_point`].
+pub fn periodic_point_with_derivative<const K: usize>(
+    map: impl Fn(&SVector<f64, K>) -> Result<(SVector<f64, K>, SMatrix<f64, K, K>), Error>,
+    start: &SVector<f64, K>,
+    period: usize,
+) -> Result<PeriodicPoint<K>, Error> {
+    let image = |x: &SVector<f64, K>| Ok(map(x)?.0);
+    let slope = |x: &SVector<f64, K>| {
+        let (mut x, mut whole) = (*x, SMatrix::identity());
         for _ in 0..period {
-            image = map(&image)?;
+            let (image, slope) = map(&x)?;
+            (x, whole) = (image, slope * whole);
         }
-        Ok::<_, Error>(image - x)
+        Ok(whole)
     };
+    newton(image, slope, start, period)
+}
+
+/// fᵖ(x).
+fn iterate<const K: usize>(
+    map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
+    x: &SVector<f64, K>,
+    period: usize,
+) -> Result<SVector<f64, K>, Error> {
+    (0..period).try_fold(*x, |x, _| map(&x))
+}
+
+/// Damped Newton steps on fᵖ(x) − x, given f and the derivative of fᵖ.
+fn newton<const K: usize>(
+    map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
+    whole: impl Fn(&SVector<f64, K>) -> Result<SMatrix<f64, K, K>, Error>,
+    start: &SVector<f64, K>,
+    period: usize,
+) -> Result<PeriodicPoint<K>, Error> {
+    let displacement = |x: &SVector<f64, K>| Ok::<_, Error>(iterate(&map, x, period)? - x);
     let none = |residual: f64, steps: usize| Error::NoPeriodicPoint { residual, steps };
     if period == 0 {
         return Err(none(f64::NAN, 0));
     }
     let (mut x, mut rest) = (*start, displacement(start)?);
     for steps in 0..=STEPS {
-        let slope = derivative(displacement, &x)?;
+        let whole = whole(&x)?;
+        let slope = whole - SMatrix::identity();
         // A few roundings of the map: further steps would follow noise.
         let rounding = 16.0 * f64::EPSILON * period as f64 * (1.0 + x.amax());
         let step = solve(&slope, &rest);
         let tiny = step.is_some_and(|step| step.amax() <= rounding);
         if rest.amax() <= rounding && (tiny || rest.amax() == 0.0 || steps == STEPS) {
-            let whole = slope + SMatrix::identity();
             if !whole.iter().all(|entry| entry.is_finite()) {
                 return Err(none(rest.amax(), steps));
             }
@@ -146,6 +183,16 @@ mod tests {
         let exact = (4.2 - (4.2f64 * 0.2).sqrt()) / 6.4;
         assert!((point.location[0] - exact).abs() < 1e-14, "{point:?}");
         assert!((point.multipliers[0].re - 0.16).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_given_derivative_gives_exact_multipliers() {
+        let map = |x: &Vector1<f64>| {
+            let slope = SMatrix::<f64, 1, 1>::new(3.2 * (1.0 - 2.0 * x[0]));
+            Ok((Vector1::new(3.2 * x[0] * (1.0 - x[0])), slope))
+        };
+        let point = periodic_point_with_derivative(map, &Vector1::new(0.5), 2).unwrap();
+        assert!((point.multipliers[0].re - 0.16).abs() < 1e-14, "{point:?}");
     }
 
     #[test]

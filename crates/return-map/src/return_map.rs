@@ -1,8 +1,8 @@
 //! From a section back to it.
 
-use crate::{Error, Section};
-use hybrid_system::{Execution, HybridSystem, Limits, Stop};
-use nalgebra::SVector;
+use crate::{Error, Section, SmoothSection};
+use hybrid_system::{Differentiable, Execution, HybridSystem, Limits, Stop, event_sensitivity};
+use nalgebra::{RowSVector, SMatrix, SVector};
 
 /// The map from a section to the next event on it, along executions of a hybrid system.
 #[derive(Debug, Clone, Copy)]
@@ -13,6 +13,17 @@ pub struct ReturnMap<'a, T, C, const N: usize> {
     pub section: &'a C,
     /// How far one return may go.
     pub limits: Limits,
+}
+
+/// A return to the section, with its derivatives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SmoothReturn<const K: usize> {
+    /// The return.
+    pub to: Return<K>,
+    /// Derivative of the image.
+    pub derivative: SMatrix<f64, K, K>,
+    /// Derivative of the return time.
+    pub time_derivative: RowSVector<f64, K>,
 }
 
 /// A return to the section.
@@ -53,6 +64,46 @@ where
             events += 1;
             if let Some(coordinates) = self.section.coordinates(event) {
                 return Ok(Return { coordinates, time, events });
+            }
+        }
+        let stop = execution.stop().unwrap_or(Stop::Failed);
+        Err(Error::NoReturn { stop, time, events })
+    }
+
+    /// The same with the derivatives of image and return time, by state transition along the arcs and through
+    /// the events, each compared at the event itself.
+    ///
+    /// # Errors
+    /// As [`next`](Self::next), and as [`event_sensitivity`]: a return that grazes a guard has no derivative.
+    pub fn next_with_derivative<const K: usize>(
+        &self,
+        coordinates: &SVector<f64, K>,
+    ) -> Result<SmoothReturn<K>, Error>
+    where
+        T: Differentiable<N>,
+        C: SmoothSection<T, N, K>,
+    {
+        let (mode, state) = self.section.point(coordinates);
+        let mut change = self.section.point_jacobian(coordinates);
+        let mut time_derivative = RowSVector::zeros();
+        let mut execution = Execution::new(self.system, mode, state, self.limits);
+        let (mut time, mut events) = (0.0, 0);
+        for arc in execution.by_ref() {
+            let arc = arc?;
+            time = arc.time + arc.duration;
+            let Some(event) = arc.event() else { continue };
+            events += 1;
+            let back = self.section.coordinates(event);
+            if back.is_none() && event.after.is_none() {
+                continue;
+            }
+            let (through, delay) = event_sensitivity(self.system, &arc)?;
+            time_derivative += delay * change;
+            change = through * change;
+            if let Some(coordinates) = back {
+                let derivative = self.section.coordinates_jacobian(event) * change;
+                let to = Return { coordinates, time, events };
+                return Ok(SmoothReturn { to, derivative, time_derivative });
             }
         }
         let stop = execution.stop().unwrap_or(Stop::Failed);

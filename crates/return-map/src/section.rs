@@ -1,7 +1,7 @@
 //! Sections: where in an execution the map looks.
 
 use hybrid_system::{Event, HybridSystem, State};
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 /// A K-dimensional section through the N-dimensional state space, met at events.
 pub trait Section<T: HybridSystem<N>, const N: usize, const K: usize> {
@@ -10,4 +10,15 @@ pub trait Section<T: HybridSystem<N>, const N: usize, const K: usize> {
 
     /// The coordinates of an event that lies on the section; nothing if it does not.
     fn coordinates(&self, event: &Event<T::Mode, T::Surface, N>) -> Option<SVector<f64, K>>;
+}
+
+/// A section with the derivatives that those of its return map need.
+pub trait SmoothSection<T: HybridSystem<N>, const N: usize, const K: usize>:
+    Section<T, N, K>
+{
+    /// ∂x/∂ξ of the [point](Section::point) with these coordinates.
+    fn point_jacobian(&self, coordinates: &SVector<f64, K>) -> SMatrix<f64, N, K>;
+
+    /// ∂ξ/∂x⁺ of the [coordinates](Section::coordinates) of an event, x⁺ being the state after it.
+    fn coordinates_jacobian(&self, event: &Event<T::Mode, T::Surface, N>) -> SMatrix<f64, K, N>;
 }

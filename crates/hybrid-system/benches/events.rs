@@ -1,0 +1,115 @@
+//! What an event costs: in closed form under bounds, by enclosures, by samples, along an integrated flow.
+
+#![allow(missing_docs, clippy::unwrap_used)]
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use hybrid_system::*;
+use nalgebra::Vector2;
+use std::hint::black_box;
+
+/// A swing watched for its zeros.
+struct Swing(Search);
+
+#[derive(Clone, Copy, PartialEq)]
+enum Search {
+    Signal,
+    Enclosure,
+    Samples,
+}
+
+const TOLERANCES: Tolerances = Tolerances::both(1e-10);
+
+impl HybridSystem<2> for Swing {
+    type Mode = ();
+    type Surface = ();
+    fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
+        let (sin, cos) = pxfm::f_sincos(t);
+        Vector2::new(x[0] * cos + x[1] * sin, x[1] * cos - x[0] * sin)
+    }
+    fn guards(&self, _: ()) -> &[Guard<()>] {
+        const { &[Guard::either(())] }
+    }
+    fn guard_value(&self, _: (), x: &State<2>) -> f64 {
+        x[0]
+    }
+    fn guard_signal(&self, _: (), _: (), x: &State<2>) -> Option<Signal> {
+        (self.0 == Search::Signal).then(|| Signal::cosine(x[0], 1.0) + Signal::sine(x[1], 1.0))
+    }
+    fn guard_enclosure(
+        &self,
+        mode: (),
+        _: (),
+        x: &State<2>,
+        order: u32,
+        (from, to): (f64, f64),
+    ) -> Option<Enclosure> {
+        if self.0 != Search::Enclosure {
+            return None;
+        }
+        // x⁽ᵏ⁾ moves by no more than the amplitude over a unit of time.
+        let middle = self.flow(mode, x, 0.5 * (from + to));
+        let value = [middle[0], middle[1], -middle[0]].get(order as usize).copied()?;
+        Some(Enclosure::around(value, x.norm() * (0.5 * (to - from) + 1e-15)))
+    }
+    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+        Reset::Jump { mode: (), state: *x }
+    }
+}
+
+/// The same, integrated.
+struct Integrated;
+
+impl VectorField<2> for Integrated {
+    fn vector_field(&self, _: (), x: &State<2>) -> State<2> {
+        Vector2::new(x[1], -x[0])
+    }
+}
+
+impl HybridSystem<2> for Integrated {
+    type Mode = ();
+    type Surface = ();
+    fn flow(&self, mode: (), x: &State<2>, t: f64) -> State<2> {
+        integrated_flow(self, mode, x, t, TOLERANCES)
+    }
+    fn guards(&self, _: ()) -> &[Guard<()>] {
+        const { &[Guard::either(())] }
+    }
+    fn guard_value(&self, _: (), x: &State<2>) -> f64 {
+        x[0]
+    }
+    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+        Reset::Jump { mode: (), state: *x }
+    }
+    fn first_crossing(
+        &self,
+        mode: (),
+        x: &State<2>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<(), 2>>, Error> {
+        integrated_crossing(self, mode, x, horizon, TOLERANCES)
+    }
+}
+
+fn zeros(criterion: &mut Criterion) {
+    for (name, search) in [
+        ("signal", Search::Signal),
+        ("enclosure", Search::Enclosure),
+        ("samples", Search::Samples),
+    ] {
+        criterion.bench_function(&format!("ten zeros of a swing: {name}"), |bencher| {
+            let swing = Swing(search);
+            let start = Vector2::new(1.0, 0.0);
+            let limits = Limits::sampled(100.0, 10, 0.1);
+            bencher.iter(|| Execution::new(&swing, (), black_box(start), limits).count());
+        });
+    }
+    criterion.bench_function("ten zeros of a swing: integrated", |bencher| {
+        let start = Vector2::new(1.0, 0.0);
+        let limits = Limits::new(100.0, 10);
+        bencher.iter(|| Execution::new(&Integrated, (), black_box(start), limits).count());
+    });
+}
+
+criterion_group!(benches, zeros);
+criterion_main!(benches);

@@ -1,0 +1,201 @@
+//! A ball that bounces with any restitution, and rests where its bounces accumulate.
+//!
+//! Rest is a mode of its own: the floor carries the ball as long as its force is positive. On a floor at rest
+//! that is for ever; a table that shakes with more than gravity throws it.
+//!
+//! Run with `cargo run -p hybrid-system --example bouncing_ball`.
+
+#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and bits do not matter
+
+use hybrid_system::*;
+use nalgebra::Vector3;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mode {
+    Air,
+    OnTable,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Surface {
+    /// The gap to the table closes.
+    Impact,
+    /// The force of the table vanishes.
+    Release,
+}
+
+/// A ball over a table at height −A sin φ, φ̇ = ω. State: height, velocity, φ.
+#[derive(Debug, Clone, Copy)]
+struct Ball {
+    gravity: f64,
+    restitution: f64,
+    /// A.
+    amplitude: f64,
+    /// ω.
+    frequency: f64,
+}
+
+impl Ball {
+    fn over_floor(gravity: f64, restitution: f64) -> Self {
+        Ball { gravity, restitution, amplitude: 0.0, frequency: 1.0 }
+    }
+
+    /// Height and velocity of the table.
+    fn table(&self, phase: f64) -> (f64, f64) {
+        let (sin, cos) = phase.sin_cos();
+        (-self.amplitude * sin, -self.amplitude * self.frequency * cos)
+    }
+}
+
+impl HybridSystem<3> for Ball {
+    type Mode = Mode;
+    type Surface = Surface;
+
+    fn flow(&self, mode: Mode, x: &State<3>, t: f64) -> State<3> {
+        let phase = x[2] + self.frequency * t;
+        match mode {
+            Mode::Air => {
+                let height = x[0] + t * (x[1] - 0.5 * self.gravity * t);
+                Vector3::new(height, x[1] - self.gravity * t, phase)
+            }
+            Mode::OnTable => {
+                let (height, velocity) = self.table(phase);
+                Vector3::new(height, velocity, phase)
+            }
+        }
+    }
+
+    fn guards(&self, mode: Mode) -> &[Guard<Surface>] {
+        match mode {
+            Mode::Air => const { &[Guard::falling(Surface::Impact)] },
+            Mode::OnTable => const { &[Guard::falling(Surface::Release)] },
+        }
+    }
+
+    fn guard_value(&self, surface: Surface, x: &State<3>) -> f64 {
+        match surface {
+            Surface::Impact => x[0] - self.table(x[2]).0,
+            // Force over mass: gravity plus the acceleration of the table, Aω² sin φ.
+            Surface::Release => {
+                self.gravity + self.amplitude * self.frequency.powi(2) * x[2].sin()
+            }
+        }
+    }
+
+    fn guard_signal(&self, _: Mode, surface: Surface, x: &State<3>) -> Option<Signal> {
+        let (sin, cos) = x[2].sin_cos();
+        // sin(φ₀ + ωt)
+        let shake = Signal::sine(cos, self.frequency) + Signal::cosine(sin, self.frequency);
+        Some(match surface {
+            Surface::Impact => {
+                Signal::polynomial(&[x[0], x[1], -0.5 * self.gravity])
+                    + shake.scaled(self.amplitude)
+            }
+            Surface::Release => {
+                Signal::polynomial(&[self.gravity])
+                    + shake.scaled(self.amplitude * self.frequency.powi(2))
+            }
+        })
+    }
+
+    fn reset(&self, _: Mode, surface: Surface, x: &State<3>) -> Reset<Mode, 3> {
+        let (height, velocity) = self.table(x[2]);
+        let rebound = velocity - self.restitution * (x[1] - velocity);
+        match surface {
+            Surface::Impact if rebound > velocity => {
+                Reset::Jump { mode: Mode::Air, state: Vector3::new(height, rebound, x[2]) }
+            }
+            Surface::Impact => {
+                // Without a rebound it is carried, if the table does not fall faster than it.
+                let carried = self.guard_value(Surface::Release, x) > 0.0;
+                let mode = if carried { Mode::OnTable } else { Mode::Air };
+                Reset::Jump { mode, state: Vector3::new(height, velocity, x[2]) }
+            }
+            Surface::Release => {
+                Reset::Jump { mode: Mode::Air, state: Vector3::new(height, velocity, x[2]) }
+            }
+        }
+    }
+
+    fn rest(&self, _: Mode, limit: &State<3>) -> Option<(Mode, State<3>)> {
+        let (height, velocity) = self.table(limit[2]);
+        Some((Mode::OnTable, Vector3::new(height, velocity, limit[2])))
+    }
+}
+
+fn main() -> Result<(), Error> {
+    println!("dropped from 1 under gravity 9.81");
+    println!("{:>11} {:>8} {:>20} {:>20}", "restitution", "bounces", "at rest after", "exactly");
+    for restitution in [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99] {
+        let ball = Ball::over_floor(9.81, restitution);
+        let start = Vector3::new(1.0, 0.0, 0.0);
+        let mut bounces = 0;
+        for arc in Execution::new(&ball, Mode::Air, start, Limits::new(1000.0, 100_000)) {
+            let arc = arc?;
+            bounces += usize::from(arc.event().is_some());
+            if arc.mode == Mode::OnTable {
+                let exact = (2.0f64 / 9.81).sqrt() * (1.0 + restitution) / (1.0 - restitution);
+                println!("{restitution:>11} {bounces:>8} {:>20.15} {exact:>20.15}", arc.time);
+            }
+        }
+    }
+    println!("on a table that shakes with 1.2 times gravity");
+    let ball = Ball { gravity: 1.0, restitution: 0.0, amplitude: 1.2, frequency: 1.0 };
+    for arc in Execution::new(&ball, Mode::OnTable, Vector3::zeros(), Limits::new(20.0, 100)) {
+        let arc = arc?;
+        println!("{:>8?} from {:.6} to {:.6}", arc.mode, arc.time, arc.time + arc.duration);
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::panic)]
+mod tests {
+    use super::*;
+
+    fn arcs(ball: &Ball, mode: Mode, start: State<3>, time: f64) -> Vec<Arc<Mode, Surface, 3>> {
+        Execution::new(ball, mode, start, Limits::new(time, 100_000))
+            .collect::<Result<_, _>>()
+            .unwrap()
+    }
+
+    #[test]
+    fn every_restitution_comes_to_rest_at_its_time() {
+        for restitution in [0.0, 0.05, 0.3, 0.5, 0.7, 0.9, 0.99] {
+            let ball = Ball::over_floor(2.0, restitution);
+            let arcs = arcs(&ball, Mode::Air, Vector3::new(1.0, 0.0, 0.0), 1e6);
+            let last = arcs.last().unwrap();
+            assert_eq!((last.mode, last.end), (Mode::OnTable, ArcEnd::TimeLimit));
+            let exact = (1.0 + restitution) / (1.0 - restitution);
+            assert!((last.time / exact - 1.0).abs() < 1e-12, "{restitution}: {}", last.time);
+            let end = last.state(&ball, last.duration).unwrap();
+            assert_eq!((end[0], end[1].abs()), (0.0, 0.0));
+        }
+        let ball = Ball::over_floor(2.0, 1.0);
+        let arcs = arcs(&ball, Mode::Air, Vector3::new(1.0, 0.0, 0.0), 1000.0);
+        assert_eq!(arcs.len(), 501);
+    }
+
+    /// Carried up to sin φ = −g/Aω², thrown, and caught again.
+    #[test]
+    fn a_table_that_shakes_throws() {
+        let ball = Ball { gravity: 1.0, restitution: 0.0, amplitude: 1.2, frequency: 1.0 };
+        let arcs = arcs(&ball, Mode::OnTable, Vector3::zeros(), 40.0);
+        let release = std::f64::consts::PI + (1.0f64 / 1.2).asin();
+        assert!((arcs[0].duration - release).abs() < 1e-14);
+        for pair in arcs.windows(2) {
+            assert_ne!(pair[0].mode, pair[1].mode);
+        }
+        // In the air it is never below the table.
+        for arc in arcs.iter().filter(|arc| arc.mode == Mode::Air) {
+            for k in 0..=100 {
+                let state = arc.state(&ball, arc.duration * f64::from(k) / 100.0).unwrap();
+                assert!(ball.guard_value(Surface::Impact, &state) > -1e-14);
+            }
+        }
+        // A weaker shake never throws.
+        let ball = Ball { amplitude: 0.999, ..ball };
+        let arcs = self::arcs(&ball, Mode::OnTable, Vector3::zeros(), 1000.0);
+        assert_eq!(arcs.len(), 1);
+    }
+}

@@ -1,0 +1,248 @@
+//! An oscillator that is pushed periodically and hits a wall, near grazing.
+//!
+//! ẍ + x = cos φ, φ̇ = ω, and at x = σ the speed turns round: v → −r v. Without impacts the motion
+//! x = a cos φ with a = 1/(1 − ω²) repeats for ever; a wall at σ = |a| it only grazes. Beyond, the map from
+//! one period of the push to the next is steep like a square root (Nordmark 1991): its derivative grows like
+//! (|a| − σ)^(−1/2), and at grazing there is none.
+//!
+//! Run with `cargo run -p return-map --example impact_oscillator`.
+
+#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and bits do not matter
+
+use hybrid_system::*;
+use nalgebra::{SMatrix, SVector, Vector2, Vector3};
+use return_map::{ReturnMap, Section, SmoothSection};
+use std::f64::consts::TAU;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Surface {
+    /// The wall, x = σ.
+    Wall,
+    /// A period of the push ends, φ = 2π.
+    Period,
+}
+
+/// State: x, v, φ.
+#[derive(Debug, Clone, Copy)]
+struct Oscillator {
+    /// ω.
+    frequency: f64,
+    /// σ.
+    wall: f64,
+    /// r.
+    restitution: f64,
+}
+
+impl Oscillator {
+    /// a of the motion a cos φ that the push drives.
+    fn driven(&self) -> f64 {
+        1.0 / (1.0 - self.frequency * self.frequency)
+    }
+
+    /// What swings freely: x − a cos φ, and its rate.
+    fn free(&self, x: &State<3>) -> (f64, f64) {
+        let (sin, cos) = x[2].sin_cos();
+        (x[0] - self.driven() * cos, x[1] + self.driven() * self.frequency * sin)
+    }
+}
+
+impl HybridSystem<3> for Oscillator {
+    type Mode = ();
+    type Surface = Surface;
+
+    fn flow(&self, _: (), x: &State<3>, t: f64) -> State<3> {
+        let (offset, rate) = self.free(x);
+        let (sin, cos) = t.sin_cos();
+        let phase = x[2] + self.frequency * t;
+        let push = self.driven() * phase.cos();
+        let push_rate = -self.driven() * self.frequency * phase.sin();
+        Vector3::new(offset * cos + rate * sin + push, rate * cos - offset * sin + push_rate, phase)
+    }
+
+    fn guards(&self, _: ()) -> &[Guard<Surface>] {
+        const { &[Guard::rising(Surface::Wall), Guard::rising(Surface::Period)] }
+    }
+
+    fn guard_value(&self, surface: Surface, x: &State<3>) -> f64 {
+        match surface {
+            Surface::Wall => x[0] - self.wall,
+            Surface::Period => x[2] - TAU,
+        }
+    }
+
+    fn guard_signal(&self, _: (), surface: Surface, x: &State<3>) -> Option<Signal> {
+        Some(match surface {
+            Surface::Wall => {
+                let (offset, rate) = self.free(x);
+                let (sin, cos) = x[2].sin_cos();
+                let push = Signal::cosine(cos, self.frequency) - Signal::sine(sin, self.frequency);
+                Signal::cosine(offset, 1.0)
+                    + Signal::sine(rate, 1.0)
+                    + push.scaled(self.driven())
+                    + Signal::polynomial(&[-self.wall])
+            }
+            Surface::Period => Signal::polynomial(&[x[2] - TAU, self.frequency]),
+        })
+    }
+
+    fn reset(&self, _: (), surface: Surface, x: &State<3>) -> Reset<(), 3> {
+        let state = match surface {
+            Surface::Wall => Vector3::new(self.wall, -self.restitution * x[1], x[2]),
+            Surface::Period => Vector3::new(x[0], x[1], 0.0),
+        };
+        Reset::Jump { mode: (), state }
+    }
+}
+
+impl VectorField<3> for Oscillator {
+    fn vector_field(&self, _: (), x: &State<3>) -> State<3> {
+        Vector3::new(x[1], x[2].cos() - x[0], self.frequency)
+    }
+}
+
+impl Differentiable<3> for Oscillator {
+    fn flow_jacobian(&self, _: (), x: &State<3>, t: f64) -> SMatrix<f64, 3, 3> {
+        let (sin, cos) = t.sin_cos();
+        let (a, w) = (self.driven(), self.frequency);
+        let phase = x[2] + w * t;
+        // ∂/∂φ₀ of the free part, and of the driven one.
+        let (offset, rate) = (a * x[2].sin(), a * w * x[2].cos());
+        SMatrix::<f64, 3, 3>::new(
+            cos,
+            sin,
+            offset * cos + rate * sin - a * phase.sin(),
+            -sin,
+            cos,
+            rate * cos - offset * sin - a * w * phase.cos(),
+            0.0,
+            0.0,
+            1.0,
+        )
+    }
+    fn guard_gradient(&self, surface: Surface, _: &State<3>) -> State<3> {
+        match surface {
+            Surface::Wall => Vector3::new(1.0, 0.0, 0.0),
+            Surface::Period => Vector3::new(0.0, 0.0, 1.0),
+        }
+    }
+    fn reset_jacobian(&self, _: (), surface: Surface, _: &State<3>) -> SMatrix<f64, 3, 3> {
+        SMatrix::from_diagonal(&match surface {
+            Surface::Wall => Vector3::new(0.0, -self.restitution, 1.0),
+            Surface::Period => Vector3::new(1.0, 1.0, 0.0),
+        })
+    }
+}
+
+/// Once a period of the push, by x and v.
+struct OnceAPeriod;
+
+impl Section<Oscillator, 3, 2> for OnceAPeriod {
+    fn point(&self, x: &SVector<f64, 2>) -> ((), State<3>) {
+        ((), Vector3::new(x[0], x[1], 0.0))
+    }
+    fn coordinates(&self, event: &Event<(), Surface, 3>) -> Option<SVector<f64, 2>> {
+        let (_, state) = event.after.filter(|_| event.surface == Surface::Period)?;
+        Some(Vector2::new(state[0], state[1]))
+    }
+}
+
+impl SmoothSection<Oscillator, 3, 2> for OnceAPeriod {
+    fn point_jacobian(&self, _: &SVector<f64, 2>) -> SMatrix<f64, 3, 2> {
+        SMatrix::<f64, 3, 2>::identity()
+    }
+    fn coordinates_jacobian(&self, _: &Event<(), Surface, 3>) -> SMatrix<f64, 2, 3> {
+        SMatrix::<f64, 2, 3>::identity()
+    }
+}
+
+/// One period of the motion that would be driven without a wall, with the wall a little in its way.
+fn one_period(beyond: f64) -> Result<return_map::SmoothReturn<2>, return_map::Error> {
+    let free = Oscillator { frequency: 2.5, wall: 0.0, restitution: 0.8 };
+    let amplitude = free.driven().abs();
+    let oscillator = Oscillator { wall: amplitude - beyond, ..free };
+    let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
+    map.next_with_derivative(&Vector2::new(free.driven(), 0.0))
+}
+
+fn main() {
+    println!("{:>12} {:>8} {:>16} {:>24}", "beyond", "events", "|Df|", "|Df| (beyond)^(1/2)");
+    for beyond in [-1e-2, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 0.0] {
+        match one_period(beyond) {
+            Ok(back) => {
+                let (events, size) = (back.to.events, back.derivative.amax());
+                let scaled = size * f64::max(beyond, 0.0).sqrt();
+                println!("{beyond:>12.0e} {events:>8} {size:>16.6} {scaled:>24.9}");
+            }
+            Err(error) => println!("{beyond:>12.0e} {error}"),
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use return_map::Error;
+
+    #[test]
+    fn without_impact_the_driven_motion_repeats() {
+        let back = one_period(-1e-9).unwrap();
+        assert_eq!(back.to.events, 1);
+        let free = Oscillator { frequency: 2.5, wall: 0.0, restitution: 0.8 };
+        assert!((back.to.coordinates - Vector2::new(free.driven(), 0.0)).amax() < 1e-14);
+        // The derivative of a free swing is a rotation by the period.
+        let (sin, cos) = (TAU / 2.5).sin_cos();
+        let rotation = SMatrix::<f64, 2, 2>::new(cos, sin, -sin, cos);
+        assert!((back.derivative - rotation).amax() < 1e-14);
+    }
+
+    /// Nordmark's square root: |Df| √(|a| − σ) tends to a constant.
+    #[test]
+    fn steep_like_a_square_root() {
+        let scaled = |beyond: f64| one_period(beyond).unwrap().derivative.amax() * beyond.sqrt();
+        let limit = scaled(1e-10);
+        for (beyond, near) in [(1e-4, 2e-2), (1e-6, 2e-3), (1e-8, 2e-4)] {
+            assert!((scaled(beyond) / limit - 1.0).abs() < near, "{beyond}");
+        }
+        assert!(limit > 0.1);
+    }
+
+    #[test]
+    fn grazing_is_told() {
+        let grazing = one_period(0.0);
+        assert!(
+            matches!(grazing, Err(Error::Execution(hybrid_system::Error::Grazing { .. }))),
+            "{grazing:?}"
+        );
+    }
+
+    /// The derivative through impacts, by finite differences.
+    #[test]
+    fn derivative() {
+        let oscillator = Oscillator { frequency: 2.5, wall: 0.1, restitution: 0.8 };
+        let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
+        for x in [Vector2::new(-0.2, 0.3), Vector2::new(0.05, -1.0), Vector2::new(0.0, 0.5)] {
+            let back = map.next_with_derivative(&x).unwrap();
+            for axis in 0..2 {
+                let mut step = Vector2::zeros();
+                step[axis] = 1e-6;
+                let (up, down) = (map.next(&(x + step)).unwrap(), map.next(&(x - step)).unwrap());
+                let difference = (up.coordinates - down.coordinates) / 2e-6;
+                assert!((difference - back.derivative.column(axis)).amax() < 1e-7);
+                let later = (up.time - down.time) / 2e-6;
+                assert!((later - back.time_derivative[axis]).abs() < 1e-7);
+            }
+        }
+    }
+
+    /// A section of the map shows its steep edge as a turn or a jump between monotone branches.
+    #[test]
+    fn branches_of_a_line_of_starts() {
+        let oscillator = Oscillator { frequency: 2.5, wall: 0.25, restitution: 0.8 };
+        let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
+        let image = |x: f64| map.next(&Vector2::new(x, 0.0)).ok().map(|back| back.coordinates[1]);
+        let window = basin_of_attraction::Interval { left: -0.6, right: 0.2 };
+        let branches = basin_of_attraction::monotone_branches(&image, window, 200).unwrap();
+        assert!(branches.len() >= 2, "{branches:?}");
+    }
+}

@@ -1,0 +1,167 @@
+//! The Lorenz system and its Poincaré section z = 27, crossed downwards: a plain flow as a hybrid system whose only
+//! guard changes nothing.
+//!
+//! The flow is the same after (x, y, z) → (−x, −y, z), so that the shortest periodic orbit returns to the section
+//! after half of its period with both signs turned. Newton's method finds it, with the multipliers.
+//!
+//! Run with `cargo run -p return-map --example lorenz`.
+
+#![allow(clippy::print_stdout)] // a program
+
+use hybrid_system::*;
+use nalgebra::{SMatrix, SVector, Vector2, Vector3};
+use return_map::{
+    Error, PeriodicPoint, ReturnMap, Section, SmoothReturn, SmoothSection,
+    periodic_point_with_derivative,
+};
+
+/// σ = 10, ρ = 28, β = 8/3.
+#[derive(Debug, Clone, Copy)]
+struct Lorenz;
+
+const TOLERANCES: Tolerances = Tolerances::both(1e-14);
+
+impl VectorField<3> for Lorenz {
+    fn vector_field(&self, _: (), x: &State<3>) -> State<3> {
+        Vector3::new(
+            10.0 * (x[1] - x[0]),
+            x[0] * (28.0 - x[2]) - x[1],
+            x[0] * x[1] - 8.0 / 3.0 * x[2],
+        )
+    }
+}
+
+impl Linearized<3> for Lorenz {
+    fn field_jacobian(&self, _: (), x: &State<3>) -> SMatrix<f64, 3, 3> {
+        SMatrix::<f64, 3, 3>::new(
+            -10.0, 10.0, 0.0, //
+            28.0 - x[2], -1.0, -x[0], //
+            x[1], x[0], -8.0 / 3.0,
+        )
+    }
+}
+
+impl HybridSystem<3> for Lorenz {
+    type Mode = ();
+    type Surface = ();
+    fn flow(&self, mode: (), x: &State<3>, t: f64) -> State<3> {
+        integrated_flow(self, mode, x, t, TOLERANCES)
+    }
+    fn guards(&self, _: ()) -> &[Guard<()>] {
+        const { &[Guard::falling(())] }
+    }
+    fn guard_value(&self, _: (), x: &State<3>) -> f64 {
+        x[2] - 27.0
+    }
+    fn reset(&self, _: (), _: (), x: &State<3>) -> Reset<(), 3> {
+        Reset::Jump { mode: (), state: Vector3::new(x[0], x[1], 27.0) }
+    }
+    fn first_crossing(
+        &self,
+        mode: (),
+        x: &State<3>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<(), 3>>, hybrid_system::Error> {
+        integrated_crossing(self, mode, x, horizon, TOLERANCES)
+    }
+}
+
+impl Differentiable<3> for Lorenz {
+    fn flow_jacobian(&self, mode: (), x: &State<3>, t: f64) -> SMatrix<f64, 3, 3> {
+        integrated_jacobian(self, mode, x, t, TOLERANCES)
+            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // refused by what uses it
+    }
+    fn guard_gradient(&self, _: (), _: &State<3>) -> State<3> {
+        Vector3::z()
+    }
+    fn reset_jacobian(&self, _: (), _: (), _: &State<3>) -> SMatrix<f64, 3, 3> {
+        SMatrix::from_diagonal(&Vector3::new(1.0, 1.0, 0.0))
+    }
+}
+
+/// z = 27, by x and y.
+struct Plane;
+
+impl Section<Lorenz, 3, 2> for Plane {
+    fn point(&self, x: &SVector<f64, 2>) -> ((), State<3>) {
+        ((), Vector3::new(x[0], x[1], 27.0))
+    }
+    fn coordinates(&self, event: &Event<(), (), 3>) -> Option<SVector<f64, 2>> {
+        event.after.map(|(_, state)| Vector2::new(state[0], state[1]))
+    }
+}
+
+impl SmoothSection<Lorenz, 3, 2> for Plane {
+    fn point_jacobian(&self, _: &SVector<f64, 2>) -> SMatrix<f64, 3, 2> {
+        SMatrix::<f64, 3, 2>::identity()
+    }
+    fn coordinates_jacobian(&self, _: &Event<(), (), 3>) -> SMatrix<f64, 2, 3> {
+        SMatrix::<f64, 2, 3>::identity()
+    }
+}
+
+fn next(x: &SVector<f64, 2>) -> Result<SmoothReturn<2>, Error> {
+    ReturnMap::new(&Lorenz, &Plane, Limits::new(100.0, 10)).next_with_derivative(x)
+}
+
+/// The fixed point of a half return with both signs turned.
+fn shortest_orbit(guess: &SVector<f64, 2>) -> Result<PeriodicPoint<2>, Error> {
+    let half = |x: &SVector<f64, 2>| {
+        let back = next(x)?;
+        Ok((-back.to.coordinates, -back.derivative))
+    };
+    periodic_point_with_derivative(half, guess, 1)
+}
+
+fn main() -> Result<(), Error> {
+    let orbit = shortest_orbit(&Vector2::new(-2.1, 2.1))?;
+    let period = 2.0 * next(&orbit.location)?.to.time;
+    println!("x = {:.12}, y = {:.12}", orbit.location[0], orbit.location[1]);
+    println!("period {period:.13}, residual {:.1e}", orbit.residual);
+    println!("multipliers of half a period: {:?}", orbit.multipliers);
+    Ok(())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used, clippy::excessive_precision)]
+mod tests {
+    use super::*;
+
+    /// A published point and its image (E8).
+    #[test]
+    fn a_half_return() {
+        let back = next(&Vector2::new(-2.1473674741633753, 2.0780481172873415)).unwrap();
+        assert!((back.to.time - 0.77932610853932338).abs() < 1e-12);
+        let image = Vector2::new(2.1473675875613338, -2.0780482713004851);
+        assert!((back.to.coordinates - image).amax() < 1e-12);
+    }
+
+    /// The period of the shortest orbit, as Viswanath (2003) has it.
+    #[test]
+    fn the_shortest_periodic_orbit() {
+        let orbit = shortest_orbit(&Vector2::new(-2.1, 2.1)).unwrap();
+        let period = 2.0 * next(&orbit.location).unwrap().to.time;
+        assert!((period - 1.5586522107161747).abs() < 1e-11, "{period}");
+        // The flow shrinks volumes at the rate −(σ + 1 + β); the section sees it without the speed across.
+        let product: f64 = orbit.multipliers.iter().map(|m| m.norm()).product();
+        let shrink = (-(11.0 + 8.0 / 3.0) * period / 2.0f64).exp();
+        assert!((product / shrink - 1.0).abs() < 1e-5, "{product:e} {shrink:e}");
+    }
+
+    #[test]
+    fn derivative() {
+        let x = Vector2::new(-2.0, 2.5);
+        let back = next(&x).unwrap();
+        for axis in 0..2 {
+            let mut step = Vector2::zeros();
+            step[axis] = 1e-5;
+            let (up, down) = (next(&(x + step)).unwrap().to, next(&(x - step)).unwrap().to);
+            let difference = (up.coordinates - down.coordinates) / 2e-5;
+            let column = back.derivative.column(axis);
+            assert!((difference - column).amax() < 1e-6 * (1.0 + column.amax()));
+            let later = (up.time - down.time) / 2e-5;
+            assert!((later - back.time_derivative[axis]).abs() < 1e-6);
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! The bifurcation diagram of a pressure relief valve, as numbers: its turns after a transient, by flow rate.
+//!
+//! Run with `cargo run --release -p return-map --example pressure_relief_valve`; `cargo xtask valve-diagram`
+//! draws it.
+
+#![allow(clippy::print_stdout)] // a program
+
+mod model;
+
+use model::{LIMITS, START, Turns, Valve};
+use nalgebra::Vector2;
+use return_map::{Error, ReturnMap};
+
+/// The displacements at `kept` turns after `transient` ones.
+fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
+    let valve = Valve { flow_rate };
+    let map = ReturnMap::new(&valve, &Turns, LIMITS);
+    let mut at: Vector2<f64> = START;
+    let mut found = Vec::with_capacity(kept);
+    for turn in 0..transient + kept {
+        at = map.next(&at)?.coordinates;
+        if turn >= transient {
+            found.push(at[0]);
+        }
+    }
+    Ok(found)
+}
+
+fn main() -> Result<(), Error> {
+    println!("{:>4}  displacements at the last turns", "q");
+    for flow_rate in [0.5, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 7.5, 8.0, 9.0] {
+        let mut found = turns(flow_rate, 500, 64)?;
+        found.sort_by(f64::total_cmp);
+        found.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+        let shown: Vec<String> = found.iter().take(8).map(|y| format!("{y:.6}")).collect();
+        let more = if found.len() > 8 { " …" } else { "" };
+        println!("{flow_rate:>4}  {}{more}", shown.join(" "));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use hybrid_system::{Execution, HybridSystem};
+    use model::Mode;
+    use nalgebra::Vector3;
+
+    /// Where the disc stays in the stream it comes to the equilibrium y₁ √(y₁ + δ) = q.
+    #[test]
+    fn it_comes_to_rest_in_a_strong_stream() {
+        let found = turns(9.0, 100, 1).unwrap()[0];
+        assert!((found * (found + 10.0).sqrt() - 9.0).abs() < 1e-6, "{found}");
+    }
+
+    /// No arc lets the disc through its seat, and every impact keeps four fifths of the speed.
+    #[test]
+    fn never_through_the_seat() {
+        for flow_rate in [0.3, 1.0, 3.0, 6.0] {
+            let valve = Valve { flow_rate };
+            let start = Vector3::new(0.2, 0.0, 0.0);
+            for arc in Execution::new(&valve, Mode::Open, start, hybrid_system::Limits::new(30.0, 2000)) {
+                let arc = arc.unwrap();
+                if arc.duration == 0.0 || arc.mode == Mode::Closed {
+                    continue;
+                }
+                for k in 0..=10 {
+                    let state = valve.flow(arc.mode, &arc.start, arc.duration * f64::from(k) / 10.0);
+                    assert!(state[0] > -1e-8, "q = {flow_rate}: {state}");
+                }
+            }
+        }
+    }
+
+    /// A return does not depend on where it was cut into arcs: twice one return is two returns.
+    #[test]
+    fn periodic_where_the_tutorial_has_it() {
+        // One impact a period at q = 6 (checked against a tenth of the tolerance).
+        let found = turns(7.4, 400, 8).unwrap();
+        assert!(found.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 1e-6), "{found:?}");
+    }
+}

@@ -1,0 +1,138 @@
+//! A pressure relief valve whose disc hits its seat (Hős, Champneys; the tutorial of the MPGOS package).
+
+use hybrid_system::*;
+use nalgebra::{SVector, Vector2, Vector3};
+use return_map::Section;
+
+/// κ, the damping.
+const DAMPING: f64 = 1.25;
+/// δ, the load of the spring.
+const LOAD: f64 = 10.0;
+/// β, how fast the pressure builds up.
+const FILLING: f64 = 20.0;
+/// r: y₂ → −r y₂ at the seat.
+const RESTITUTION: f64 = 0.8;
+/// As in the tutorial.
+const TOLERANCES: Tolerances = Tolerances::both(1e-10);
+
+/// Where the disc is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    /// In the stream: ẏ₁ = y₂, ẏ₂ = −κ y₂ − (y₁ + δ) + y₃, ẏ₃ = β (q − y₁ √y₃). Integrated.
+    Open,
+    /// On its seat, pressed there by the spring: ẏ₃ = β q. In closed form.
+    Closed,
+}
+
+/// What ends an arc.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Surface {
+    /// y₁ = 0: the disc meets its seat.
+    Seat,
+    /// y₂ = 0, falling: it is farthest from it.
+    Turn,
+    /// y₃ = δ: the pressure lifts it off the seat.
+    Release,
+}
+
+/// The valve with flow rate q. State: displacement y₁, velocity y₂, pressure y₃, dimensionless.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Valve {
+    /// q.
+    pub flow_rate: f64,
+}
+
+impl VectorField<3> for Valve {
+    fn vector_field(&self, mode: Mode, y: &State<3>) -> State<3> {
+        match mode {
+            Mode::Open => Vector3::new(
+                y[1],
+                y[2] - LOAD - y[0] - DAMPING * y[1],
+                FILLING * (self.flow_rate - y[0] * y[2].sqrt()),
+            ),
+            Mode::Closed => Vector3::new(0.0, 0.0, FILLING * self.flow_rate),
+        }
+    }
+}
+
+impl HybridSystem<3> for Valve {
+    type Mode = Mode;
+    type Surface = Surface;
+
+    fn flow(&self, mode: Mode, y: &State<3>, t: f64) -> State<3> {
+        match mode {
+            Mode::Open => integrated_flow(self, mode, y, t, TOLERANCES),
+            Mode::Closed => Vector3::new(0.0, 0.0, y[2] + FILLING * self.flow_rate * t),
+        }
+    }
+
+    fn guards(&self, mode: Mode) -> &[Guard<Surface>] {
+        match mode {
+            Mode::Open => const { &[Guard::falling(Surface::Seat), Guard::falling(Surface::Turn)] },
+            Mode::Closed => const { &[Guard::rising(Surface::Release)] },
+        }
+    }
+
+    fn guard_value(&self, surface: Surface, y: &State<3>) -> f64 {
+        match surface {
+            Surface::Seat => y[0],
+            Surface::Turn => y[1],
+            Surface::Release => y[2] - LOAD,
+        }
+    }
+
+    fn reset(&self, _: Mode, surface: Surface, y: &State<3>) -> Reset<Mode, 3> {
+        let state = match surface {
+            Surface::Seat => Vector3::new(0.0, -RESTITUTION * y[1], y[2]),
+            Surface::Turn => *y,
+            Surface::Release => Vector3::new(0.0, 0.0, LOAD),
+        };
+        Reset::Jump { mode: Mode::Open, state }
+    }
+
+    /// Bounces that accumulate leave it on its seat until the pressure carries the load.
+    fn rest(&self, _: Mode, limit: &State<3>) -> Option<(Mode, State<3>)> {
+        (limit[2] < LOAD).then_some((Mode::Closed, Vector3::new(0.0, 0.0, limit[2])))
+    }
+
+    fn first_crossing(
+        &self,
+        mode: Mode,
+        y: &State<3>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<Surface, 3>>, Error> {
+        match mode {
+            Mode::Open => integrated_crossing(self, mode, y, horizon, TOLERANCES),
+            Mode::Closed => {
+                let time = (LOAD - y[2]) / (FILLING * self.flow_rate);
+                let state = Vector3::new(0.0, 0.0, LOAD);
+                Ok((time <= horizon).then_some(Crossing {
+                    surface: Surface::Release,
+                    time: time.max(0.0),
+                    state,
+                    certainty: Certainty::Exact,
+                }))
+            }
+        }
+    }
+}
+
+/// The turns, by displacement and pressure: the section of the tutorial.
+#[derive(Debug, Clone, Copy)]
+pub struct Turns;
+
+impl Section<Valve, 3, 2> for Turns {
+    fn point(&self, y: &SVector<f64, 2>) -> (Mode, State<3>) {
+        (Mode::Open, Vector3::new(y[0], 0.0, y[1]))
+    }
+    fn coordinates(&self, event: &Event<Mode, Surface, 3>) -> Option<SVector<f64, 2>> {
+        (event.surface == Surface::Turn).then(|| Vector2::new(event.before[0], event.before[2]))
+    }
+}
+
+/// Where every orbit of the tutorial starts: open by 0.2, without pressure.
+pub const START: Vector2<f64> = Vector2::new(0.2, 0.0);
+
+/// One return may take so long, and so many events.
+pub const LIMITS: Limits = Limits::new(1000.0, 10_000);

@@ -1,0 +1,226 @@
+//! The rimless wheel (McGeer 1990; Coleman 1998): a point mass on stiff spokes that rolls down a slope.
+//!
+//! On a spoke it is an inverted pendulum, θ̈ = sin θ with time in units of √(length/gravity). A spoke at angle
+//! γ + α from the vertical meets the ground by the next one, at γ − α, and the speed falls by the factor
+//! cos 2α. So Ω = θ̇² goes to cos² 2α (Ω + 4 sin γ sin α), with the fixed point known.
+//!
+//! Run with `cargo run -p return-map --example rimless_wheel`.
+
+#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and bits do not matter
+
+use hybrid_system::*;
+use nalgebra::{SMatrix, SVector, Vector1, Vector2};
+use return_map::{Error, ReturnMap, Section, SmoothSection, periodic_point_with_derivative};
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Mode {
+    OnOneSpoke,
+    /// On two spokes, at rest.
+    Standing,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Surface {
+    /// The next spoke meets the ground.
+    Forward,
+    /// The last one does: it rocks back.
+    Backward,
+}
+
+/// State: θ, θ̇ of the spoke on the ground.
+#[derive(Debug, Clone, Copy)]
+struct Wheel {
+    /// γ.
+    slope: f64,
+    /// α, half of the angle between spokes.
+    half_angle: f64,
+}
+
+const TOLERANCES: Tolerances = Tolerances::both(1e-13);
+
+impl Wheel {
+    fn kept(&self) -> f64 {
+        (2.0 * self.half_angle).cos()
+    }
+
+    /// Speed after a collision on the periodic roll.
+    fn rolling_speed(&self) -> f64 {
+        let kept = self.kept().powi(2);
+        (kept * 4.0 * self.slope.sin() * self.half_angle.sin() / (1.0 - kept)).sqrt()
+    }
+
+    /// Least speed after a collision that takes it over the top.
+    fn least_speed(&self) -> f64 {
+        (2.0 * (1.0 - (self.slope - self.half_angle).cos())).sqrt()
+    }
+}
+
+impl VectorField<2> for Wheel {
+    fn vector_field(&self, mode: Mode, x: &State<2>) -> State<2> {
+        match mode {
+            Mode::OnOneSpoke => Vector2::new(x[1], x[0].sin()),
+            Mode::Standing => Vector2::zeros(),
+        }
+    }
+}
+
+impl Linearized<2> for Wheel {
+    fn field_jacobian(&self, _: Mode, x: &State<2>) -> SMatrix<f64, 2, 2> {
+        SMatrix::<f64, 2, 2>::new(0.0, 1.0, x[0].cos(), 0.0)
+    }
+}
+
+impl HybridSystem<2> for Wheel {
+    type Mode = Mode;
+    type Surface = Surface;
+    fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
+        match mode {
+            Mode::OnOneSpoke => integrated_flow(self, mode, x, t, TOLERANCES),
+            Mode::Standing => *x,
+        }
+    }
+    fn guards(&self, mode: Mode) -> &[Guard<Surface>] {
+        match mode {
+            Mode::OnOneSpoke => {
+                const { &[Guard::rising(Surface::Forward), Guard::falling(Surface::Backward)] }
+            }
+            Mode::Standing => &[],
+        }
+    }
+    fn guard_value(&self, surface: Surface, x: &State<2>) -> f64 {
+        match surface {
+            Surface::Forward => x[0] - (self.slope + self.half_angle),
+            Surface::Backward => x[0] - (self.slope - self.half_angle),
+        }
+    }
+    fn reset(&self, _: Mode, surface: Surface, x: &State<2>) -> Reset<Mode, 2> {
+        let angle = match surface {
+            Surface::Forward => self.slope - self.half_angle,
+            Surface::Backward => self.slope + self.half_angle,
+        };
+        Reset::Jump { mode: Mode::OnOneSpoke, state: Vector2::new(angle, self.kept() * x[1]) }
+    }
+    /// Rocking that dies out ends on two spokes.
+    fn rest(&self, _: Mode, _: &State<2>) -> Option<(Mode, State<2>)> {
+        Some((Mode::Standing, Vector2::new(self.slope - self.half_angle, 0.0)))
+    }
+    fn first_crossing(
+        &self,
+        mode: Mode,
+        x: &State<2>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<Surface, 2>>, hybrid_system::Error> {
+        match mode {
+            Mode::OnOneSpoke => integrated_crossing(self, mode, x, horizon, TOLERANCES),
+            Mode::Standing => Ok(None),
+        }
+    }
+}
+
+impl Differentiable<2> for Wheel {
+    fn flow_jacobian(&self, mode: Mode, x: &State<2>, t: f64) -> SMatrix<f64, 2, 2> {
+        integrated_jacobian(self, mode, x, t, TOLERANCES)
+            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // refused by what uses it
+    }
+    fn guard_gradient(&self, _: Surface, _: &State<2>) -> State<2> {
+        Vector2::x()
+    }
+    fn reset_jacobian(&self, _: Mode, _: Surface, _: &State<2>) -> SMatrix<f64, 2, 2> {
+        SMatrix::from_diagonal(&Vector2::new(0.0, self.kept()))
+    }
+}
+
+/// Just after a collision forwards, by the speed.
+struct AfterCollision(Wheel);
+
+impl Section<Wheel, 2, 1> for AfterCollision {
+    fn point(&self, speed: &SVector<f64, 1>) -> (Mode, State<2>) {
+        (Mode::OnOneSpoke, Vector2::new(self.0.slope - self.0.half_angle, speed[0]))
+    }
+    fn coordinates(&self, event: &Event<Mode, Surface, 2>) -> Option<SVector<f64, 1>> {
+        let (_, state) = event.after.filter(|_| event.surface == Surface::Forward)?;
+        Some(Vector1::new(state[1]))
+    }
+}
+
+impl SmoothSection<Wheel, 2, 1> for AfterCollision {
+    fn point_jacobian(&self, _: &SVector<f64, 1>) -> SMatrix<f64, 2, 1> {
+        SMatrix::<f64, 2, 1>::new(0.0, 1.0)
+    }
+    fn coordinates_jacobian(&self, _: &Event<Mode, Surface, 2>) -> SMatrix<f64, 1, 2> {
+        SMatrix::<f64, 1, 2>::new(0.0, 1.0)
+    }
+}
+
+/// The periodic roll: its speed after a collision, and how a disturbance shrinks in a step.
+fn roll(wheel: Wheel, guess: f64) -> Result<(f64, f64), Error> {
+    let section = AfterCollision(wheel);
+    let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
+    let step = |speed: &SVector<f64, 1>| {
+        let back = map.next_with_derivative(speed)?;
+        Ok((back.to.coordinates, back.derivative))
+    };
+    let point = periodic_point_with_derivative(step, &Vector1::new(guess), 1)?;
+    Ok((point.location[0], point.multipliers[0].re))
+}
+
+fn main() -> Result<(), Error> {
+    let wheel = Wheel { slope: 0.08, half_angle: std::f64::consts::PI / 8.0 };
+    let (speed, multiplier) = roll(wheel, 0.7)?;
+    println!("rolls with {speed:.14} after each collision; exactly {:.14}", wheel.rolling_speed());
+    println!("a disturbance shrinks by {multiplier:.12}; exactly {:.12}", wheel.kept().powi(2));
+    let start = Vector2::new(wheel.slope - wheel.half_angle, 0.99 * wheel.least_speed());
+    let mut rocks = 0;
+    for arc in Execution::new(&wheel, Mode::OnOneSpoke, start, Limits::new(100.0, 1000)) {
+        let arc = arc?;
+        rocks += usize::from(arc.event().is_some());
+        if arc.mode == Mode::Standing {
+            println!("a push too small: it rocks {rocks} times and stands from {:.9} on", arc.time);
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_roll_and_its_multiplier() {
+        for (slope, half_angle) in [(0.08, 0.3), (0.08, 0.39), (0.2, 0.5)] {
+            let wheel = Wheel { slope, half_angle };
+            let (speed, multiplier) = roll(wheel, wheel.rolling_speed() * 1.2).unwrap();
+            assert!((speed - wheel.rolling_speed()).abs() < 1e-11, "{speed}");
+            assert!((multiplier - wheel.kept().powi(2)).abs() < 1e-9, "{multiplier}");
+        }
+    }
+
+    /// From any speed one step is Ω′ = cos² 2α (Ω + 4 sin γ sin α).
+    #[test]
+    fn one_step() {
+        let wheel = Wheel { slope: 0.1, half_angle: 0.3 };
+        let section = AfterCollision(wheel);
+        let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
+        for speed in [1.01, 1.5, 3.0].map(|factor| factor * wheel.least_speed()) {
+            let image = map.image(speed).unwrap().unwrap();
+            let gained = 4.0 * wheel.slope.sin() * wheel.half_angle.sin();
+            let exact = wheel.kept() * (speed * speed + gained).sqrt();
+            assert!((image - exact).abs() < 1e-11, "{image} {exact}");
+        }
+    }
+
+    /// Below the least speed it never comes over the top: it rocks, and stands in the end.
+    #[test]
+    fn a_push_too_small() {
+        let wheel = Wheel { slope: 0.02, half_angle: 0.3 };
+        let start = Vector2::new(wheel.slope - wheel.half_angle, 0.999 * wheel.least_speed());
+        let arcs: Vec<_> =
+            Execution::new(&wheel, Mode::OnOneSpoke, start, Limits::new(200.0, 10_000))
+                .collect::<Result<_, _>>()
+                .unwrap();
+        let last = arcs.last().unwrap();
+        assert_eq!((last.mode, last.end), (Mode::Standing, ArcEnd::TimeLimit));
+    }
+}
