@@ -5,7 +5,8 @@ use crate::State;
 /// The limit of infinitely many events.
 ///
 /// The durations of the last arcs shrink by the same factor, to a hundredth of it, over five periods, and
-/// what is left of them is under 10⁻¹² of the time so far. The limits are those of the geometric series.
+/// what is left of them is under 10⁻¹² of the time so far, or under 10⁻⁵ where rounding hides the next event.
+/// The limits are those of the geometric series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accumulation<const N: usize> {
     /// When it is: the sum of all durations.
@@ -30,7 +31,10 @@ const PERIODS: usize = 5;
 const LONGEST: usize = 4;
 
 /// What may be left, relative to the time so far.
-const LEFT: f64 = 1e-12;
+pub(crate) const LEFT: f64 = 1e-12;
+
+/// What may be left where rounding hides the next event: the surfaces need not be at zero.
+pub(crate) const LEFT_WHEN_HIDDEN: f64 = 1e-5;
 
 /// Arcs that are kept: those of the longest period, so often as they must agree, and once more.
 const KEPT: usize = (PERIODS + 1) * LONGEST;
@@ -60,18 +64,23 @@ impl<const N: usize> History<N> {
     }
 
     /// The limit, if the events accumulate; `time` is that of the last of so many.
-    pub(crate) fn accumulation(&self, time: f64, events: usize) -> Option<Accumulation<N>> {
+    pub(crate) fn accumulation(
+        &self,
+        time: f64,
+        events: usize,
+        left: f64,
+    ) -> Option<Accumulation<N>> {
         // The common case first: the last arc is no small part of all.
         if self.arcs == 0 || !(self.durations[KEPT - 1] < 1e-3 * time) {
             return None;
         }
-        let mut limit = (1..=LONGEST).find_map(|period| self.with_period(period, time))?;
+        let mut limit = (1..=LONGEST).find_map(|period| self.with_period(period, time, left))?;
         // Every event may have rounded the time and the state by an ulp.
         limit.time_error += 2.0 * f64::EPSILON * time * (1 + events) as f64;
         Some(limit)
     }
 
-    fn with_period(&self, period: usize, time: f64) -> Option<Accumulation<N>> {
+    fn with_period(&self, period: usize, time: f64, left: f64) -> Option<Accumulation<N>> {
         let needed = (PERIODS + 1) * period;
         if self.arcs < needed {
             return None;
@@ -88,7 +97,7 @@ impl<const N: usize> History<N> {
         }
         let (ratio, sum) = (ratios[PERIODS - 1], sums[PERIODS]);
         let rest = |ratio: f64| sum * ratio / (1.0 - ratio);
-        if !(rest(highest) <= LEFT * time) {
+        if !(rest(highest) <= left * time) {
             return None;
         }
         let now = self.states[KEPT - 1];

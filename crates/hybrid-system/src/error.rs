@@ -50,16 +50,16 @@ pub enum Error {
         /// The time up to which the guards were to be watched.
         horizon: f64,
     },
-    /// A guard starts at zero and lies beyond its surface at the first sample: it may have crossed
-    /// at once or gone up and come back.
+    /// A guard starts at zero and lies beyond its surface a little later: it may have crossed at once, or
+    /// gone up and come back within a sampling interval or within rounding.
     #[error(
-        "guard {surface} starts at zero and has changed sides within the sampling interval \
-         {interval}: make the interval shorter, or let the model solve this crossing"
+        "guard {surface} starts at zero and is on its other side {interval} later: sample it more often, or \
+         let the model solve this crossing"
     )]
     UndecidedStart {
         /// Name of the guard's surface.
         surface: String,
-        /// The sampling interval in use.
+        /// The sampling interval in use, or the time by which it is clear of rounding.
         interval: f64,
     },
     /// A signal whose first derivative that is not zero at the start is hidden by its rounding.

@@ -1,6 +1,6 @@
 //! Executions: arcs and events, one after the other, in hybrid time.
 
-use crate::accumulation::History;
+use crate::accumulation::{History, LEFT, LEFT_WHEN_HIDDEN};
 use crate::{Accumulation, Arc, ArcEnd, Error, Event, HybridSystem, Reset, State};
 
 /// How far an execution may go.
@@ -92,17 +92,23 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
         self.check_state()?;
-        if let Some(limit) = self.history.accumulation(self.time, self.jump) {
+        if let Some(limit) = self.history.accumulation(self.time, self.jump, LEFT) {
             return Ok(self.accumulate(limit));
         }
         // An event at the limit may round beyond it.
         let horizon = (self.limits.time - self.time).max(0.0);
-        let crossing = self.system.first_crossing(
+        let crossing = match self.system.first_crossing(
             self.mode,
             &self.state,
             horizon,
             self.limits.sampling_interval,
-        )?;
+        ) {
+            Err(hidden @ (Error::UndecidedStart { .. } | Error::Grazing { .. })) => {
+                let limit = self.history.accumulation(self.time, self.jump, LEFT_WHEN_HIDDEN);
+                return limit.map(|limit| self.accumulate(limit)).ok_or(hidden);
+            }
+            other => other?,
+        };
         if let Some(crossing) = crossing.filter(|crossing| !(crossing.time >= 0.0)) {
             return Err(Error::BadLimit { what: "the time of a crossing", value: crossing.time });
         }

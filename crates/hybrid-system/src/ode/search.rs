@@ -1,10 +1,10 @@
 //! The first crossing of all guards of a mode along an integrated flow.
 
 use super::step::Step;
-use super::watch::Watch;
+use super::watch::{Ahead, Watch};
 use super::{Integration, Tolerances};
 use crate::crossing::beyond;
-use crate::{Certainty, Crossing, Error, FirstCrossing, HybridSystem, State, bracketed_root};
+use crate::{Certainty, Crossing, Error, HybridSystem, State, bracketed_root};
 
 /// Shares of the step that a crossing may move by; the least that shows a change of sign.
 const NEAR: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
@@ -40,8 +40,9 @@ where
         many.resize_with(guards.len(), || None);
         &mut many[..]
     };
+    let rate = field(0.0, start);
     for (watch, guard) in watches.iter_mut().zip(guards) {
-        *watch = Some(Watch::new(guard.direction, start, value(guard.surface))?);
+        *watch = Some(Watch::new(guard.direction, start, &rate, value(guard.surface))?);
     }
     let mut integration = Integration::new(field, start, tolerances)?;
     while integration.interval().1 < horizon {
@@ -53,13 +54,17 @@ where
         for (watch, guard) in watches.iter_mut().zip(guards) {
             let Some(watch) = watch else { continue };
             match watch.crossing(&step, until, value(guard.surface))? {
-                FirstCrossing::At { time, .. } if first.is_none_or(|(best, _)| time < best) => {
+                Ahead::At { time } if first.is_none_or(|(best, _)| time < best) => {
                     first = Some((time, guard.surface));
                 }
-                FirstCrossing::Grazing { time, value }
+                Ahead::Grazing { time, value }
                     if touch.is_none_or(|(best, ..)| time < best) =>
                 {
                     touch = Some((time, value, guard.surface));
+                }
+                Ahead::Hidden { until } => {
+                    let surface = format!("{:?}", guard.surface);
+                    return Err(Error::UndecidedStart { surface, interval: until });
                 }
                 _ => {}
             }

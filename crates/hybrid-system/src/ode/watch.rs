@@ -14,7 +14,7 @@
 use super::chebyshev::GUARD;
 use super::step::Step;
 use crate::crossing::{beyond, rounding_at};
-use crate::{Direction, Error, FirstCrossing, State, bracketed_root};
+use crate::{Direction, Error, State, bracketed_root};
 
 /// Values through which a polynomial is laid.
 const VALUES: usize = 16;
@@ -34,6 +34,12 @@ const ROUNDINGS: f64 = 32.0 * f64::EPSILON;
 /// Σ k² for k < 16: how coefficients of size one show in a slope.
 const SLOPE: f64 = 1240.0;
 
+/// How far, relative to the state, its rate is followed to see where a guard tends.
+const REACH: f64 = 1e-6;
+
+/// Share of a guard's bend that its change must exceed to be a rate.
+const STRAIGHT: f64 = 1e-3;
+
 /// Multiples of its rounding up to which a guard that started at zero has not left it.
 const LEFT: f64 = 1000.0;
 
@@ -42,6 +48,31 @@ pub(super) struct Watch {
     direction: Direction,
     /// The side of the surface it is on; nothing as long as it has not left the zero it started at.
     side: Option<f64>,
+    /// The sign of its rate at a start at zero, where rounding does not hide that.
+    rate: Option<f64>,
+}
+
+/// What a step holds.
+pub(super) enum Ahead {
+    /// A crossing here.
+    At {
+        /// When.
+        time: f64,
+    },
+    /// It comes so close to zero here that rounding hides whether it crosses.
+    Grazing {
+        /// When.
+        time: f64,
+        /// Its value there.
+        value: f64,
+    },
+    /// It left a start at zero to one side and, within rounding, came back and through to the other.
+    Hidden {
+        /// By this time.
+        until: f64,
+    },
+    /// No crossing.
+    Never,
 }
 
 /// What an interval holds.
@@ -61,6 +92,7 @@ impl Watch {
     pub(super) fn new<const N: usize>(
         direction: Direction,
         start: &State<N>,
+        rate: &State<N>,
         guard: impl Fn(&State<N>) -> f64,
     ) -> Result<Self, Error> {
         let value = guard(start);
@@ -69,7 +101,13 @@ impl Watch {
         }
         let rounding = rounding_at(start, &start.abs(), &guard);
         let side = (value.abs() > rounding).then(|| value.signum());
-        Ok(Watch { direction, side })
+        let reach = REACH * (1.0 + start.amax()) / rate.amax();
+        // On both sides, so that a bent guard does not mislead.
+        let (ahead, behind) = (guard(&(start + rate * reach)), guard(&(start - rate * reach)));
+        let (change, bend) = (ahead - behind, ahead + behind - 2.0 * value);
+        let plain = change.abs() > rounding && change.abs() > STRAIGHT * bend.abs();
+        let rate = plain.then(|| change.signum());
+        Ok(Watch { direction, side, rate })
     }
 
     /// The first crossing on a step, no later than `until`.
@@ -78,21 +116,21 @@ impl Watch {
         step: &Step<N>,
         until: f64,
         guard: impl Fn(&State<N>) -> f64,
-    ) -> Result<FirstCrossing, Error> {
+    ) -> Result<Ahead, Error> {
         let along = |time: f64| guard(&step.state(time));
         let mut left = step.from;
         // The common case: it stays away from its surface all along.
         if let (Some(side), Found::Nothing(sign)) = (self.side, look(along, left, until, 0.0)?)
             && side == sign
         {
-            return Ok(FirstCrossing::Never);
+            return Ok(Ahead::Never);
         }
         let rounding = rounding_at(&step.state(left), &step.size(), &guard);
         let mut ends = [until; HALVINGS];
         let mut open = 1;
         for _ in 0..INTERVALS {
             if open == 0 {
-                return Ok(FirstCrossing::Never);
+                return Ok(Ahead::Never);
             }
             let right = ends[open - 1];
             if left >= right {
@@ -115,14 +153,20 @@ impl Watch {
                         open += 1;
                         continue;
                     }
-                    return Ok(FirstCrossing::Grazing { time: middle, value: along(middle) });
+                    return Ok(Ahead::Grazing { time: middle, value: along(middle) });
                 }
             };
             if let (Some(before), Some(after)) = (self.side, sign)
                 && self.direction.admits(before, after)
             {
                 let time = root(along, left, right, before)?;
-                return Ok(FirstCrossing::At { time, rising: before < 0.0 });
+                return Ok(Ahead::At { time });
+            }
+            if let (None, Some(after), Some(rate)) = (self.side, sign, self.rate)
+                && rate != after
+                && self.direction.leads_to(after)
+            {
+                return Ok(Ahead::Hidden { until: right });
             }
             self.side = sign.or(self.side);
             left = right;

@@ -17,7 +17,7 @@ const TOLERANCES: Tolerances = Tolerances::both(1e-10);
 
 /// Where the disc is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mode {
+pub(crate) enum Mode {
     /// In the stream: ẏ₁ = y₂, ẏ₂ = −κ y₂ − (y₁ + δ) + y₃, ẏ₃ = β (q − y₁ √y₃). Integrated.
     Open,
     /// On its seat, pressed there by the spring: ẏ₃ = β q. In closed form.
@@ -26,7 +26,7 @@ pub enum Mode {
 
 /// What ends an arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Surface {
+pub(crate) enum Surface {
     /// y₁ = 0: the disc meets its seat.
     Seat,
     /// y₂ = 0, falling: it is farthest from it.
@@ -37,9 +37,9 @@ pub enum Surface {
 
 /// The valve with flow rate q. State: displacement y₁, velocity y₂, pressure y₃, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Valve {
+pub(crate) struct Valve {
     /// q.
-    pub flow_rate: f64,
+    pub(crate) flow_rate: f64,
 }
 
 impl VectorField<3> for Valve {
@@ -120,7 +120,7 @@ impl HybridSystem<3> for Valve {
 
 /// The turns, by displacement and pressure: the section of the tutorial.
 #[derive(Debug, Clone, Copy)]
-pub struct Turns;
+pub(crate) struct Turns;
 
 impl Section<Valve, 3, 2> for Turns {
     fn point(&self, y: &SVector<f64, 2>) -> (Mode, State<3>) {
@@ -132,7 +132,7 @@ impl Section<Valve, 3, 2> for Turns {
 }
 
 /// Where every orbit of the tutorial starts: open by 0.2, without pressure.
-pub const START: Vector2<f64> = Vector2::new(0.2, 0.0);
+pub(crate) const START: Vector2<f64> = Vector2::new(0.2, 0.0);
 
 /// One return may take so long, and so many events.
-pub const LIMITS: Limits = Limits::new(1000.0, 10_000);
+pub(crate) const LIMITS: Limits = Limits::new(1000.0, 10_000);
