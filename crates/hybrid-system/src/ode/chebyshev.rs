@@ -2,39 +2,39 @@
 
 use std::sync::LazyLock;
 
-/// Nodes of degree V, and the matrix from values there to Chebyshev coefficients.
-pub(super) struct Transform<const V: usize> {
-    /// cos((2j + 1)π/2V), from right to left.
-    pub(super) nodes: [f64; V],
+/// Nodes that a guard, and the state along a step, are followed by.
+pub(super) const NODES: usize = 16;
+
+/// The nodes, and the matrix from values there to Chebyshev coefficients.
+pub(super) struct Transform {
+    /// cos((2j + 1)π/2V) with V nodes, from right to left.
+    pub(super) nodes: [f64; NODES],
     /// Row k: (2 − δₖ₀)/V · cos(k(2j + 1)π/2V).
-    weights: [[f64; V]; V],
+    weights: [[f64; NODES]; NODES],
 }
 
-/// For the state along a step: the integrator's interpolant is of degree nine.
-pub(super) static STATE: LazyLock<Transform<10>> = LazyLock::new(Transform::new);
+pub(super) static CHEBYSHEV: LazyLock<Transform> = LazyLock::new(Transform::new);
 
-/// For a guard along an interval.
-pub(super) static GUARD: LazyLock<Transform<16>> = LazyLock::new(Transform::new);
-
-impl<const V: usize> Transform<V> {
+impl Transform {
     fn new() -> Self {
-        let cosine = |k: usize, j: usize| pxfm::f_cospi((k * (2 * j + 1)) as f64 / (2 * V) as f64);
+        let cosine =
+            |k: usize, j: usize| pxfm::f_cospi((k * (2 * j + 1)) as f64 / (2 * NODES) as f64);
         let nodes = std::array::from_fn(|j| cosine(1, j));
         let weights = std::array::from_fn(|k| {
-            let factor = if k == 0 { 1.0 } else { 2.0 } / V as f64;
+            let factor = if k == 0 { 1.0 } else { 2.0 } / NODES as f64;
             std::array::from_fn(|j| factor * cosine(k, j))
         });
         Transform { nodes, weights }
     }
 
-    /// The Chebyshev coefficients of the polynomial with these values at the nodes.
-    pub(super) fn coefficients<T>(&self, values: &[T; V]) -> [T; V]
+    /// The first Chebyshev coefficients of the polynomial with these values at the nodes.
+    pub(super) fn coefficients<T, const K: usize>(&self, values: &[T; NODES]) -> [T; K]
     where
         T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
     {
         std::array::from_fn(|k| {
             let mut sum = values[0] * self.weights[k][0];
-            for j in 1..V {
+            for j in 1..NODES {
                 sum = sum + values[j] * self.weights[k][j];
             }
             sum
@@ -49,13 +49,13 @@ mod tests {
     #[test]
     fn polynomials_of_their_degree_are_exact() {
         // T₉ + 2T₃ − 1 at the nodes: cos 9θ + 2 cos 3θ − 1.
-        let values = STATE.nodes.map(|u| {
+        let values = CHEBYSHEV.nodes.map(|u| {
             let angle = pxfm::f_acos(u);
             pxfm::f_cos(9.0 * angle) + 2.0 * pxfm::f_cos(3.0 * angle) - 1.0
         });
-        let coefficients = STATE.coefficients(&values);
+        let coefficients: [f64; NODES] = CHEBYSHEV.coefficients(&values);
         for (k, found) in coefficients.iter().enumerate() {
-            let exact = [-1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0][k];
+            let exact = [-1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].get(k).unwrap_or(&0.0);
             assert!((found - exact).abs() < 1e-14, "{k}: {found}");
         }
     }

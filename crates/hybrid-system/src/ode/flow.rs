@@ -28,7 +28,7 @@ where
         while integration.interval().1 < time {
             integration.step()?;
         }
-        integration.at(time)
+        integration.directly_at(time)
     };
     state().unwrap_or_else(|_: Error| State::repeat(f64::NAN))
 }

@@ -1,15 +1,10 @@
 //! Solutions of ẋ = f(t, x), step by step, each step with a polynomial inside.
-//!
-//! The only folder that uses `differential-equations`: Verner's 9(8) pair with its interpolant of order 8.
 
-use super::first_step;
+use super::scheme::{ALL_STAGES, SCHEME, STAGES, Scheme, inverse_root};
+use super::chebyshev::NODES;
+use super::step::Step;
+use super::{first_step, vector::Vector};
 use crate::{Error, State};
-use differential_equations::error::Error as Failure;
-use differential_equations::interpolate::Interpolation;
-use differential_equations::methods::{Adaptive, ExplicitRungeKutta, Ordinary};
-use differential_equations::ode::{ODE, OrdinaryNumericalMethod};
-
-type Method<const N: usize> = ExplicitRungeKutta<Ordinary, Adaptive, f64, [f64; N], 9, 16, 21>;
 
 /// How exactly a flow is integrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,7 +23,7 @@ impl Tolerances {
         Tolerances { relative: tolerance, absolute: tolerance, steps: 100_000 }
     }
 
-    pub(super) fn check(&self) -> Result<(), Error> {
+    fn check(&self) -> Result<(), Error> {
         match [self.relative, self.absolute].into_iter().find(|t| !(*t > 0.0 && t.is_finite())) {
             Some(value) => Err(Error::BadTolerance { value }),
             None => Ok(()),
@@ -36,11 +31,23 @@ impl Tolerances {
     }
 }
 
+/// The part of the new size that a step is given.
+const SAFETY: f64 = 0.9;
+
+/// A step is at least this part of the one before.
+const SMALLER: f64 = 0.2;
+
+/// And at most this multiple.
+const LARGER: f64 = 10.0;
+
+/// Steps in a row that may be rejected.
+const REJECTED: usize = 100;
+
 /// A solution of ẋ = f(t, x), followed step by step.
 ///
-/// The tolerance bounds the estimated error of each step; errors of steps add up and are carried on
-/// by the flow. The step sizes depend on the system's `powf`, so the last bits may differ between
-/// machines: use a closed-form flow where there is one.
+/// Verner's pair of orders 9 and 8. The tolerance bounds the estimated error of each step; errors of steps add up
+/// and are carried on by the flow. The arithmetic is the same on every machine, as far as the field's is.
+/// Nothing is allocated.
 ///
 /// ```
 /// use hybrid_system::{Integration, Tolerances};
@@ -56,17 +63,9 @@ impl Tolerances {
 /// # Ok::<(), hybrid_system::Error>(())
 /// ```
 pub struct Integration<F, const N: usize> {
-    field: Field<F>,
-    method: Method<N>,
-}
-
-/// A vector field in the integrator's form.
-struct Field<F>(F);
-
-impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> ODE<f64, [f64; N]> for Field<F> {
-    fn diff(&self, time: f64, state: &[f64; N], derivative: &mut [f64; N]) {
-        *derivative = (self.0)(time, &State::from(*state)).into();
-    }
+    inner: Steps<F, State<N>>,
+    /// The polynomial of the last step, once it has been asked for.
+    inside: Option<Step<N>>,
 }
 
 impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
@@ -76,26 +75,17 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
     /// [`Error::BadTolerance`] unless both tolerances are positive and finite,
     /// [`Error::StateNotFinite`] for a start or a first derivative that is not finite.
     pub fn new(field: F, start: &State<N>, tolerances: Tolerances) -> Result<Self, Error> {
-        let Tolerances { relative, absolute, steps } = tolerances;
-        tolerances.check()?;
-        finite(start, 0.0)?;
-        finite(&field(0.0, start), 0.0)?;
-        let first = first_step(&field, start, tolerances);
-        let mut method =
-            Method::rkv988e().rtol(relative).atol(absolute).max_steps(steps).h0(first);
-        let field = Field(field);
-        method.init(&field, 0.0, f64::MAX, &(*start).into()).map_err(|failure| named(&failure))?;
-        Ok(Integration { field, method })
+        Ok(Integration { inner: Steps::new(field, start, tolerances)?, inside: None })
     }
 
     /// The times that the last step leads from and to; both zero before the first.
     pub fn interval(&self) -> (f64, f64) {
-        (self.method.t_prev(), self.method.t())
+        (self.inner.from, self.inner.time)
     }
 
     /// The state at the end of the last step.
     pub fn state(&self) -> State<N> {
-        State::from(*self.method.y())
+        self.inner.state
     }
 
     /// Takes a step within the tolerances.
@@ -104,24 +94,8 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
     /// [`Error::Integration`] if the tolerances cannot be met, or no steps are left;
     /// [`Error::StateNotFinite`] if the state is no longer finite.
     pub fn step(&mut self) -> Result<(), Error> {
-        let before = self.method.t();
-        // The method returns after rejected steps too.
-        while self.method.t() == before {
-            self.method.step(&self.field).map_err(|failure| named(&failure))?;
-        }
-        finite(&self.state(), self.method.t())
-    }
-
-    /// The state at a time in the last step, by a step of its own that ends there: without the rounding of
-    /// the interpolant, whose coefficients are large.
-    pub(super) fn directly_at(&self, time: f64) -> Result<State<N>, Error> {
-        let from = self.method.t_prev();
-        let mut method = Method::rkv988e().rtol(f64::MAX).atol(f64::MAX).h0(time - from);
-        let failed = |failure| named(&failure);
-        method.init(&self.field, from, f64::MAX, self.method.y_prev()).map_err(failed)?;
-        method.step(&self.field).map_err(failed)?;
-        let state = State::from(*method.y());
-        finite(&state, time).map(|()| state)
+        self.inside = None;
+        self.inner.step()
     }
 
     /// The state at a time in the last step, by its interpolant.
@@ -129,27 +103,171 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
     /// # Errors
     /// [`Error::Integration`] for a time outside the [`interval`](Self::interval).
     pub fn at(&mut self, time: f64) -> Result<State<N>, Error> {
-        self.method.interpolate(time).map(State::from).map_err(|failure| named(&failure))
+        let (from, to) = self.interval();
+        if !(time >= from && time <= to) {
+            return Err(Error::Integration { reason: "outside the last step", time });
+        }
+        if from == to {
+            return Ok(self.inner.state);
+        }
+        Ok(self.inside.get_or_insert_with(|| self.inner.inside()).state(time))
+    }
+
+    /// The polynomial of the last step.
+    pub(super) fn last_step(&mut self) -> Step<N> {
+        self.inner.inside()
+    }
+
+    /// States all over the last step: its ends, and those of its stages, which are less exact.
+    pub(super) fn samples(&self) -> impl Iterator<Item = &State<N>> {
+        let ends = [&self.inner.before, &self.inner.state];
+        ends.into_iter().chain(&self.inner.stages[1..STAGES])
+    }
+
+    /// As [`Steps::directly_at`].
+    pub(super) fn directly_at(&mut self, time: f64) -> Result<State<N>, Error> {
+        self.inner.directly_at(time)
     }
 }
 
-pub(super) fn finite<const N: usize>(state: &State<N>, time: f64) -> Result<(), Error> {
-    if state.iter().all(|x| x.is_finite()) {
-        return Ok(());
-    }
-    Err(Error::StateNotFinite { time, jumps: 0, state: state.iter().copied().collect() })
+/// Steps of the scheme, for states of any kind.
+pub(super) struct Steps<F, V> {
+    field: F,
+    tolerances: Tolerances,
+    scheme: &'static Scheme,
+    /// Time and state before the last step.
+    from: f64,
+    before: V,
+    /// Time, state and its derivative now.
+    pub(super) time: f64,
+    state: V,
+    slope: V,
+    /// The states at the stages of the last step, and the field there.
+    stages: [V; ALL_STAGES],
+    slopes: [V; ALL_STAGES],
+    /// Whether those of the interpolant are among them.
+    dense: bool,
+    /// Size of the last step, and of the next.
+    last: f64,
+    next: f64,
+    taken: usize,
 }
 
-/// The integrator's failure in our words.
-pub(super) fn named<Y: differential_equations::traits::State<f64>>(failure: &Failure<f64, Y>) -> Error {
-    let (reason, time) = match failure {
-        Failure::MaxSteps { t, .. } => ("no steps are left", *t),
-        Failure::StepSize { t, .. } => ("the step size has become too small", *t),
-        Failure::Stiffness { t, .. } => ("a hundred steps in a row were rejected", *t),
-        Failure::OutOfBounds { t_interp, .. } => ("outside the last step", *t_interp),
-        _ => ("the integrator cannot start", 0.0),
-    };
-    Error::Integration { reason, time }
+impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
+    pub(super) fn new(field: F, start: &V, tolerances: Tolerances) -> Result<Self, Error> {
+        tolerances.check()?;
+        start.finite(0.0)?;
+        let slope = field(0.0, start);
+        slope.finite(0.0)?;
+        let next = first_step(&field, start, &slope, tolerances);
+        Ok(Steps {
+            field,
+            tolerances,
+            scheme: &SCHEME,
+            from: 0.0,
+            before: *start,
+            time: 0.0,
+            state: *start,
+            slope,
+            stages: [V::zero(); ALL_STAGES],
+            slopes: [V::zero(); ALL_STAGES],
+            dense: false,
+            last: 0.0,
+            next,
+            taken: 0,
+        })
+    }
+
+    pub(super) fn step(&mut self) -> Result<(), Error> {
+        let failed = |reason, time| Err(Error::Integration { reason, time });
+        let mut most = LARGER;
+        for _ in 0..REJECTED {
+            let size = self.next;
+            if size < 1e-14 * self.last || self.time + size <= self.time {
+                return failed("the step size has become too small", self.time);
+            }
+            if self.taken >= self.tolerances.steps {
+                return failed("no steps are left", self.time);
+            }
+            self.taken += 1;
+            self.slopes[0] = self.slope;
+            let (state, error) = self.trial(size);
+            let norm = error.relative_to(&self.state, &state, &self.tolerances);
+            // A trial state outside the field's domain asks for a smaller step, too.
+            let wish = SAFETY * inverse_root(norm);
+            let scale = if norm.is_finite() { wish.clamp(SMALLER, most) } else { SMALLER };
+            self.next = size * scale;
+            if norm <= 1.0 {
+                self.dense = false;
+                (self.from, self.before) = (self.time, self.state);
+                (self.time, self.state, self.last) = (self.time + size, state, size);
+                self.slope = (self.field)(self.time, &self.state);
+                return self.state.finite(self.time);
+            }
+            most = 1.0;
+        }
+        failed("a hundred steps in a row were rejected", self.time)
+    }
+
+    /// The state after a step of this size from now, and an estimate of its error.
+    fn trial(&mut self, size: f64) -> (V, V) {
+        for stage in 1..STAGES {
+            self.stage(stage, self.time, self.state, size);
+        }
+        let (mut after, mut error) = (self.state, V::zero());
+        for (slope, (b, e)) in
+            self.slopes.iter().zip(self.scheme.weights.iter().zip(&self.scheme.errors))
+        {
+            after.add(size * b, slope);
+            error.add(size * e, slope);
+        }
+        (after, error)
+    }
+
+    /// One stage of a step from a state.
+    fn stage(&mut self, stage: usize, time: f64, from: V, size: f64) {
+        let at = V::combination(&from, size, &self.scheme.rows[stage], &self.slopes);
+        self.stages[stage] = at;
+        self.slopes[stage] = (self.field)(time + size * self.scheme.times[stage], &at);
+    }
+
+    /// The state at a time in the last step, by a step of its own that ends there: without the rounding of
+    /// the interpolant, whose coefficients are large. Its stages take the place of those of the last step.
+    pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
+        let size = time - self.from;
+        let mut state = self.before;
+        for stage in 1..STAGES {
+            self.stage(stage, self.from, self.before, size);
+        }
+        for (slope, b) in self.slopes.iter().zip(&self.scheme.weights) {
+            state.add(size * b, slope);
+        }
+        state.finite(time).map(|()| state)
+    }
+}
+
+impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Steps<F, State<N>> {
+    /// The polynomial of the last step.
+    fn inside(&mut self) -> Step<N> {
+        if !self.dense {
+            for stage in STAGES..ALL_STAGES {
+                self.stage(stage, self.from, self.before, self.last);
+            }
+            self.dense = true;
+        }
+        let mut moves = [[0.0; NODES]; N];
+        for (slope, weights) in self.slopes.iter().zip(&self.scheme.nodes) {
+            for (axis, moves) in moves.iter_mut().enumerate() {
+                for (sum, weight) in moves.iter_mut().zip(weights) {
+                    *sum += weight * slope[axis];
+                }
+            }
+        }
+        let node = |j: usize| {
+            State::from_fn(|axis, _| self.before[axis] + self.last * moves[axis][j])
+        };
+        Step::new(self.from, self.time, std::array::from_fn(node))
+    }
 }
 
 #[cfg(test)]

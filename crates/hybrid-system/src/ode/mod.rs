@@ -4,9 +4,11 @@ mod chebyshev;
 mod first_step;
 mod flow;
 mod integration;
+mod scheme;
 mod search;
 mod step;
 mod variation;
+mod vector;
 mod watch;
 
 use first_step::first_step;

@@ -31,7 +31,7 @@ where
     if guards.is_empty() || horizon == 0.0 {
         return Ok(None);
     }
-    let value = |surface| move |state: &State<N>| system.guard_value(surface, state);
+    let value = |surface| move |state: &State<N>| -> f64 { system.guard_value(surface, state) };
     let mut few: [Option<Watch>; GUARDS] = [const { None }; GUARDS];
     let mut many = Vec::new();
     let watches = if guards.len() <= GUARDS {
@@ -47,7 +47,14 @@ where
     let mut integration = Integration::new(field, start, tolerances)?;
     while integration.interval().1 < horizon {
         integration.step()?;
-        let step = Step::last_of(&mut integration)?;
+        let away = watches.iter().zip(guards).all(|(watch, guard)| {
+            let values = integration.samples().map(value(guard.surface));
+            watch.as_ref().is_some_and(|watch| watch.stays(values))
+        });
+        if away {
+            continue;
+        }
+        let step = integration.last_step();
         let until = step.to.min(horizon);
         let mut first: Option<(f64, T::Surface)> = None;
         let mut touch: Option<(f64, f64, T::Surface)> = None;
@@ -76,7 +83,7 @@ where
         }
         if let Some((time, surface)) = first {
             let value = value(surface);
-            let (time, state) = polished(&integration, step, time, until, value)?;
+            let (time, state) = polished(&mut integration, &step, time, until, value)?;
             return Ok(Some(Crossing { surface, time, state, certainty: Certainty::Interpolated }));
         }
     }
@@ -86,8 +93,8 @@ where
 /// A crossing without the rounding of the interpolant: its time on the step moved to where a step that ends
 /// there leads, and the state then.
 fn polished<F, const N: usize>(
-    integration: &Integration<F, N>,
-    step: Step<N>,
+    integration: &mut Integration<F, N>,
+    step: &Step<N>,
     time: f64,
     until: f64,
     guard: impl Fn(&State<N>) -> f64,
@@ -98,15 +105,16 @@ where
     if time <= step.from {
         return Ok((time, step.state(time)));
     }
-    let moved = step.moved(integration.directly_at(time)? - step.state(time));
-    let along = |time: f64| guard(&moved.state(time));
+    let off = integration.directly_at(time)? - step.state(time);
+    let moved = |time: f64| step.state(time) + off;
+    let along = |time: f64| guard(&moved(time));
     for share in NEAR {
         let reach = share * (step.to - step.from);
         let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
         let (before, after) = (along(left), along(right));
         if before.signum() != after.signum() {
             let time = beyond(along, bracketed_root(along, left, right)?, right, after).min(until);
-            return Ok((time, moved.state(time)));
+            return Ok((time, moved(time)));
         }
     }
     // Crossed so slowly that the difference matters: it stays where the interpolant has it.

@@ -11,13 +11,10 @@
 //!
 //! A start at zero is left by the sign of (g(t) − g(0))/tᵏ, if that has no zero for some k.
 
-use super::chebyshev::GUARD;
+use super::chebyshev::{CHEBYSHEV, NODES as VALUES};
 use super::step::Step;
 use crate::crossing::{beyond, rounding_at};
 use crate::{Direction, Error, State, bracketed_root};
-
-/// Values through which a polynomial is laid.
-const VALUES: usize = 16;
 
 /// Halvings of one step.
 const HALVINGS: usize = 64;
@@ -110,6 +107,22 @@ impl Watch {
         Ok(Watch { direction, side, rate })
     }
 
+    /// Whether it stays on its side all along a step: its values at the stages, which lie all over the step, are
+    /// farther from zero than half of what they vary by.
+    pub(super) fn stays(&self, values: impl Iterator<Item = f64>) -> bool {
+        let Some(side) = self.side else { return false };
+        let (mut nearest, mut farthest) = (f64::INFINITY, 0.0);
+        for value in values {
+            let distance = side * value;
+            if !(distance > 0.0) {
+                return false;
+            }
+            nearest = if distance < nearest { distance } else { nearest };
+            farthest = if distance > farthest { distance } else { farthest };
+        }
+        2.0 * nearest > farthest - nearest
+    }
+
     /// The first crossing on a step, no later than `until`.
     pub(super) fn crossing<const N: usize>(
         &mut self,
@@ -119,12 +132,6 @@ impl Watch {
     ) -> Result<Ahead, Error> {
         let along = |time: f64| guard(&step.state(time));
         let mut left = step.from;
-        // The common case: it stays away from its surface all along.
-        if let (Some(side), Found::Nothing(sign)) = (self.side, look(along, left, until, 0.0)?)
-            && side == sign
-        {
-            return Ok(Ahead::Never);
-        }
         let rounding = rounding_at(&step.state(left), &step.size(), &guard);
         let mut ends = [until; HALVINGS];
         let mut open = 1;
@@ -201,7 +208,7 @@ fn judge(values: &[f64; VALUES], rounding: f64) -> Found {
     if size <= rounding {
         return Found::Rounding;
     }
-    let c = GUARD.coefficients(values);
+    let c: [f64; VALUES] = CHEBYSHEV.coefficients(values);
     let tail = tail(&c);
     let others: f64 = c[1..].iter().map(|c| c.abs()).sum();
     if c[0].abs() > others + tail + noise {
@@ -215,18 +222,18 @@ fn judge(values: &[f64; VALUES], rounding: f64) -> Found {
     Found::Unknown
 }
 
-fn largest(values: &[f64; VALUES]) -> f64 {
+fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |size: f64, value| size.max(value.abs()))
 }
 
 /// What the coefficients neglect.
-fn tail(c: &[f64; VALUES]) -> f64 {
-    NEGLECTED * (c[VALUES - 2].abs() + c[VALUES - 1].abs())
+fn tail(c: &[f64]) -> f64 {
+    NEGLECTED * c.iter().rev().take(2).map(|c| c.abs()).sum::<f64>()
 }
 
 /// Whether the polynomial through the values is zero at the left end, but for `noise`.
 fn starts_at_zero(values: &[f64; VALUES], noise: f64) -> bool {
-    let c = GUARD.coefficients(values);
+    let c: [f64; VALUES] = CHEBYSHEV.coefficients(values);
     let start: f64 = c.iter().enumerate().map(|(k, c)| if k % 2 == 0 { *c } else { -c }).sum();
     start.abs() <= tail(&c) + ROUNDINGS * largest(values) + noise
 }
@@ -250,7 +257,7 @@ fn leave(
         return Ok(plain);
     }
     // τ ∈ (0, 1), largest first.
-    let tau = GUARD.nodes.map(|u| 0.5 * (1.0 + u));
+    let tau = CHEBYSHEV.nodes.map(|u| 0.5 * (1.0 + u));
     let mut divided = values.map(|value| value - start);
     let mut noise = ROUNDINGS * size + rounding + start.abs();
     for _order in 1..=4 {
@@ -271,7 +278,7 @@ fn leave(
 fn values(along: impl Fn(f64) -> f64, left: f64, right: f64) -> Result<[f64; VALUES], Error> {
     let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
     let mut values = [0.0; VALUES];
-    for (value, node) in values.iter_mut().zip(GUARD.nodes) {
+    for (value, node) in values.iter_mut().zip(CHEBYSHEV.nodes) {
         let at = (middle + radius * node).clamp(left, right);
         *value = along(at);
         if !value.is_finite() {
