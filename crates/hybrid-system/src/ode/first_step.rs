@@ -1,6 +1,5 @@
 //! The size of the first step of an integration.
 
-use super::scheme::ORDER;
 use super::{Tolerances, vector::Vector};
 
 /// A first step whose terms of lowest and of second order are small against the tolerance (Hairer, Nørsett,
@@ -10,6 +9,7 @@ pub(super) fn first_step<V: Vector>(
     start: &V,
     slope: &V,
     tolerances: Tolerances,
+    order: u32,
 ) -> f64 {
     let (size, rate) = (in_tolerances(start, start, tolerances), in_tolerances(slope, start, tolerances));
     let euler = if size > 1e-5 && rate > 1e-5 { 0.01 * size / rate } else { 1e-6 };
@@ -19,7 +19,7 @@ pub(super) fn first_step<V: Vector>(
     bend.add(-1.0, slope);
     let worst = rate.max(in_tolerances(&bend, start, tolerances) / euler);
     let refined = if worst > 1e-15 {
-        pxfm::f_pow(0.01 / worst, 1.0 / f64::from(ORDER))
+        pxfm::f_pow(0.01 / worst, 1.0 / f64::from(order))
     } else {
         (1e-3 * euler).max(1e-6)
     };

@@ -1,26 +1,24 @@
-//! The Runge–Kutta scheme: Verner's 9(8) pair with its interpolant of order 8.
+//! The Runge–Kutta schemes: Verner's pairs 9(8) and 8(7), with interpolants of order 8.
 //!
-//! The only file that uses `differential-equations`, for its table of coefficients.
+//! The only file that uses `differential-equations`, for its tables of coefficients.
 
 use super::chebyshev::{CHEBYSHEV, NODES};
 use differential_equations::tableau::ButcherTableau;
 use std::sync::LazyLock;
 
-/// Stages of a step.
-pub(super) const STAGES: usize = 16;
-
-/// Stages with those of the interpolant.
+/// Stages of a step with those of its interpolant.
 pub(super) const ALL_STAGES: usize = 21;
-
-/// Order of a step.
-pub(super) const ORDER: u32 = 9;
 
 /// Coefficients, as a step needs them.
 pub(super) struct Scheme {
+    /// Order of a step.
+    pub(super) order: u32,
+    /// Stages of a step.
+    pub(super) stages: usize,
     /// bᵢ.
-    pub(super) weights: [f64; STAGES],
-    /// bᵢ less those of order 8.
-    pub(super) errors: [f64; STAGES],
+    pub(super) weights: Vec<f64>,
+    /// bᵢ less those of the lower order.
+    pub(super) errors: Vec<f64>,
     /// cᵢ.
     pub(super) times: [f64; ALL_STAGES],
     /// Row i: the aᵢⱼ that are not zero, with their j, by twos; a zero may fill the last.
@@ -29,13 +27,24 @@ pub(super) struct Scheme {
     pub(super) nodes: [[f64; NODES]; ALL_STAGES],
 }
 
-/// At tolerances from 1e-9 down a pair of lower order takes more time: measured on a pendulum and on a valve
-/// where stability limits the steps.
-pub(super) static SCHEME: LazyLock<Scheme> = LazyLock::new(Scheme::new);
+/// For tight tolerances.
+static NINE: LazyLock<Scheme> =
+    LazyLock::new(|| Scheme::new(9, &ButcherTableau::<f64, 16, ALL_STAGES>::rkv988e()));
+
+/// For others: fewer stages a step.
+static EIGHT: LazyLock<Scheme> =
+    LazyLock::new(|| Scheme::new(8, &ButcherTableau::<f64, 13, ALL_STAGES>::rkv878e()));
+
+/// The tolerance under which order nine takes less time: measured on a valve whose stability limits the steps.
+const TIGHT: f64 = 2e-11;
 
 impl Scheme {
-    fn new() -> Self {
-        let table: ButcherTableau<f64, STAGES, ALL_STAGES> = ButcherTableau::rkv988e();
+    /// The scheme for a tolerance.
+    pub(super) fn within(tolerance: f64) -> &'static Self {
+        if tolerance < TIGHT { &NINE } else { &EIGHT }
+    }
+
+    fn new<const S: usize>(order: u32, table: &ButcherTableau<f64, S, ALL_STAGES>) -> Self {
         let lower = table.bh.unwrap_or(table.b);
         let inside = table.bi.unwrap_or([[0.0; ALL_STAGES]; ALL_STAGES]);
         let row = |i: usize| {
@@ -44,8 +53,10 @@ impl Scheme {
             terms.chunks(2).map(|two| [two[0], *two.get(1).unwrap_or(&(0, 0.0))]).collect()
         };
         Scheme {
-            weights: table.b,
-            errors: std::array::from_fn(|i| table.b[i] - lower[i]),
+            order,
+            stages: S,
+            weights: table.b.to_vec(),
+            errors: table.b.iter().zip(&lower).map(|(b, lower)| b - lower).collect(),
             times: table.c,
             rows: std::array::from_fn(row),
             nodes: at_nodes(&inside),
@@ -68,15 +79,15 @@ fn at_nodes(inside: &[[f64; ALL_STAGES]; ALL_STAGES]) -> [[f64; NODES]; ALL_STAG
     all
 }
 
-/// x^(−1/9), to a few percent: sizes of steps need no more.
-pub(super) fn inverse_root(x: f64) -> f64 {
+/// x^(−1/order), to a few percent: sizes of steps need no more.
+pub(super) fn inverse_root(x: f64, order: u32) -> f64 {
     const ONE: u64 = 0x3ff0_0000_0000_0000;
     // The bits of a double are its logarithm, piecewise linear.
-    let order = u64::from(ORDER);
+    let parts = u64::from(order);
     let x = x.max(f64::MIN_POSITIVE);
-    let guess = f64::from_bits(ONE + ONE / order - x.to_bits() / order);
+    let guess = f64::from_bits(ONE + ONE / parts - x.to_bits() / parts);
     // One of Newton's steps for y⁻ⁿ = x.
-    guess + guess * (1.0 - x * guess.powi(ORDER as i32)) / f64::from(ORDER)
+    guess + guess * (1.0 - x * guess.powi(order as i32)) / f64::from(order)
 }
 
 #[cfg(test)]
@@ -85,24 +96,28 @@ mod tests {
 
     #[test]
     fn inverse_roots_to_a_few_percent() {
-        for k in -300..300 {
+        for (k, order) in (-300..300).flat_map(|k| [(k, 8), (k, 9)]) {
             let x = 1.37f64.powi(k);
-            let exact = pxfm::f_pow(x, -1.0 / f64::from(ORDER));
-            assert!((inverse_root(x) / exact - 1.0).abs() < 0.03, "{x}");
+            let exact = pxfm::f_pow(x, -1.0 / f64::from(order));
+            assert!((inverse_root(x, order) / exact - 1.0).abs() < 0.03, "{x}");
         }
     }
 
     /// The sums that make a scheme consistent: Σ bᵢ = 1, Σⱼ aᵢⱼ = cᵢ, Σ bᵢ cᵢᵏ = 1/(k+1).
+    ///
+    /// The table of order eight is printed with fewer digits.
     #[test]
-    fn table() {
-        for (row, time) in SCHEME.rows.iter().zip(&SCHEME.times) {
-            assert!((row.iter().flatten().map(|(_, a)| a).sum::<f64>() - time).abs() < 1e-12);
+    fn tables() {
+        for (scheme, digits) in [(&*NINE, 1e-13), (&*EIGHT, 5e-12)] {
+            for (row, time) in scheme.rows.iter().zip(&scheme.times) {
+                assert!((row.iter().flatten().map(|(_, a)| a).sum::<f64>() - time).abs() < digits);
+            }
+            for k in 0..scheme.order {
+                let terms = scheme.weights.iter().zip(&scheme.times);
+                let sum: f64 = terms.map(|(b, c)| b * c.powi(k as i32)).sum();
+                assert!((sum - 1.0 / f64::from(k + 1)).abs() < digits, "{k}: {sum}");
+            }
+            assert!(scheme.errors.iter().sum::<f64>().abs() < digits);
         }
-        for k in 0..ORDER {
-            let terms = SCHEME.weights.iter().zip(&SCHEME.times);
-            let sum: f64 = terms.map(|(b, c)| b * c.powi(k as i32)).sum();
-            assert!((sum - 1.0 / f64::from(k + 1)).abs() < 1e-12, "{k}: {sum}");
-        }
-        assert!(SCHEME.errors.iter().sum::<f64>().abs() < 1e-12);
     }
 }

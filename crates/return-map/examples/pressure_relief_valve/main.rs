@@ -47,11 +47,13 @@ mod tests {
     use model::Mode;
     use nalgebra::Vector3;
 
-    /// Where the disc stays in the stream it comes to the equilibrium y₁ √(y₁ + δ) = q.
+    /// In a strong stream the disc comes to rest where spring and pressure balance: y₃ = y₁ + δ, q = y₁ √y₃.
     #[test]
     fn it_comes_to_rest_in_a_strong_stream() {
-        let found = turns(9.0, 100, 1).unwrap()[0];
-        assert!((found * (found + 10.0).sqrt() - 9.0).abs() < 1e-6, "{found}");
+        for flow_rate in [9.0, 9.9] {
+            let found = turns(flow_rate, 1500, 1).unwrap()[0];
+            assert!((found * (found + 10.0).sqrt() - flow_rate).abs() < 1e-6, "{found}");
+        }
     }
 
     /// No arc lets the disc through its seat, and every impact keeps four fifths of the speed.
@@ -73,11 +75,11 @@ mod tests {
         }
     }
 
-    /// A return does not depend on where it was cut into arcs: twice one return is two returns.
+    /// At q = 2 every period has one impact, and the same turn.
     #[test]
-    fn periodic_where_the_tutorial_has_it() {
-        // One impact a period at q = 6 (checked against a tenth of the tolerance).
-        let found = turns(7.4, 400, 8).unwrap();
-        assert!(found.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 1e-6), "{found:?}");
+    fn one_turn_a_period() {
+        let found = turns(2.0, 300, 8).unwrap();
+        assert!(found.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 1e-8), "{found:?}");
+        assert!((found[0] - 1.434_55).abs() < 1e-4, "{}", found[0]);
     }
 }

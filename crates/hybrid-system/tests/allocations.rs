@@ -1,0 +1,57 @@
+//! Executions of fixed dimension allocate nothing, with events or without.
+
+#![cfg(feature = "ode")]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
+
+use hybrid_system::*;
+use nalgebra::Vector2;
+
+/// A ball in air that slows it down.
+struct Ball;
+
+const TOLERANCES: Tolerances = Tolerances::both(1e-10);
+
+impl VectorField<2> for Ball {
+    fn vector_field(&self, (): (), x: &State<2>) -> State<2> {
+        Vector2::new(x[1], -1.0 - 0.1 * x[1] * x[1].abs())
+    }
+}
+
+impl HybridSystem<2> for Ball {
+    type Mode = ();
+    type Surface = ();
+    fn flow(&self, mode: (), x: &State<2>, t: f64) -> State<2> {
+        integrated_flow(self, mode, x, t, TOLERANCES)
+    }
+    fn guards(&self, (): ()) -> &[Guard<()>] {
+        const { &[Guard::falling(())] }
+    }
+    fn guard_value(&self, (): (), x: &State<2>) -> f64 {
+        x[0]
+    }
+    fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
+        Reset::Jump { mode: (), state: Vector2::new(0.0, 1.0 - x[1]) }
+    }
+    fn first_crossing(
+        &self,
+        mode: (),
+        x: &State<2>,
+        horizon: f64,
+        _: Option<f64>,
+    ) -> Result<Option<Crossing<(), 2>>, Error> {
+        integrated_crossing(self, mode, x, horizon, TOLERANCES)
+    }
+}
+
+#[test]
+fn an_integrated_execution_allocates_nothing() {
+    let bounces = || {
+        Execution::new(&Ball, (), Vector2::new(1.0, 0.0), Limits::new(1000.0, 20))
+            .filter(|arc| arc.as_ref().unwrap().event().is_some())
+            .count()
+    };
+    // The tables are built once.
+    assert_eq!(bounces(), 20);
+    let info = allocation_counter::measure(|| assert_eq!(bounces(), 20));
+    assert_eq!(info.count_total, 0, "{info:?}");
+}
