@@ -8,6 +8,7 @@ pub mod claims;
 pub mod commands;
 mod error;
 pub mod figures;
+pub mod models;
 pub mod output;
 pub mod plot;
 pub mod progress;
@@ -48,6 +49,8 @@ enum Command {
     BasinRaster(commands::basin_raster::Options),
     /// Compute what the paper could not say of the basins, with a report
     BeyondPaper(commands::beyond_paper::Options),
+    /// Draw what the generic crates do: how guards are met, and a valve's bifurcations
+    ModelFigures(commands::model_figures::Options),
     /// Compare the map and the fates with files of reference values
     CheckReference(commands::check_reference::Options),
     /// Measure time against error of every way to compute a hop
@@ -78,6 +81,7 @@ pub fn run() -> Result<(), Error> {
         Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
         Command::BasinRaster(options) => commands::basin_raster::run(&options),
         Command::BeyondPaper(options) => commands::beyond_paper::run(&options),
+        Command::ModelFigures(options) => commands::model_figures::run(&options),
         Command::CheckReference(options) => commands::check_reference::run(&options),
         Command::WorkPrecision(options) => commands::work_precision::run(&options),
         Command::Tidy => commands::tidy::run(),

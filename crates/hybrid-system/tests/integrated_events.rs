@@ -372,20 +372,29 @@ proptest! {
         let values = |_: usize, x: &State<1>| roots.iter().map(|root| x[0] - root).product::<f64>();
         let guards = [Guard::either(0)];
         let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
-        let mut ahead = roots.iter();
+        let mut ahead = roots.iter().copied().peekable();
+        let mut last = f64::NEG_INFINITY;
         for arc in Execution::new(&system, (), Vector1::new(0.0), Limits::new(6.0, 100)) {
             match arc {
                 Ok(arc) => match arc.event() {
                     Some(event) => {
-                        let root = ahead.next().unwrap();
-                        prop_assert!((event.before[0] - root).abs() < 1e-10, "{} {}", event.before[0], root);
+                        let at = event.before[0];
+                        // The twin of a root that was found may be within the rounding of the start.
+                        while ahead.next_if(|root| (at - root).abs() > 1e-10 && root - last < 1e-6).is_some() {}
+                        last = ahead.next().unwrap();
+                        prop_assert!((at - last).abs() < 1e-10, "{} {}", at, last);
                     }
-                    None => prop_assert!(ahead.next().is_none()),
+                    None => prop_assert!(ahead.all(|root| root - last < 1e-6)),
                 },
                 Err(Error::Grazing { value, .. }) => {
                     // The product between the closest two is all that there is.
                     prop_assert!(value.abs() < 1e-9, "{}", value);
                     prop_assert!(roots.windows(2).any(|pair| pair[1] - pair[0] < 1e-3) || roots[0] < 1e-3);
+                    break;
+                }
+                Err(Error::UndecidedStart { .. }) => {
+                    let next = ahead.next().unwrap();
+                    prop_assert!(next - last.max(0.0) < 1e-5, "{} {}", last, next);
                     break;
                 }
                 Err(error) => panic!("{error}"),

@@ -6,28 +6,21 @@
 mod model;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use model::{LIMITS, START, Turns, Valve};
+use model::turns;
 use rayon::prelude::*;
-use return_map::ReturnMap;
 
 const RETURNS: usize = 500;
 
-fn returns(flow_rate: f64) -> f64 {
-    let valve = Valve { flow_rate };
-    let map = ReturnMap::new(&valve, &Turns, LIMITS);
-    (0..RETURNS).fold(START, |at, _| map.next(&at).unwrap().coordinates)[0]
-}
-
 fn valve(criterion: &mut Criterion) {
-    let rates: Vec<f64> = (0..8).map(|k| 0.5 + f64::from(k)).collect();
+    let rates: Vec<f64> = (0..20).map(|k| 0.2 + 9.8 * f64::from(k) / 19.0).collect();
     let mut group = criterion.benchmark_group("section returns of the valve");
     group.sample_size(10);
     group.throughput(Throughput::Elements((RETURNS * rates.len()) as u64));
     group.bench_function("one thread", |b| {
-        b.iter(|| rates.iter().map(|&q| returns(q)).sum::<f64>());
+        b.iter(|| rates.iter().map(|&q| turns(q, RETURNS - 1, 1).unwrap()[0]).sum::<f64>());
     });
     group.bench_function("all threads", |b| {
-        b.iter(|| rates.par_iter().map(|&q| returns(q)).collect::<Vec<_>>());
+        b.iter(|| rates.par_iter().map(|&q| turns(q, RETURNS - 1, 1).unwrap()[0]).collect::<Vec<_>>());
     });
     group.finish();
 }

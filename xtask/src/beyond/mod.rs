@@ -61,7 +61,7 @@ impl Job {
     }
 
     /// `count` rows of numbers, each computed once: rows that an earlier run finished are read.
-    fn scan(
+    pub(crate) fn scan(
         &self,
         name: &'static str,
         count: usize,

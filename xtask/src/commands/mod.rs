@@ -3,6 +3,7 @@
 pub mod basin_raster;
 pub mod beyond_paper;
 pub mod check_reference;
+pub mod model_figures;
 pub mod reproduce_paper;
 pub mod tidy;
 pub mod verify_invariance;

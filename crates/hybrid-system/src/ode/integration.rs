@@ -78,6 +78,12 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         Ok(Integration { inner: Steps::new(field, start, tolerances)?, inside: None })
     }
 
+    /// With a first step no longer than this.
+    pub(super) fn starting_with(mut self, longest: f64) -> Self {
+        self.inner.next = self.inner.next.min(longest);
+        self
+    }
+
     /// The times that the last step leads from and to; both zero before the first.
     pub fn interval(&self) -> (f64, f64) {
         (self.inner.from, self.inner.time)

@@ -70,13 +70,24 @@ fn at_nodes(inside: &[[f64; ALL_STAGES]; ALL_STAGES]) -> [[f64; NODES]; ALL_STAG
     for (node, u) in CHEBYSHEV.nodes.iter().enumerate() {
         let s = 0.5 * (1.0 + u);
         for (weights, c) in all.iter_mut().zip(inside) {
-            weights[node] = s * c.iter().rev().fold(0.0, |sum, c| sum * s + c);
+            weights[node] = s * compensated(c, s);
         }
-        // Coefficients of 10⁵ leave 10⁻¹¹; that a constant field is followed exactly is restored.
-        let sum: f64 = all.iter().map(|weights| weights[node]).sum();
-        all[0][node] += s - sum;
     }
     all
+}
+
+/// Σ cₖ sᵏ as if in twice the digits (Graillat, Langlois, Louvet 2005): coefficients of 10⁵ cancel.
+fn compensated(c: &[f64], s: f64) -> f64 {
+    let (mut sum, mut lost) = (0.0, 0.0);
+    for &c in c.iter().rev() {
+        let product: f64 = sum * s;
+        let next = product + c;
+        let back = next - product;
+        let rounded = (product - (next - back)) + (c - back);
+        lost = lost * s + (sum.mul_add(s, -product) + rounded);
+        sum = next;
+    }
+    sum + lost
 }
 
 /// x^(−1/order), to a few percent: sizes of steps need no more.

@@ -27,10 +27,45 @@ where
     if !(horizon >= 0.0) {
         return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
     }
-    let guards = system.guards(mode);
-    if guards.is_empty() || horizon == 0.0 {
+    if system.guards(mode).is_empty() || horizon == 0.0 {
         return Ok(None);
     }
+    let mut first_step = f64::INFINITY;
+    loop {
+        let integration = Integration::new(&field, start, tolerances)?.starting_with(first_step);
+        match attempt(system, mode, start, horizon, &field(0.0, start), integration)? {
+            Attempt::Done(crossing) => return Ok(crossing),
+            // A shorter first step is rounded less, unless it is the state itself that hides the crossing.
+            Attempt::Hidden { until, .. } if until < 0.5 * first_step => first_step = 0.5 * until,
+            Attempt::Hidden { until, surface } => {
+                let surface = format!("{surface:?}");
+                return Err(Error::UndecidedStart { surface, interval: until });
+            }
+        }
+    }
+}
+
+/// What a search led to.
+enum Attempt<S, const N: usize> {
+    /// The first crossing, if there is one.
+    Done(Option<Crossing<S, N>>),
+    /// A guard left a start at zero to one side and was on the other at this time; rounding hides the rest.
+    Hidden { until: f64, surface: S },
+}
+
+fn attempt<T, F, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    start: &State<N>,
+    horizon: f64,
+    rate: &State<N>,
+    mut integration: Integration<F, N>,
+) -> Result<Attempt<T::Surface, N>, Error>
+where
+    T: HybridSystem<N> + ?Sized,
+    F: Fn(f64, &State<N>) -> State<N>,
+{
+    let guards = system.guards(mode);
     let value = |surface| move |state: &State<N>| -> f64 { system.guard_value(surface, state) };
     let mut few: [Option<Watch>; GUARDS] = [const { None }; GUARDS];
     let mut many = Vec::new();
@@ -40,11 +75,9 @@ where
         many.resize_with(guards.len(), || None);
         &mut many[..]
     };
-    let rate = field(0.0, start);
     for (watch, guard) in watches.iter_mut().zip(guards) {
-        *watch = Some(Watch::new(guard.direction, start, &rate, value(guard.surface))?);
+        *watch = Some(Watch::new(guard.direction, start, rate, value(guard.surface))?);
     }
-    let mut integration = Integration::new(field, start, tolerances)?;
     while integration.interval().1 < horizon {
         integration.step()?;
         let away = watches.iter().zip(guards).all(|(watch, guard)| {
@@ -70,8 +103,7 @@ where
                     touch = Some((time, value, guard.surface));
                 }
                 Ahead::Hidden { until } => {
-                    let surface = format!("{:?}", guard.surface);
-                    return Err(Error::UndecidedStart { surface, interval: until });
+                    return Ok(Attempt::Hidden { until, surface: guard.surface });
                 }
                 _ => {}
             }
@@ -84,10 +116,11 @@ where
         if let Some((time, surface)) = first {
             let value = value(surface);
             let (time, state) = polished(&mut integration, &step, time, until, value)?;
-            return Ok(Some(Crossing { surface, time, state, certainty: Certainty::Interpolated }));
+            let certainty = Certainty::Interpolated;
+            return Ok(Attempt::Done(Some(Crossing { surface, time, state, certainty })));
         }
     }
-    Ok(None)
+    Ok(Attempt::Done(None))
 }
 
 /// A crossing without the rounding of the interpolant: its time on the step moved to where a step that ends

@@ -31,6 +31,15 @@ const ROUNDINGS: f64 = 32.0 * f64::EPSILON;
 /// Σ k² for k < 16: how coefficients of size one show in a slope.
 const SLOPE: f64 = 1240.0;
 
+/// Ulps, of the largest value on a step, that its interpolant is rounded by: its weights are large, of both signs.
+const INSIDE: f64 = 64.0;
+
+/// Rounding on a step may exceed that of its start by this, before a shorter step is taken.
+const LARGER: f64 = 4.0 * INSIDE;
+
+/// What a shorter step is to the one before.
+const SHORTER: f64 = 0.01;
+
 /// How far, relative to the state, its rate is followed to see where a guard tends.
 const REACH: f64 = 1e-6;
 
@@ -47,6 +56,8 @@ pub(super) struct Watch {
     side: Option<f64>,
     /// The sign of its rate at a start at zero, where rounding does not hide that.
     rate: Option<f64>,
+    /// Its value at the start, and how much of that the rounding of the state may be.
+    start: (f64, f64),
 }
 
 /// What a step holds.
@@ -63,9 +74,10 @@ pub(super) enum Ahead {
         /// Its value there.
         value: f64,
     },
-    /// It left a start at zero to one side and, within rounding, came back and through to the other.
+    /// Rounding hides what it does by this time: it starts too close to zero for a step so long, or left a
+    /// start at zero to one side and came back and through to the other.
     Hidden {
-        /// By this time.
+        /// The time.
         until: f64,
     },
     /// No crossing.
@@ -104,7 +116,7 @@ impl Watch {
         let (change, bend) = (ahead - behind, ahead + behind - 2.0 * value);
         let plain = change.abs() > rounding && change.abs() > STRAIGHT * bend.abs();
         let rate = plain.then(|| change.signum());
-        Ok(Watch { direction, side, rate })
+        Ok(Watch { direction, side, rate, start: (value, rounding) })
     }
 
     /// Whether it stays on its side all along a step: its values at the stages, which lie all over the step, are
@@ -132,7 +144,16 @@ impl Watch {
     ) -> Result<Ahead, Error> {
         let along = |time: f64| guard(&step.state(time));
         let mut left = step.from;
-        let rounding = rounding_at(&step.state(left), &step.size(), &guard);
+        let size = step.size() * INSIDE;
+        let rounding_near = |time: f64| rounding_at(&step.state(time), &size, &guard);
+        let (value, own) = self.start;
+        let faces = self.side.is_some_and(|side| self.direction.admits(side, -side));
+        let rounding = rounding_near(left);
+        // Whether a shorter first step would show more.
+        let coarse = step.from == 0.0 && rounding > LARGER * own;
+        if coarse && faces && value.abs() <= LEFT * rounding {
+            return Ok(Ahead::Hidden { until: SHORTER * step.to });
+        }
         let mut ends = [until; HALVINGS];
         let mut open = 1;
         for _ in 0..INTERVALS {
@@ -144,6 +165,7 @@ impl Watch {
                 open -= 1;
                 continue;
             }
+            let rounding = rounding_near(left).max(rounding_near(right));
             let found = match self.side {
                 None => leave(along, left, right, rounding)?,
                 Some(_) => look(along, left, right, rounding)?,
@@ -159,6 +181,9 @@ impl Watch {
                         ends[open] = middle;
                         open += 1;
                         continue;
+                    }
+                    if coarse {
+                        return Ok(Ahead::Hidden { until: SHORTER * step.to });
                     }
                     return Ok(Ahead::Grazing { time: middle, value: along(middle) });
                 }
@@ -205,7 +230,8 @@ fn look(
 fn judge(values: &[f64; VALUES], rounding: f64) -> Found {
     let size = largest(values);
     let noise = ROUNDINGS * size + rounding;
-    if size <= rounding {
+    // Twice: what exceeds that is told apart from what does not.
+    if size <= 2.0 * rounding {
         return Found::Rounding;
     }
     let c: [f64; VALUES] = CHEBYSHEV.coefficients(values);

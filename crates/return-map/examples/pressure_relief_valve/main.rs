@@ -7,24 +7,8 @@
 
 mod model;
 
-use model::{LIMITS, START, Turns, Valve};
-use nalgebra::Vector2;
-use return_map::{Error, ReturnMap};
-
-/// The displacements at `kept` turns after `transient` ones.
-fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
-    let valve = Valve { flow_rate };
-    let map = ReturnMap::new(&valve, &Turns, LIMITS);
-    let mut at: Vector2<f64> = START;
-    let mut found = Vec::with_capacity(kept);
-    for turn in 0..transient + kept {
-        at = map.next(&at)?.coordinates;
-        if turn >= transient {
-            found.push(at[0]);
-        }
-    }
-    Ok(found)
-}
+use hybrid_system::Error;
+use model::turns;
 
 fn main() -> Result<(), Error> {
     println!("{:>4}  displacements at the last turns", "q");
@@ -43,8 +27,8 @@ fn main() -> Result<(), Error> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
-    use hybrid_system::{Execution, HybridSystem};
-    use model::Mode;
+    use hybrid_system::{ArcEnd, Execution, HybridSystem};
+    use model::{Mode, Valve};
     use nalgebra::Vector3;
 
     /// In a strong stream the disc comes to rest where spring and pressure balance: y₃ = y₁ + δ, q = y₁ √y₃.
@@ -72,6 +56,23 @@ mod tests {
                     assert!(state[0] > -1e-8, "q = {flow_rate}: {state}");
                 }
             }
+        }
+    }
+
+    /// Started without pressure its bounces accumulate: it rests on its seat until the pressure carries the load.
+    #[test]
+    fn it_rests_and_is_released() {
+        let valve = Valve { flow_rate: 0.2 };
+        let start = Vector3::new(0.2, 0.0, 0.0);
+        let limits = hybrid_system::Limits::new(200.0, 100_000);
+        let arcs: Vec<_> =
+            Execution::new(&valve, Mode::Open, start, limits).collect::<Result<_, _>>().unwrap();
+        let rests = arcs.iter().filter(|arc| arc.mode == Mode::Closed).count();
+        let ends =
+            arcs.iter().filter(|arc| matches!(arc.end, ArcEnd::Accumulation { .. })).count();
+        assert!(rests > 0 && ends == rests, "{rests} {ends}");
+        for pair in arcs.windows(2).filter(|pair| pair[0].mode == Mode::Closed) {
+            assert_eq!((pair[1].mode, pair[1].start), (Mode::Open, Vector3::new(0.0, 0.0, 10.0)));
         }
     }
 

@@ -134,5 +134,28 @@ impl Section<Valve, 3, 2> for Turns {
 /// Where every orbit of the tutorial starts: open by 0.2, without pressure.
 pub(crate) const START: Vector2<f64> = Vector2::new(0.2, 0.0);
 
-/// One return may take so long, and so many events.
-pub(crate) const LIMITS: Limits = Limits::new(1000.0, 10_000);
+/// Limits that no orbit of so many turns comes to.
+fn limits(turns: usize) -> Limits {
+    Limits::new(1000.0 * (1 + turns) as f64, 10_000 * (1 + turns))
+}
+
+/// The displacements at `kept` turns after `transient` ones, bounces that accumulate and rests on the seat
+/// included.
+pub(crate) fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
+    let valve = Valve { flow_rate };
+    let (mode, start) = Turns.point(&START);
+    let mut found = Vec::with_capacity(kept);
+    let mut turn = 0;
+    for arc in Execution::new(&valve, mode, start, limits(transient + kept)) {
+        let arc = arc?;
+        let Some(at) = arc.event().and_then(|event| Turns.coordinates(event)) else { continue };
+        if turn >= transient {
+            found.push(at[0]);
+        }
+        turn += 1;
+        if found.len() == kept {
+            break;
+        }
+    }
+    Ok(found)
+}
