@@ -41,10 +41,10 @@ const LARGER: f64 = 4.0 * INSIDE;
 const SHORTER: f64 = 0.01;
 
 /// How far, relative to the state, its rate is followed to see where a guard tends.
-const REACH: f64 = 1e-6;
+const REACH: f64 = 1e-8;
 
-/// Share of a guard's bend that its change must exceed to be a rate.
-const STRAIGHT: f64 = 1e-3;
+/// Multiple of a guard's bend that its change must exceed to be a rate.
+const STRAIGHT: f64 = 1.0;
 
 /// Multiples of its rounding up to which a guard that started at zero has not left it.
 const LEFT: f64 = 1000.0;
