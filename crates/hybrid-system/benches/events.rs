@@ -92,11 +92,9 @@ impl HybridSystem<2> for Integrated {
 }
 
 fn zeros(criterion: &mut Criterion) {
-    for (name, search) in [
-        ("signal", Search::Signal),
-        ("enclosure", Search::Enclosure),
-        ("samples", Search::Samples),
-    ] {
+    for (name, search) in
+        [("signal", Search::Signal), ("enclosure", Search::Enclosure), ("samples", Search::Samples)]
+    {
         criterion.bench_function(&format!("ten zeros of a swing: {name}"), |bencher| {
             let swing = Swing(search);
             let start = Vector2::new(1.0, 0.0);

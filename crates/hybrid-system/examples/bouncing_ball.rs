@@ -76,9 +76,7 @@ impl HybridSystem<3> for Ball {
         match surface {
             Surface::Impact => x[0] - self.table(x[2]).0,
             // Force over mass: gravity plus the acceleration of the table, Aω² sin φ.
-            Surface::Release => {
-                self.gravity + self.amplitude * self.frequency.powi(2) * x[2].sin()
-            }
+            Surface::Release => self.gravity + self.amplitude * self.frequency.powi(2) * x[2].sin(),
         }
     }
 

@@ -193,7 +193,9 @@ mod tests {
         let just_after = hop.state(&ISSUE_647, 1e-4).unwrap()[0];
         assert!((just_after / 8.22488e-10 - 1.0).abs() < 1e-5, "{just_after:e}");
         let shortest = (0..=1000)
-            .map(|k| contact.state(&ISSUE_647, contact.duration * f64::from(k) / 1000.0).unwrap()[1])
+            .map(|k| {
+                contact.state(&ISSUE_647, contact.duration * f64::from(k) / 1000.0).unwrap()[1]
+            })
             .fold(f64::INFINITY, f64::min);
         assert!((shortest - 0.537247475466967).abs() < 1e-5);
     }
@@ -202,8 +204,7 @@ mod tests {
     #[test]
     fn contact_that_holds() {
         let rest = Vector4::new(0.0, ISSUE_647.balance(), 0.0, 0.0);
-        let mut execution =
-            Execution::new(&ISSUE_647, Mode::Contact, rest, Limits::new(1e4, 100));
+        let mut execution = Execution::new(&ISSUE_647, Mode::Contact, rest, Limits::new(1e4, 100));
         let arc = execution.next().unwrap().unwrap();
         assert_eq!((arc.end, arc.mode), (ArcEnd::TimeLimit, Mode::Contact));
         assert!(execution.next().is_none());

@@ -86,9 +86,8 @@ impl<const N: usize> History<N> {
             return None;
         }
         let start = KEPT - needed;
-        let sums: [f64; PERIODS + 1] = std::array::from_fn(|k| {
-            self.durations[start + k * period..][..period].iter().sum()
-        });
+        let sums: [f64; PERIODS + 1] =
+            std::array::from_fn(|k| self.durations[start + k * period..][..period].iter().sum());
         let ratios: [f64; PERIODS] = std::array::from_fn(|k| sums[k + 1] / sums[k]);
         let lowest = ratios.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = ratios.iter().copied().fold(0.0, f64::max);

@@ -82,7 +82,9 @@ impl Signal {
         if !(horizon >= 0.0 && horizon.is_finite()) {
             return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
         }
-        let Some(start) = self.leave(horizon, start_error)? else { return Ok(FirstCrossing::Never) };
+        let Some(start) = self.leave(horizon, start_error)? else {
+            return Ok(FirstCrossing::Never);
+        };
         Search::new(self).run(start, direction, horizon)
     }
 

@@ -174,9 +174,7 @@ where
     let guards = system.guards(mode);
     let mut watches: Vec<Watch<T::Surface>> = watched
         .iter()
-        .map(|&index| {
-            Watch::new(guards[index], system.guard_value(guards[index].surface, start))
-        })
+        .map(|&index| Watch::new(guards[index], system.guard_value(guards[index].surface, start)))
         .collect();
     let mut sample = 0u64;
     loop {

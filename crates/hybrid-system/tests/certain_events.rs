@@ -96,7 +96,8 @@ fn tangency() {
         panic!("it touches")
     };
     assert!((time - 1.0).abs() < 1e-6 && value.abs() < 1e-12);
-    let FirstCrossing::At { time, .. } = guard(1e-12).first_crossing(Direction::Either, 3.0).unwrap()
+    let FirstCrossing::At { time, .. } =
+        guard(1e-12).first_crossing(Direction::Either, 3.0).unwrap()
     else {
         panic!("it crosses")
     };
@@ -272,8 +273,9 @@ fn constant_flow() {
     }
     for (x, y) in [(-0.3, 0.1), (-1.9, 0.0), (0.2, -0.7), (-0.1, -1.1)] {
         let start = Vector2::new(x, y);
-        let arcs: Vec<_> =
-            Execution::new(&Saw, (), start, Limits::new(2.0, 10)).collect::<Result<_, _>>().unwrap();
+        let arcs: Vec<_> = Execution::new(&Saw, (), start, Limits::new(2.0, 10))
+            .collect::<Result<_, _>>()
+            .unwrap();
         assert_eq!(arcs.len(), 2);
         let end = arcs[1].state(&Saw, arcs[1].duration).unwrap();
         assert!((end - start).amax() < 1e-14, "{end}");

@@ -151,9 +151,8 @@ fn oscillator_zeros() {
 #[test]
 fn roots_within_long_steps_and_tangency() {
     let field = |_: &State<1>| Vector1::new(1.0);
-    let product = |_: usize, x: &State<1>| {
-        (1..10).map(|k| x[0] - f64::from(k) / 10.0).product::<f64>()
-    };
+    let product =
+        |_: usize, x: &State<1>| (1..10).map(|k| x[0] - f64::from(k) / 10.0).product::<f64>();
     let guards = [Guard::either(0)];
     let system = Watched { field, values: product, guards: &guards, tolerances: TIGHT };
     let found = events(&system, Vector1::new(0.0), 50.0);

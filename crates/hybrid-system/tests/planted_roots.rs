@@ -119,7 +119,15 @@ impl HybridSystem<1> for Planted<'_> {
             0 => Some(product(factors.iter().copied())),
             // (Π fᵢ)′ = Σ Π_{j≠i} fⱼ
             1 => (0..factors.len())
-                .map(|i| product(factors.iter().copied().enumerate().filter_map(|(j, f)| (j != i).then_some(f))))
+                .map(|i| {
+                    product(
+                        factors
+                            .iter()
+                            .copied()
+                            .enumerate()
+                            .filter_map(|(j, f)| (j != i).then_some(f)),
+                    )
+                })
                 .reduce(|a, b| outward(a.low + b.low, a.high + b.high)),
             _ => None,
         }
@@ -169,7 +177,8 @@ fn check(roots: &[f64], form: Form) {
     }
     let close = |a: f64, b: f64| (a - b).abs() < KNOWN;
     for (k, &root) in roots.iter().enumerate() {
-        let neighbours = [k.checked_sub(1).map_or(0.0, |k| roots[k]), *roots.get(k + 1).unwrap_or(&END)];
+        let neighbours =
+            [k.checked_sub(1).map_or(0.0, |k| roots[k]), *roots.get(k + 1).unwrap_or(&END)];
         let alone = neighbours.iter().chain(&[0.0, END]).all(|other| (root - other).abs() > ALONE);
         if alone && root > 0.0 && root < open - CROWD {
             let times = found.iter().filter(|time| close(**time, root)).count();

@@ -185,9 +185,12 @@ mod tests {
     #[test]
     fn the_map_of_the_hopper() {
         let mut lost = 0;
-        for (hand, ball, stiffness, gravity) in
-            [(0.3, 0.5, 80.0, 9.81), (2.0, 0.7, 15.0, 1.62), (1.0, 10.0, 300.0, 9.8), (5.0, 0.5, 1.0, 1.0)]
-        {
+        for (hand, ball, stiffness, gravity) in [
+            (0.3, 0.5, 80.0, 9.81),
+            (2.0, 0.7, 15.0, 1.62),
+            (1.0, 10.0, 300.0, 9.8),
+            (5.0, 0.5, 1.0, 1.0),
+        ] {
             let juggler = Juggler { hand, ball, stiffness, gravity };
             let map = LiftOffMap::new(MassRatio::new(hand / ball).unwrap());
             for k in 1..200 {

@@ -20,7 +20,9 @@ fn valve(criterion: &mut Criterion) {
         b.iter(|| rates.iter().map(|&q| turns(q, RETURNS - 1, 1).unwrap()[0]).sum::<f64>());
     });
     group.bench_function("all threads", |b| {
-        b.iter(|| rates.par_iter().map(|&q| turns(q, RETURNS - 1, 1).unwrap()[0]).collect::<Vec<_>>());
+        b.iter(|| {
+            rates.par_iter().map(|&q| turns(q, RETURNS - 1, 1).unwrap()[0]).collect::<Vec<_>>()
+        });
     });
     group.finish();
 }

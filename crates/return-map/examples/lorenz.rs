@@ -34,9 +34,15 @@ impl VectorField<3> for Lorenz {
 impl Linearized<3> for Lorenz {
     fn field_jacobian(&self, _: (), x: &State<3>) -> SMatrix<f64, 3, 3> {
         SMatrix::<f64, 3, 3>::new(
-            -10.0, 10.0, 0.0, //
-            28.0 - x[2], -1.0, -x[0], //
-            x[1], x[0], -8.0 / 3.0,
+            -10.0,
+            10.0,
+            0.0, //
+            28.0 - x[2],
+            -1.0,
+            -x[0], //
+            x[1],
+            x[0],
+            -8.0 / 3.0,
         )
     }
 }

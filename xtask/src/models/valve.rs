@@ -24,9 +24,8 @@ const HIGHEST: f64 = 9.0;
 
 /// Turns over the flow rate.
 pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
-    let rate = |column: usize| {
-        RATES.0 + (RATES.1 - RATES.0) * (column as f64 + 0.5) / COLUMNS as f64
-    };
+    let rate =
+        |column: usize| RATES.0 + (RATES.1 - RATES.0) * (column as f64 + 0.5) / COLUMNS as f64;
     let pieces = job.scan("the valve's turns", COLUMNS / PIECE, |piece| {
         let columns = piece * PIECE..(piece + 1) * PIECE;
         let turns: Vec<Vec<f64>> = columns

@@ -11,7 +11,8 @@ pub(super) fn first_step<V: Vector>(
     tolerances: Tolerances,
     order: u32,
 ) -> f64 {
-    let (size, rate) = (in_tolerances(start, start, tolerances), in_tolerances(slope, start, tolerances));
+    let (size, rate) =
+        (in_tolerances(start, start, tolerances), in_tolerances(slope, start, tolerances));
     let euler = if size > 1e-5 && rate > 1e-5 { 0.01 * size / rate } else { 1e-6 };
     let mut ahead = *start;
     ahead.add(euler, slope);

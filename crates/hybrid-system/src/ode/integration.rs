@@ -1,7 +1,7 @@
 //! Solutions of ẋ = f(t, x), step by step, each step with a polynomial inside.
 
-use super::scheme::{ALL_STAGES, Scheme, inverse_root};
 use super::chebyshev::NODES;
+use super::scheme::{ALL_STAGES, Scheme, inverse_root};
 use super::step::Step;
 use super::{first_step, vector::Vector};
 use crate::{Error, State};
@@ -270,9 +270,8 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Steps<F, State<N>> {
                 }
             }
         }
-        let node = |j: usize| {
-            State::from_fn(|axis, _| self.before[axis] + self.last * moves[axis][j])
-        };
+        let node =
+            |j: usize| State::from_fn(|axis, _| self.before[axis] + self.last * moves[axis][j]);
         Step::new(self.from, self.time, std::array::from_fn(node))
     }
 }

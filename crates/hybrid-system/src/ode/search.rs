@@ -97,9 +97,7 @@ where
                 Ahead::At { time } if first.is_none_or(|(best, _)| time < best) => {
                     first = Some((time, guard.surface));
                 }
-                Ahead::Grazing { time, value }
-                    if touch.is_none_or(|(best, ..)| time < best) =>
-                {
+                Ahead::Grazing { time, value } if touch.is_none_or(|(best, ..)| time < best) => {
                     touch = Some((time, value, guard.surface));
                 }
                 Ahead::Hidden { until } => {

@@ -37,9 +37,7 @@ pub(super) trait Vector: Copy {
             (error / (tolerances.absolute + tolerances.relative * size)).abs()
         });
         // What is not a number stays.
-        shares.fold(0.0, |worst, share| {
-            if share > worst || share.is_nan() { share } else { worst }
-        })
+        shares.fold(0.0, |worst, share| if share > worst || share.is_nan() { share } else { worst })
     }
 
     /// An error unless all components are finite.

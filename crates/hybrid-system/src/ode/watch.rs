@@ -217,12 +217,7 @@ impl Watch {
 }
 
 /// What the polynomial through 16 values says.
-fn look(
-    along: impl Fn(f64) -> f64,
-    left: f64,
-    right: f64,
-    rounding: f64,
-) -> Result<Found, Error> {
+fn look(along: impl Fn(f64) -> f64, left: f64, right: f64, rounding: f64) -> Result<Found, Error> {
     let values = values(along, left, right)?;
     Ok(judge(&values, rounding))
 }
@@ -266,12 +261,7 @@ fn starts_at_zero(values: &[f64; VALUES], noise: f64) -> bool {
 
 /// How a guard that starts at zero leaves it: as (g(t) − g(0))/τᵏ, if that has no zero and its predecessors
 /// start at zero.
-fn leave(
-    along: impl Fn(f64) -> f64,
-    left: f64,
-    right: f64,
-    rounding: f64,
-) -> Result<Found, Error> {
+fn leave(along: impl Fn(f64) -> f64, left: f64, right: f64, rounding: f64) -> Result<Found, Error> {
     let start = along(left);
     let values = values(along, left, right)?;
     let size = largest(&values);

@@ -46,13 +46,16 @@ mod tests {
         for flow_rate in [0.3, 1.0, 3.0, 6.0] {
             let valve = Valve { flow_rate };
             let start = Vector3::new(0.2, 0.0, 0.0);
-            for arc in Execution::new(&valve, Mode::Open, start, hybrid_system::Limits::new(30.0, 2000)) {
+            for arc in
+                Execution::new(&valve, Mode::Open, start, hybrid_system::Limits::new(30.0, 2000))
+            {
                 let arc = arc.unwrap();
                 if arc.duration == 0.0 || arc.mode == Mode::Closed {
                     continue;
                 }
                 for k in 0..=10 {
-                    let state = valve.flow(arc.mode, &arc.start, arc.duration * f64::from(k) / 10.0);
+                    let state =
+                        valve.flow(arc.mode, &arc.start, arc.duration * f64::from(k) / 10.0);
                     assert!(state[0] > -1e-8, "q = {flow_rate}: {state}");
                 }
             }
@@ -68,8 +71,7 @@ mod tests {
         let arcs: Vec<_> =
             Execution::new(&valve, Mode::Open, start, limits).collect::<Result<_, _>>().unwrap();
         let rests = arcs.iter().filter(|arc| arc.mode == Mode::Closed).count();
-        let ends =
-            arcs.iter().filter(|arc| matches!(arc.end, ArcEnd::Accumulation { .. })).count();
+        let ends = arcs.iter().filter(|arc| matches!(arc.end, ArcEnd::Accumulation { .. })).count();
         assert!(rests > 0 && ends == rests, "{rests} {ends}");
         for pair in arcs.windows(2).filter(|pair| pair[0].mode == Mode::Closed) {
             assert_eq!((pair[1].mode, pair[1].start), (Mode::Open, Vector3::new(0.0, 0.0, 10.0)));
