@@ -65,7 +65,7 @@
 //! ```
 //!
 //! To read on: [flow, guard and reset](mathematics), [which certainty do I have?](certainty), and
-//! [a model of one's own in 40 lines](guide). The examples `bouncing_ball` and `plastic_hopper` have contact that
+//! [a model of one's own in 40 lines](guide). The examples `bouncing_ball` and `plastic_landing` have contact that
 //! holds and lets go.
 //!
 //! # Accuracy

@@ -130,7 +130,7 @@ fn main() -> Result<(), Error> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used, clippy::excessive_precision)]
+#[allow(clippy::unwrap_used, clippy::excessive_precision, clippy::disallowed_methods)]
 mod tests {
     use super::*;
 

@@ -33,11 +33,9 @@ impl Transform {
         T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
     {
         std::array::from_fn(|k| {
-            let mut sum = values[0] * self.weights[k][0];
-            for j in 1..NODES {
-                sum = sum + values[j] * self.weights[k][j];
-            }
-            sum
+            let weights = &self.weights[k];
+            let rest = values.iter().zip(weights).skip(1);
+            rest.fold(values[0] * weights[0], |sum, (&value, &weight)| sum + value * weight)
         })
     }
 }

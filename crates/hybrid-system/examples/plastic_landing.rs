@@ -4,7 +4,7 @@
 //! Contact is a mode: it holds while the floor's force is positive, and ends where that vanishes. At that
 //! instant the lower mass has neither speed nor acceleration, so that it leaves the floor like t³.
 //!
-//! Run with `cargo run -p hybrid-system --example plastic_hopper`.
+//! Run with `cargo run -p hybrid-system --example plastic_landing`.
 
 #![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and bits do not matter
 
@@ -26,7 +26,7 @@ enum Surface {
 }
 
 /// Masses on a spring over a floor at height 0. State: heights x₁ < x₂ and velocities v₁, v₂, in SI units.
-struct Hopper {
+struct Masses {
     gravity: f64,
     stiffness: f64,
     length: f64,
@@ -34,7 +34,7 @@ struct Hopper {
     upper: f64,
 }
 
-impl Hopper {
+impl Masses {
     fn mass(&self) -> f64 {
         self.lower + self.upper
     }
@@ -60,7 +60,7 @@ impl Hopper {
     }
 }
 
-impl HybridSystem<4> for Hopper {
+impl HybridSystem<4> for Masses {
     type Mode = Mode;
     type Surface = Surface;
 
@@ -150,8 +150,8 @@ impl HybridSystem<4> for Hopper {
     }
 }
 
-const ISSUE_647: Hopper =
-    Hopper { gravity: 9.8, stiffness: 500.0, length: 1.0, lower: 1.0, upper: 1.0 };
+const ISSUE_647: Masses =
+    Masses { gravity: 9.8, stiffness: 500.0, length: 1.0, lower: 1.0, upper: 1.0 };
 
 fn main() -> Result<(), Error> {
     let start = Vector4::new(5.0, 6.0, 0.0, 0.0);
