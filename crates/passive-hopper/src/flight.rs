@@ -98,6 +98,22 @@ impl HalfFlight {
         2.0 * self.rho * (self.rho - excess * (self.sin / self.d).min(f64::MAX))
     }
 
+    /// d²V/dh², for steps of a root search: with w = u − x S, D V″ = 2(ρ′w + ρw′) − 2S² V′.
+    pub(crate) fn start_speed_bend(&self, excess: f64) -> f64 {
+        let HalfFlight { h, sin, cos, d, u, rho, .. } = *self;
+        let w = u - excess * sin;
+        let rho_slope = -sin * (h + 2.0 * sin * rho) / d;
+        let w_slope = -(h * sin + excess * cos);
+        2.0 * (rho_slope * w + rho * w_slope - 2.0 * sin * sin * rho * w / d) / d
+    }
+
+    /// d(Γ²)/dV = 2 D dΓ/dh, finite even at a triple root.
+    pub(crate) fn loss_slope(&self, excess: f64) -> f64 {
+        let HalfFlight { h, sin, cos, u, rho, .. } = *self;
+        let w = u - excess * sin;
+        -4.0 * (h * sin * w + u * (h * sin + excess * cos) + 2.0 * sin * sin * rho * w)
+    }
+
     /// W = sin h (sin h − h cos h): α' dα'/dα = α (1 − 4μW) on the contact intervals.
     pub fn w(&self) -> f64 {
         -self.sin * self.u
@@ -178,6 +194,10 @@ mod tests {
                 - HalfFlight::at(h - step).start_speed(excess);
             let slope = HalfFlight::at(h).start_speed_slope(excess);
             prop_assert!((difference / (2.0 * step) - slope).abs() < 1e-6 * (1.0 + slope.abs()) * (1.0 + excess));
+            let difference = HalfFlight::at(h + step).start_speed_slope(excess)
+                - HalfFlight::at(h - step).start_speed_slope(excess);
+            let bend = HalfFlight::at(h).start_speed_bend(excess);
+            prop_assert!((difference / (2.0 * step) - bend).abs() < 1e-5 * (1.0 + bend.abs()) * (1.0 + excess));
         }
     }
 }

@@ -17,6 +17,7 @@
 
 use crate::HalfFlight;
 use crate::double_double::DoubleDouble;
+use crate::first_flight::time_shift;
 use crate::lossless::{alpha_star, n_pi};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -84,8 +85,12 @@ impl Cell {
         solve(0.0, alpha, self.bracket(alpha), self.start(alpha))
     }
 
-    /// h to a few digits, from the expansion of A about α*_n, or about 0 and π on the first cell.
+    /// h: to a few ulps from a table, else to a few digits from the expansion of A about α*_n, or about 0 and π
+    /// on the first cell.
     fn start(&self, alpha: f64) -> f64 {
+        if let Some(shift) = time_shift(alpha, self) {
+            return self.star.high + 0.5 * shift;
+        }
         if self.n == 0 {
             // A = h/2 (1 + h²/15 + …), and A(π) = π.
             let square = alpha * alpha;
@@ -185,11 +190,11 @@ pub(crate) struct Root {
     rest: f64,
 }
 
-/// Newton's method inside a bracket on which V(h) increases.
+/// Halley's method inside a bracket on which V(h) increases.
 ///
 /// It stops when the residual, which is a backward error in V, is about an ulp of V, or of V − h where
-/// that is much smaller: then the map is right, even where h is not (at α*_n it is a triple root). What
-/// is left is handed on and corrected to first order, which is not enough for an ulp of a huge V.
+/// that is much smaller: then the map is right, even where h is not (at α*_n it is a triple root); or when
+/// what is left is so little that its square does not count. It is handed on and corrected to first order.
 fn solve(excess: f64, velocity: f64, bracket: (f64, f64), start: f64) -> Root {
     const ENOUGH: usize = 200; // bisection alone ends within 64 + 53 steps of any bracket
     const LARGE: f64 = 8.0; // below, an ulp of V is one of V − h, or nearly
@@ -199,7 +204,7 @@ fn solve(excess: f64, velocity: f64, bracket: (f64, f64), start: f64) -> Root {
     let mut residual = (h - velocity) + half.speed_beyond_h(excess);
     for _ in 0..ENOUGH {
         let scale = velocity.abs().min(h).min((h - velocity).abs() + LARGE);
-        if residual.abs() <= f64::EPSILON * scale {
+        if residual.abs() <= f64::EPSILON * scale || is_linear(&half, residual, excess) {
             break;
         }
         if residual > 0.0 {
@@ -207,8 +212,9 @@ fn solve(excess: f64, velocity: f64, bracket: (f64, f64), start: f64) -> Root {
         } else {
             left = h;
         }
-        let newton = h - residual / half.start_speed_slope(excess);
-        let next = if newton > left && newton < right { newton } else { 0.5 * (left + right) };
+        let step = halley(residual, half.start_speed_slope(excess), half.start_speed_bend(excess));
+        let halley = h - step;
+        let next = if halley > left && halley < right { halley } else { 0.5 * (left + right) };
         if next <= left || next >= right {
             break;
         }
@@ -221,16 +227,29 @@ fn solve(excess: f64, velocity: f64, bracket: (f64, f64), start: f64) -> Root {
     Root { half, residual, rest: if rest.is_nan() { 0.0 } else { rest } }
 }
 
+/// A share whose square is under an ulp.
+const FIRST_ORDER: f64 = 1e-9;
+
+/// Whether the residual is so small that corrections of first order leave less than an ulp: of h, and of Γ².
+fn is_linear(half: &HalfFlight, residual: f64, excess: f64) -> bool {
+    let closing = half.closing_speed(excess);
+    let step = residual.abs() / half.start_speed_slope(excess);
+    step <= FIRST_ORDER * half.h.min(1.0)
+        && (residual * half.loss_slope(excess)).abs() <= FIRST_ORDER * closing * closing
+}
+
+/// Halley's step, or Newton's where the two differ by much.
+fn halley(residual: f64, slope: f64, bend: f64) -> f64 {
+    let newton = residual / slope;
+    let bent = 1.0 - 0.5 * newton * (bend / slope);
+    if bent > 0.5 && bent < 2.0 { newton / bent } else { newton }
+}
+
 impl Root {
     fn landing(&self, excess: f64, velocity: f64, kappa: f64, sudden: Option<bool>) -> Landing {
         let half = &self.half;
         let (h, rest) = (half.h, self.rest);
-        let w = half.u - excess * half.sin;
-        // 2 D dΓ/dh = d(Γ²)/dV, finite even at a triple root.
-        let loss_slope = -4.0
-            * (h * half.sin * w
-                + half.u * (h * half.sin + excess * half.cos)
-                + 2.0 * half.sin * half.sin * half.rho * w);
+        let loss_slope = half.loss_slope(excess);
         let uncorrected = half.closing_speed(excess);
         let change = self.residual / uncorrected * (loss_slope / uncorrected);
         let closing_speed = if change.abs() < 0.5 {

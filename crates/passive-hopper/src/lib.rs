@@ -62,6 +62,7 @@ mod double_double;
 mod doubt;
 mod energy;
 mod error;
+mod first_flight;
 mod flight;
 mod hopper;
 mod landing;

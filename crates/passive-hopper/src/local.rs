@@ -219,12 +219,16 @@ impl LocalFlight {
 
     /// (excess, velocity, Γ) at the first landing.
     fn landing(&self, t: f64, kappa: f64) -> (f64, f64, f64) {
-        let eta = 0.5 * t;
+        let a = self.a;
+        let (square, eta) = (a * a, 0.5 * t);
         let (sin, cos) = pxfm::f_sincos(eta);
-        let b = self.b(eta);
-        let scale = b / (self.q(t) * (1.0 + self.a * self.a));
-        let beyond = -2.0 * (self.a * cos + sin) * scale; // S u/D
-        let h = self.a + eta;
+        let b = (1.0 + a * (a + eta)) * sin - eta * cos;
+        // Q = 2a + t − sin(2a + t), by the double angle.
+        let sine = 2.0 * (a * (1.0 - 2.0 * sin * sin) + (1.0 - square) * sin * cos);
+        let q = (2.0 * a + t) - sine / (1.0 + square);
+        let scale = b / (q * (1.0 + square));
+        let beyond = -2.0 * (a * cos + sin) * scale; // S u/D
+        let h = a + eta;
         let closing_speed = 4.0 * b * scale;
         (2.0 * h * beyond, beyond - h + kappa * closing_speed, closing_speed)
     }

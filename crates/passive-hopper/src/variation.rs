@@ -47,13 +47,15 @@ pub(crate) struct Tangent {
 impl Tangent {
     pub(crate) fn new(start: TakeOff, landing: &Landing, kappa: f64) -> Self {
         let tau = landing.time;
-        let (sin, cos) = pxfm::f_sincos(tau);
-        let sin_half = pxfm::f_sin(0.5 * tau);
+        // All by the half angle: one sine and one cosine.
+        let (sin_half, cos_half) = pxfm::f_sincos(0.5 * tau);
+        let versine = 2.0 * sin_half * sin_half;
+        let (sin, cos) = (2.0 * sin_half * cos_half, 1.0 - versine);
         Tangent {
             sin,
             cos,
-            versine: 2.0 * sin_half * sin_half,
-            delay: -pxfm::f_sinmx(tau),
+            versine,
+            delay: if tau < 1.0 { -pxfm::f_sinmx(tau) } else { tau - sin },
             closing_speed: landing.closing_speed,
             excess: landing.excess,
             kappa,
