@@ -5,7 +5,8 @@ use crate::State;
 /// The limit of infinitely many events.
 ///
 /// The durations of the last arcs shrink by the same factor, to a hundredth of it, over five periods, and
-/// what is left of them is under 10⁻¹² of the time so far, or under 10⁻⁵ where rounding hides the next event.
+/// what is left of them is under 10⁻¹² of the time so far. Where rounding hides the next event two periods, a tenth and
+/// 10⁻⁵ suffice.
 /// The limits are those of the geometric series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Accumulation<const N: usize> {
@@ -27,14 +28,21 @@ pub struct Accumulation<const N: usize> {
 /// Periods that must agree.
 const PERIODS: usize = 5;
 
+/// And where rounding hides the next event, which may be soon.
+const PERIODS_WHEN_HIDDEN: usize = 2;
+
 /// Longest period looked for.
 const LONGEST: usize = 4;
 
 /// What may be left, relative to the time so far.
-pub(crate) const LEFT: f64 = 1e-12;
+const LEFT: f64 = 1e-12;
 
 /// What may be left where rounding hides the next event: the surfaces need not be at zero.
-pub(crate) const LEFT_WHEN_HIDDEN: f64 = 1e-5;
+const LEFT_WHEN_HIDDEN: f64 = 1e-5;
+
+/// How far the factors of the periods may be apart, relative to them; where rounding hides, too.
+const APART: f64 = 0.01;
+const APART_WHEN_HIDDEN: f64 = 0.1;
 
 /// Arcs that are kept: those of the longest period, so often as they must agree, and once more.
 const KEPT: usize = (PERIODS + 1) * LONGEST;
@@ -68,33 +76,38 @@ impl<const N: usize> History<N> {
         &self,
         time: f64,
         events: usize,
-        left: f64,
+        hidden: bool,
     ) -> Option<Accumulation<N>> {
         // The common case first: the last arc is no small part of all.
         if self.arcs == 0 || !(self.durations[KEPT - 1] < 1e-3 * time) {
             return None;
         }
-        let mut limit = (1..=LONGEST).find_map(|period| self.with_period(period, time, left))?;
+        let mut limit = (1..=LONGEST).find_map(|period| self.with_period(period, time, hidden))?;
         // Every event may have rounded the time and the state by an ulp.
         limit.time_error += 2.0 * f64::EPSILON * time * (1 + events) as f64;
         Some(limit)
     }
 
-    fn with_period(&self, period: usize, time: f64, left: f64) -> Option<Accumulation<N>> {
-        let needed = (PERIODS + 1) * period;
+    fn with_period(&self, period: usize, time: f64, hidden: bool) -> Option<Accumulation<N>> {
+        let (periods, left, apart) = if hidden {
+            (PERIODS_WHEN_HIDDEN, LEFT_WHEN_HIDDEN, APART_WHEN_HIDDEN)
+        } else {
+            (PERIODS, LEFT, APART)
+        };
+        let needed = (periods + 1) * period;
         if self.arcs < needed {
             return None;
         }
         let start = KEPT - needed;
-        let sums: [f64; PERIODS + 1] =
-            std::array::from_fn(|k| self.durations[start + k * period..][..period].iter().sum());
-        let ratios: [f64; PERIODS] = std::array::from_fn(|k| sums[k + 1] / sums[k]);
-        let lowest = ratios.iter().copied().fold(f64::INFINITY, f64::min);
-        let highest = ratios.iter().copied().fold(0.0, f64::max);
-        if !(highest < 1.0 && lowest > 0.0 && highest - lowest <= 0.01 * highest) {
+        let sum_of =
+            |k: usize| -> f64 { self.durations[start + k * period..][..period].iter().sum() };
+        let ratio_of = |k: usize| sum_of(k + 1) / sum_of(k);
+        let lowest = (0..periods).map(ratio_of).fold(f64::INFINITY, f64::min);
+        let highest = (0..periods).map(ratio_of).fold(0.0, f64::max);
+        if !(highest < 1.0 && lowest > 0.0 && highest - lowest <= apart * highest) {
             return None;
         }
-        let (ratio, sum) = (ratios[PERIODS - 1], sums[PERIODS]);
+        let (ratio, sum) = (ratio_of(periods - 1), sum_of(periods));
         let rest = |ratio: f64| sum * ratio / (1.0 - ratio);
         if !(rest(highest) <= left * time) {
             return None;

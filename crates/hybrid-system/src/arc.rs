@@ -31,7 +31,7 @@ pub enum ArcEnd<M, S, const N: usize> {
         /// Mode and state in which the model goes on; nothing if it names none.
         after: Option<(M, State<N>)>,
     },
-    /// At the limit on time: no event before it.
+    /// At the limit on time: no event before it, as surely as the search of the mode's guards is.
     TimeLimit,
     /// Never: no event ever follows, and there is no limit on time.
     Never,

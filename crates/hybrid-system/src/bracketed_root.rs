@@ -7,7 +7,8 @@
 use crate::Error;
 use roots::{Convergency, SearchError, find_root_brent};
 
-const ITERATIONS: usize = 200;
+/// Enough for halvings down to the smallest numbers, where a flat root is at zero.
+const ITERATIONS: usize = 1200;
 
 /// Where values are cut off from below, relative to the larger end value, so that the product of
 /// two of them cannot underflow. Far under any rounding error.
@@ -41,7 +42,7 @@ impl Convergency<f64> for FullPrecision {
 ///
 /// # Errors
 /// [`Error::NoSignChange`] without a sign change, [`Error::NotFinite`] if the function is,
-/// [`Error::NoConvergence`] if 200 iterations do not suffice.
+/// [`Error::NoConvergence`] if 1200 iterations do not suffice.
 pub fn bracketed_root(
     mut function: impl FnMut(f64) -> f64,
     left: f64,

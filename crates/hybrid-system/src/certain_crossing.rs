@@ -23,12 +23,12 @@ pub enum FirstCrossing {
         /// Whether it goes from negative to positive.
         rising: bool,
     },
-    /// It comes so close to zero here that rounding hides whether it touches, crosses twice or stays
-    /// away; before, it does not cross.
+    /// It comes so close to zero, with so little speed, that rounding hides whether it touches, crosses once or
+    /// twice, or stays away; before, it does not cross.
     Grazing {
-        /// When it is closest.
+        /// When rounding begins to hide it.
         time: f64,
-        /// Its value there.
+        /// Its value there: as small as any that was seen.
         value: f64,
     },
     /// It does not cross up to the horizon.
@@ -81,6 +81,9 @@ impl Signal {
         self.check()?;
         if !(horizon >= 0.0 && horizon.is_finite()) {
             return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
+        }
+        if self.stays_away(horizon) {
+            return Ok(FirstCrossing::Never);
         }
         let Some(start) = self.leave(horizon, start_error)? else {
             return Ok(FirstCrossing::Never);
@@ -150,8 +153,8 @@ struct Search<'a> {
 
 /// What an interval holds.
 enum Found {
-    /// No zero.
-    Nothing,
+    /// No zero, and this sign.
+    Nothing(f64),
     /// It is monotone with this slope.
     Monotone(f64),
     /// Not known.
@@ -172,7 +175,7 @@ impl<'a> Search<'a> {
         let slope_rounding = self.slope.rounding(right);
         let reach = (slope.abs() + slope_rounding) * radius + 0.5 * bend * radius * radius;
         if value.abs() > reach + self.signal.rounding(right) {
-            Found::Nothing
+            Found::Nothing(value.signum())
         } else if slope.abs() > bend * radius + slope_rounding {
             Found::Monotone(slope)
         } else {
@@ -196,7 +199,11 @@ impl<'a> Search<'a> {
                 continue;
             }
             match self.look(left, right) {
-                Found::Nothing => left = right,
+                Found::Nothing(now) if now != sign && direction.admits(sign, now) => {
+                    // The zero that rounding hid lies where the intervals meet.
+                    return Ok(FirstCrossing::At { time: left, rising: sign < 0.0 });
+                }
+                Found::Nothing(now) => (left, sign) = (right, now),
                 Found::Monotone(slope) => {
                     // Towards the other sign, and beyond it at the end?
                     let beyond = self.beyond(right, slope, horizon);
@@ -249,7 +256,7 @@ impl<'a> Search<'a> {
         match self.look(right, beyond) {
             // Beyond the horizon too: a crossing there is dropped.
             Found::Monotone(_) | Found::Unknown => beyond.max(right.min(horizon)),
-            Found::Nothing => right,
+            Found::Nothing(_) => right,
         }
     }
 

@@ -11,7 +11,8 @@ pub enum Certainty {
     /// Bracketed under a bound: no earlier crossing can exist.
     Certain,
     /// Found along an integrated flow, on polynomials through the guard's values on the integrator's
-    /// interpolant: none of theirs was missed. The flow itself is as exact as its tolerances.
+    /// interpolant: none of theirs was missed where its values at eighths of a step do not keep away from zero. The
+    /// flow itself is as exact as its tolerances.
     Interpolated,
     /// Looked for at an interval; two crossings inside one interval would have been missed.
     Sampled {
@@ -51,7 +52,9 @@ where
     let guards = system.guards(mode);
     for (index, &guard) in guards.iter().enumerate() {
         match certain_crossing(system, mode, start, horizon, guard)? {
-            Some(FirstCrossing::At { time, .. }) if best.is_none_or(|(first, _)| time < first) => {
+            Some(FirstCrossing::At { time, .. })
+                if best.is_none_or(|best| sooner(time, best.0)) =>
+            {
                 best = Some((time, index));
             }
             Some(FirstCrossing::Grazing { time, value })
@@ -88,6 +91,12 @@ where
     }))
 }
 
+/// Whether a time comes before another by more than a few ulps: of those at the same instant the guard listed first
+/// wins.
+pub(crate) fn sooner(time: f64, than: f64) -> bool {
+    time < than * (1.0 - 4.0 * f64::EPSILON)
+}
+
 /// The first crossing of one guard for which the model gives bounds, up to a finite horizon.
 fn certain_crossing<T, const N: usize>(
     system: &T,
@@ -99,10 +108,14 @@ fn certain_crossing<T, const N: usize>(
 where
     T: HybridSystem<N> + ?Sized,
 {
-    if !horizon.is_finite() {
-        return Ok(None);
-    }
     let Guard { surface, direction } = guard;
+    if !horizon.is_finite() {
+        let bounded = system.guard_signal(mode, surface, start).is_some()
+            || system.guard_enclosure(mode, surface, start, 0, (0.0, 0.0)).is_some();
+        let error =
+            Error::BadLimit { what: "the horizon of a search under bounds", value: horizon };
+        return if bounded { Err(error) } else { Ok(None) };
+    }
     let value = |time: f64| system.guard_value(surface, &system.flow(mode, start, time));
     let behind = |found| match found {
         FirstCrossing::At { time, rising } => {
@@ -174,8 +187,14 @@ where
     let guards = system.guards(mode);
     let mut watches: Vec<Watch<T::Surface>> = watched
         .iter()
-        .map(|&index| Watch::new(guards[index], system.guard_value(guards[index].surface, start)))
-        .collect();
+        .map(|&index| {
+            let value = system.guard_value(guards[index].surface, start);
+            if !value.is_finite() {
+                return Err(Error::NotFinite { at: 0.0, value });
+            }
+            Ok(Watch::new(guards[index], value))
+        })
+        .collect::<Result<_, _>>()?;
     let mut sample = 0u64;
     loop {
         sample += 1;
@@ -192,7 +211,7 @@ where
             let along = |t: f64| system.guard_value(surface, &system.flow(mode, start, t));
             let at = bracketed_root(along, bracket.0, bracket.1)?;
             let at = beyond(along, at, bracket.1, value);
-            if earliest.is_none_or(|(best, _)| at < best) {
+            if earliest.is_none_or(|(best, _)| sooner(at, best)) {
                 earliest = Some((at, index));
             }
         }

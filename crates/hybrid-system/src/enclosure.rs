@@ -64,7 +64,7 @@ pub(crate) struct Enclosed<V, E> {
 
 /// What an interval holds.
 enum Found {
-    Nothing,
+    Nothing(f64),
     Monotone,
     Unknown,
 }
@@ -96,7 +96,11 @@ where
                 continue;
             }
             match self.look(left, right)? {
-                Found::Nothing => left = right,
+                Found::Nothing(sign) if sign != side && direction.admits(side, sign) => {
+                    // The zero that rounding hid lies where the intervals meet.
+                    return Ok(FirstCrossing::At { time: left, rising: side < 0.0 });
+                }
+                Found::Nothing(sign) => (left, side) = (right, sign),
                 Found::Monotone => {
                     // A zero that rounding hides at the end belongs to the next interval, if there is one.
                     let after = match self.at(0, right)?.sign() {
@@ -131,20 +135,37 @@ where
         if let Some(side) = self.at(0, 0.0)?.widened(start_error).sign() {
             return Ok((0.0, side));
         }
-        // All lower derivatives are zero, but for rounding: then g(t) = tᵏ/k! g⁽ᵏ⁾(ξ).
+        // Lower derivatives that may be zero: as long as they could outweigh the first that is not, the guard must be
+        // within its own error at the start.
+        let hidden = self.at(0, 0.0)?.size() + start_error;
+        let (mut lower, mut factorial) = ([0.0; ORDERS as usize + 1], 1.0);
         for order in 1..=ORDERS {
             let Some(here) = self.enclosed(order, (0.0, 0.0))? else { break };
+            factorial *= f64::from(order);
             if here.sign().is_none() {
+                lower[order as usize] = here.size() / factorial;
                 continue;
             }
             let mut time = horizon;
             while time > 0.0 {
                 let Some(bound) = self.enclosed(order, (0.0, time))? else { break };
                 if let Some(side) = bound.sign() {
-                    return Ok((time, side));
+                    let leading = bound.low.abs().min(bound.high.abs()) / factorial;
+                    let share = |j: u32| f64::from(order) * lower[j as usize] / leading;
+                    let clear = (1..order)
+                        .map(|j| pxfm::f_pow(2.0 * share(j), 1.0 / f64::from(order - j)))
+                        .fold(0.0, f64::max);
+                    let reached: f64 = (1..order)
+                        .map(|j| lower[j as usize] * pxfm::f_pow(clear, f64::from(j)))
+                        .sum();
+                    if clear < time && reached <= hidden {
+                        return Ok((time, side));
+                    }
+                    break;
                 }
                 time *= 0.5;
             }
+            break;
         }
         Err(Error::UndecidedSign { order: 0, value: (self.value)(0.0) })
     }
@@ -165,8 +186,8 @@ where
     }
 
     fn look(&self, left: f64, right: f64) -> Result<Found, Error> {
-        if self.enclosed(0, (left, right))?.is_some_and(|values| values.sign().is_some()) {
-            return Ok(Found::Nothing);
+        if let Some(sign) = self.enclosed(0, (left, right))?.and_then(|values| values.sign()) {
+            return Ok(Found::Nothing(sign));
         }
         let middle = left + 0.5 * (right - left);
         // Rounded outwards.
@@ -176,9 +197,9 @@ where
             return Ok(Found::Monotone);
         }
         if let Some(slopes) = slopes
-            && self.at(0, middle)?.widened(slopes.size() * radius).sign().is_some()
+            && let Some(sign) = self.at(0, middle)?.widened(slopes.size() * radius).sign()
         {
-            return Ok(Found::Nothing);
+            return Ok(Found::Nothing(sign));
         }
         if let Some(bends) = self.enclosed(2, (left, right))?
             && self.at(1, middle)?.widened(bends.size() * radius).sign().is_some()

@@ -1,7 +1,10 @@
 //! Executions: arcs and events, one after the other, in hybrid time.
 
-use crate::accumulation::{History, LEFT, LEFT_WHEN_HIDDEN};
-use crate::{Accumulation, Arc, ArcEnd, Error, Event, HybridSystem, Reset, State};
+use crate::accumulation::History;
+use crate::simultaneous::{next_of, together};
+use crate::{
+    Accumulation, Arc, ArcEnd, Certainty, Crossing, Error, Event, HybridSystem, Reset, State,
+};
 
 /// How far an execution may go.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,6 +63,8 @@ pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     history: History<N>,
     /// Events in a row that took no time.
     timeless: usize,
+    /// Surfaces that were met at the same instant as the last one crossed.
+    pending: Vec<T::Surface>,
 }
 
 /// Events that may follow one another without time passing.
@@ -79,6 +84,7 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             stop: None,
             history,
             timeless: 0,
+            pending: Vec::new(),
         }
     }
 
@@ -92,22 +98,24 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
         self.check_state()?;
-        if let Some(limit) = self.history.accumulation(self.time, self.jump, LEFT) {
+        if let Some(limit) = self.history.accumulation(self.time, self.jump, false) {
             return Ok(self.accumulate(limit));
         }
         // An event at the limit may round beyond it.
         let horizon = (self.limits.time - self.time).max(0.0);
-        let crossing = match self.system.first_crossing(
-            self.mode,
-            &self.state,
-            horizon,
-            self.limits.sampling_interval,
-        ) {
-            Err(hidden @ (Error::UndecidedStart { .. } | Error::Grazing { .. })) => {
-                let limit = self.history.accumulation(self.time, self.jump, LEFT_WHEN_HIDDEN);
-                return limit.map(|limit| self.accumulate(limit)).ok_or(hidden);
-            }
-            other => other?,
+        let crossing = match self.at_once(horizon) {
+            Some(crossing) => Some(crossing),
+            None => match self.search(horizon) {
+                Err(
+                    hidden @ (Error::UndecidedStart { .. }
+                    | Error::UndecidedSign { .. }
+                    | Error::Grazing { .. }),
+                ) => {
+                    let limit = self.history.accumulation(self.time, self.jump, true);
+                    return limit.map(|limit| self.accumulate(limit)).ok_or(hidden);
+                }
+                other => other?,
+            },
         };
         if let Some(crossing) = crossing.filter(|crossing| !(crossing.time >= 0.0)) {
             return Err(Error::BadLimit { what: "the time of a crossing", value: crossing.time });
@@ -122,6 +130,12 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         };
         match crossing.filter(|crossing| crossing.time <= horizon) {
             Some(crossing) => {
+                arc.duration = crossing.time;
+                if crossing.time > 0.0 {
+                    self.pending = together(self.system, &arc, crossing.surface, &crossing.state);
+                } else {
+                    self.pending.retain(|&surface| surface != crossing.surface);
+                }
                 let time = self.time + crossing.time;
                 let after = match self.system.reset(self.mode, crossing.surface, &crossing.state) {
                     Reset::Jump { mode, state } => Some((mode, state)),
@@ -136,7 +150,7 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
                     after,
                     certainty: crossing.certainty,
                 });
-                self.timeless = if crossing.time > 0.0 { 0 } else { self.timeless + 1 };
+                self.timeless = if time > self.time { 0 } else { self.timeless + 1 };
                 if self.timeless > MOST_TIMELESS {
                     return Err(Error::TimelessChain { time, events: self.timeless });
                 }
@@ -156,8 +170,37 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         Ok(arc)
     }
 
+    fn search(&self, horizon: f64) -> Result<Option<Crossing<T::Surface, N>>, Error> {
+        let interval = self.limits.sampling_interval;
+        self.system.first_crossing(self.mode, &self.state, horizon, interval)
+    }
+
+    /// The next of the events at the instant of the last one.
+    fn at_once(&mut self, horizon: f64) -> Option<Crossing<T::Surface, N>> {
+        if self.pending.is_empty() {
+            return None;
+        }
+        let surface = next_of(self.system, self.mode, &self.state, &self.pending, horizon);
+        if surface.is_none() {
+            self.pending.clear();
+        }
+        let (state, certainty) = (self.state, Certainty::Certain);
+        surface.map(|surface| Crossing { surface, time: 0.0, state, certainty })
+    }
+
     /// The last arc before the limit of infinitely many events, and what follows it.
     fn accumulate(&mut self, limit: Accumulation<N>) -> Arc<T::Mode, T::Surface, N> {
+        if limit.time > self.limits.time {
+            self.stop = Some(Stop::TimeLimit);
+            return Arc {
+                mode: self.mode,
+                time: self.time,
+                jump: self.jump,
+                start: self.state,
+                duration: (self.limits.time - self.time).max(0.0),
+                end: ArcEnd::TimeLimit,
+            };
+        }
         let after = self.system.rest(self.mode, &limit.state);
         let arc = Arc {
             mode: self.mode,

@@ -102,6 +102,7 @@ mod guard;
 mod ode;
 mod sensitivity;
 mod signal;
+mod simultaneous;
 mod system;
 
 pub use accumulation::Accumulation;

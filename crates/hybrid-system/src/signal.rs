@@ -84,6 +84,14 @@ impl Signal {
         self.terms.iter().map(|term| term.bound(time)).sum()
     }
 
+    /// Whether its constant term outweighs all others up to `time`: a small swing that never reaches zero,
+    /// however many periods it has.
+    pub(crate) fn stays_away(&self, time: f64) -> bool {
+        let still = self.terms.iter().find(|term| term.omega == 0.0);
+        let constant = still.and_then(|term| term.cos.first()).map_or(0.0, |c| c.abs());
+        2.0 * constant > self.bound(time) + self.rounding(time)
+    }
+
     /// Bound on the rounding error of [`value`](Self::value) over times of size up to `time`: of the sums,
     /// and of the phases ωt.
     pub(crate) fn rounding(&self, time: f64) -> f64 {

@@ -38,7 +38,8 @@ pub trait HybridSystem<const N: usize> {
     /// The state after `time` ≥ 0 in `mode`, φ(t; x₀), with no regard to guards; not a number where it has none.
     fn flow(&self, mode: Self::Mode, start: &State<N>, time: f64) -> State<N>;
 
-    /// The guards watched in `mode`. Of events at the same instant, the guard listed first wins.
+    /// The guards watched in `mode`. Of events at the same instant, within an ulp, the guard listed first comes
+    /// first; the others follow at once if the state it leads to goes on through their surfaces.
     fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
 
     /// The function g whose zero set is the surface.

@@ -121,7 +121,7 @@ fn every_restitution() {
 /// Without a mode to rest in, the execution ends at the limit, and says so.
 #[test]
 fn an_accumulation_without_rest_ends_the_execution() {
-    struct Restless(Ball);
+    struct Restless(Ball, bool);
     impl HybridSystem<2> for Restless {
         type Mode = Mode;
         type Surface = Floor;
@@ -134,11 +134,14 @@ fn an_accumulation_without_rest_ends_the_execution() {
         fn guard_value(&self, floor: Floor, x: &State<2>) -> f64 {
             self.0.guard_value(floor, x)
         }
+        fn guard_signal(&self, mode: Mode, floor: Floor, x: &State<2>) -> Option<Signal> {
+            self.1.then(|| self.0.guard_signal(mode, floor, x)).flatten()
+        }
         fn reset(&self, mode: Mode, floor: Floor, x: &State<2>) -> Reset<Mode, 2> {
             self.0.reset(mode, floor, x)
         }
     }
-    let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 });
+    let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, false);
     // Sampled: the interval is far longer than the last bounces, which it must not lose.
     let limits = Limits::sampled(10.0, 100_000, 1e-3);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
@@ -146,6 +149,19 @@ fn an_accumulation_without_rest_ends_the_execution() {
     // A bounce within one sample is an error of the sampled search, never a fall through the floor.
     assert!(matches!(results.last().unwrap(), Err(Error::UndecidedStart { .. })));
     assert_eq!(execution.stop(), Some(Stop::Failed));
+    let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, true);
+    let limits = Limits::new(10.0, 100_000);
+    let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
+    let last = execution.by_ref().last().unwrap().unwrap();
+    assert_eq!(execution.stop(), Some(Stop::Accumulation));
+    let ArcEnd::Accumulation { limit, after: None } = last.end else { panic!() };
+    assert!((limit.time - 3.0 * (2.0f64 / 9.81).sqrt()).abs() <= limit.time_error);
+    // A limit on time before the accumulation is kept.
+    let early = Limits::new(1.354_570_922, 100_000);
+    let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), early);
+    let last = execution.by_ref().last().unwrap().unwrap();
+    assert_eq!(execution.stop(), Some(Stop::TimeLimit));
+    assert!(last.time + last.duration <= early.time);
 }
 
 /// Resets that lead in a circle without time passing.

@@ -1,7 +1,9 @@
 //! From a section back to it.
 
 use crate::{Error, Section, SmoothSection};
-use hybrid_system::{Differentiable, Execution, HybridSystem, Limits, Stop, event_sensitivity};
+use hybrid_system::{
+    ArcEnd, Differentiable, Execution, HybridSystem, Limits, Stop, event_sensitivity,
+};
 use nalgebra::{RowSVector, SMatrix, SVector};
 
 /// The map from a section to the next event on it, along executions of a hybrid system.
@@ -74,7 +76,8 @@ where
     /// the events, each compared at the event itself.
     ///
     /// # Errors
-    /// As [`next`](Self::next), and as [`event_sensitivity`]: a return that grazes a guard has no derivative.
+    /// As [`next`](Self::next), and as [`event_sensitivity`]: a return that grazes a guard, or passes infinitely many
+    /// events, has no derivative.
     pub fn next_with_derivative<const K: usize>(
         &self,
         coordinates: &SVector<f64, K>,
@@ -91,6 +94,9 @@ where
         for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
+            if matches!(arc.end, ArcEnd::Accumulation { .. }) {
+                return Err(hybrid_system::Error::NoSensitivity { time: arc.time }.into());
+            }
             let Some(event) = arc.event() else { continue };
             events += 1;
             let back = self.section.coordinates(event);
@@ -120,7 +126,10 @@ where
     {
         match self.next(&SVector::<f64, 1>::new(coordinate)) {
             Ok(back) => Ok(Some(back.coordinates[0])),
-            Err(Error::NoReturn { stop: Stop::NoFurtherEvent | Stop::Terminal, .. }) => Ok(None),
+            Err(Error::NoReturn {
+                stop: Stop::NoFurtherEvent | Stop::Terminal | Stop::Accumulation,
+                ..
+            }) => Ok(None),
             Err(error) => Err(error),
         }
     }

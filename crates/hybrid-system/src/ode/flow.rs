@@ -20,6 +20,9 @@ where
     T: VectorField<N> + ?Sized,
 {
     let state = || {
+        if !(time >= 0.0) {
+            return Err(Error::BadLimit { what: "the time of a flow", value: time });
+        }
         if time == 0.0 {
             return Ok(*start);
         }
@@ -36,7 +39,8 @@ where
 /// The first crossing of a guard of `mode` along ẋ = f(x): what
 /// [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing) gives in a mode without closed form.
 ///
-/// On each step of the integrator every guard is a function of time, by the integrator's interpolant. It is
+/// On each step of the integrator every guard is a function of time, by the integrator's interpolant. A step on
+/// which its values at the stages and at eighths of the step keep away from zero is passed over. Else a polynomial is
 /// laid through 16 values, on halves of the step where its last coefficients have not decayed, and no
 /// zero of that polynomial is missed: [`Certainty::Interpolated`](crate::Certainty::Interpolated). A guard
 /// that starts at zero, but for rounding, counts by the side to which it leaves. Up to eight guards nothing

@@ -124,10 +124,18 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         self.inner.inside()
     }
 
-    /// States all over the last step: its ends, and those of its stages, which are less exact.
-    pub(super) fn samples(&self) -> impl Iterator<Item = &State<N>> {
-        let ends = [&self.inner.before, &self.inner.state];
-        ends.into_iter().chain(&self.inner.stages[1..self.inner.scheme.stages])
+    /// States all over the last step, to the shape of the orbit: those of its stages, and of the cubic between its
+    /// ends, eight to the step.
+    pub(super) fn samples(&self) -> impl Iterator<Item = State<N>> {
+        let Steps { before, state, slopes, slope, last, stages, scheme, .. } = &self.inner;
+        let cubic = (0..=8).map(move |k| {
+            let s = 0.125 * f64::from(k);
+            let (r, part) = (1.0 - s, s * (1.0 - s) * last);
+            before * (r * r * (1.0 + 2.0 * s))
+                + state * (s * s * (1.0 + 2.0 * r))
+                + (slopes[0] * r - slope * s) * part
+        });
+        stages[1..scheme.stages].iter().copied().chain(cubic)
     }
 
     /// As [`Steps::directly_at`].

@@ -3,7 +3,7 @@
 use super::step::Step;
 use super::watch::{Ahead, Watch};
 use super::{Integration, Tolerances};
-use crate::crossing::beyond;
+use crate::crossing::{beyond, sooner};
 use crate::{Certainty, Crossing, Error, HybridSystem, State, bracketed_root};
 
 /// Shares of the step that a crossing may move by; the least that shows a change of sign.
@@ -81,7 +81,7 @@ where
     while integration.interval().1 < horizon {
         integration.step()?;
         let away = watches.iter().zip(guards).all(|(watch, guard)| {
-            let values = integration.samples().map(value(guard.surface));
+            let values = integration.samples().map(|state| value(guard.surface)(&state));
             watch.as_ref().is_some_and(|watch| watch.stays(values))
         });
         if away {
@@ -94,7 +94,7 @@ where
         for (watch, guard) in watches.iter_mut().zip(guards) {
             let Some(watch) = watch else { continue };
             match watch.crossing(&step, until, value(guard.surface))? {
-                Ahead::At { time } if first.is_none_or(|(best, _)| time < best) => {
+                Ahead::At { time } if first.is_none_or(|(best, _)| sooner(time, best)) => {
                     first = Some((time, guard.surface));
                 }
                 Ahead::Grazing { time, value } if touch.is_none_or(|(best, ..)| time < best) => {

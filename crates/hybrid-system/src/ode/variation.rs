@@ -38,7 +38,7 @@ impl<const N: usize> Vector for Tangent<N> {
 /// The tolerances hold for its entries as for the state.
 ///
 /// # Errors
-/// Those of [`Integration`](crate::Integration).
+/// [`Error::BadLimit`] for a negative time, and those of [`Integration`](crate::Integration).
 pub fn integrated_jacobian<T, const N: usize>(
     system: &T,
     mode: T::Mode,
@@ -57,6 +57,9 @@ where
     let begin = Tangent { state: *start, transition: SMatrix::identity() };
     if time == 0.0 {
         return Ok(begin.transition);
+    }
+    if !(time >= 0.0) {
+        return Err(Error::BadLimit { what: "the time of a flow", value: time });
     }
     let mut steps = Steps::new(field, &begin, tolerances)?;
     while steps.time < time {

@@ -119,8 +119,9 @@ impl Watch {
         Ok(Watch { direction, side, rate, start: (value, rounding) })
     }
 
-    /// Whether it stays on its side all along a step: its values at the stages, which lie all over the step, are
-    /// farther from zero than half of what they vary by.
+    /// Whether it stays on its side all along a step: its values at the stages, and at eighths of the step, are
+    /// farther from zero than half of what they vary by. What dips to zero and back shows in them if it takes an
+    /// eighth of the step.
     pub(super) fn stays(&self, values: impl Iterator<Item = f64>) -> bool {
         let Some(side) = self.side else { return false };
         let (mut nearest, mut farthest) = (f64::INFINITY, 0.0);

@@ -154,8 +154,9 @@ pub(crate) fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec
         }
         turn += 1;
         if found.len() == kept {
-            break;
+            return Ok(found);
         }
     }
-    Ok(found)
+    let reason = format!("{turn} turns where {} were asked for", transient + kept);
+    Err(Error::Model { reason })
 }
