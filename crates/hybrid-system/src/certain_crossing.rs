@@ -26,14 +26,17 @@ pub enum FirstCrossing {
     /// It comes so close to zero, with so little speed, that rounding hides whether it touches, crosses once or
     /// twice, or stays away; before, it does not cross.
     Grazing {
-        /// When rounding begins to hide it.
+        /// When it is closest.
         time: f64,
-        /// Its value there: as small as any that was seen.
+        /// Its value there, the smallest seen.
         value: f64,
     },
     /// It does not cross up to the horizon.
     Never,
 }
+
+/// Multiples of its rounding from which on a signal is clear of a stretch where that hides it.
+const CLEAR: f64 = 4.0;
 
 /// Highest order of a zero at the start.
 const ORDERS: u32 = 16;
@@ -144,6 +147,38 @@ impl Signal {
     }
 }
 
+/// Where a guard that rounding hides is smallest, and its value there. Looks ahead, each time twice as far, until it is
+/// clear of rounding; `sign` is its sign before.
+pub(crate) fn closest(
+    value: impl Fn(f64) -> f64,
+    clear: impl Fn(f64) -> bool,
+    sign: f64,
+    (from, width, horizon): (f64, f64, f64),
+) -> (f64, f64) {
+    let mut step = width.max(f64::EPSILON * from).max(f64::MIN_POSITIVE);
+    let (mut ahead, at_first) = (from, value(from).abs());
+    let mut hidden = !clear(from);
+    while ahead < horizon {
+        ahead = (from + step).min(horizon);
+        step *= 2.0;
+        // Still on its way into the stretch?
+        let before = !hidden && value(ahead) * sign > 0.0 && value(ahead).abs() <= at_first;
+        if clear(ahead) && !before {
+            break;
+        }
+        hidden |= !clear(ahead);
+    }
+    // Golden section: next to a touch there is one minimum of the distance.
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let (mut left, mut right) = (from, ahead);
+    for _ in 0..100 {
+        let (a, b) = (right - GOLDEN * (right - left), left + GOLDEN * (right - left));
+        if value(a).abs() < value(b).abs() { right = b } else { left = a }
+    }
+    let time = 0.5 * (left + right);
+    (time, value(time))
+}
+
 /// A signal with its derivatives.
 struct Search<'a> {
     signal: &'a Signal,
@@ -227,18 +262,18 @@ impl<'a> Search<'a> {
                 }
                 Found::Unknown => {
                     let middle = left + 0.5 * (right - left);
-                    if middle <= left || middle >= right {
-                        let value = self.signal.value(middle);
-                        return Ok(FirstCrossing::Grazing { time: middle, value });
-                    }
                     // Next to a touch, below the rounding of the signal halving tells nothing more.
-                    let rounding = self.signal.rounding(right);
                     let width = right - left;
-                    if self.bend.bound(right) * width * width < rounding {
-                        let value = self.signal.value(middle);
-                        return Ok(FirstCrossing::Grazing { time: middle, value });
+                    let hidden =
+                        self.bend.bound(right) * width * width < self.signal.rounding(right);
+                    if !(hidden || middle <= left || middle >= right) {
+                        rest.push(middle);
+                        continue;
                     }
-                    rest.push(middle);
+                    let value = |time: f64| self.signal.value(time);
+                    let clear = |time: f64| value(time).abs() > CLEAR * self.signal.rounding(time);
+                    let (time, value) = closest(value, clear, sign, (left, width, horizon));
+                    return Ok(FirstCrossing::Grazing { time, value });
                 }
             }
         }

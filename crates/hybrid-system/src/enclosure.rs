@@ -8,6 +8,7 @@
 //!   else                                the interval is halved
 //! ```
 
+use crate::certain_crossing::closest;
 use crate::{Direction, Error, FirstCrossing, bracketed_root};
 
 /// An interval that holds a number, or all values of a function, for certain.
@@ -119,11 +120,15 @@ where
                 }
                 Found::Unknown => {
                     let middle = left + 0.5 * (right - left);
-                    if middle <= left || middle >= right {
-                        let value = (self.value)(middle);
-                        return Ok(FirstCrossing::Grazing { time: middle, value });
+                    if middle > left && middle < right {
+                        ends.push(middle);
+                        continue;
                     }
-                    ends.push(middle);
+                    let clear =
+                        |time| matches!(self.at(0, time), Ok(value) if value.sign().is_some());
+                    let ahead = (left, right - left, horizon);
+                    let (time, value) = closest(&self.value, clear, side, ahead);
+                    return Ok(FirstCrossing::Grazing { time, value });
                 }
             }
         }
