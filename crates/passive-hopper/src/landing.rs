@@ -17,7 +17,7 @@
 
 use crate::HalfFlight;
 use crate::double_double::DoubleDouble;
-use crate::first_flight::time_shift;
+use crate::kernel::table;
 use crate::lossless::{alpha_star, n_pi};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -80,17 +80,22 @@ impl Cell {
         if self.sudden { (self.n as f64 * PI, alpha) } else { (alpha, (self.n + 1) as f64 * PI) }
     }
 
-    /// Half the time of the first flight.
+    /// Half the time of the first flight: from a table to a few ulps, or from an expansion.
     pub(crate) fn root(&self, alpha: f64) -> Root {
-        solve(0.0, alpha, self.bracket(alpha), self.start(alpha))
+        let start = match table::Cell::of(alpha) {
+            Some((cell, place)) => alpha - cell.beyond(&place),
+            None => self.expansion(alpha),
+        };
+        solve(0.0, alpha, self.bracket(alpha), start)
     }
 
-    /// h: to a few ulps from a table, else to a few digits from the expansion of A about α*_n, or about 0 and π
-    /// on the first cell.
-    fn start(&self, alpha: f64) -> f64 {
-        if let Some(shift) = time_shift(alpha, self) {
-            return self.star.high + 0.5 * shift;
-        }
+    /// The same, for those who make the table.
+    pub(crate) fn root_without_table(&self, alpha: f64) -> Root {
+        solve(0.0, alpha, self.bracket(alpha), self.expansion(alpha))
+    }
+
+    /// h to a few digits from the expansion of A about α*_n, or about 0 and π on the first cell.
+    fn expansion(&self, alpha: f64) -> f64 {
         if self.n == 0 {
             // A = h/2 (1 + h²/15 + …), and A(π) = π.
             let square = alpha * alpha;

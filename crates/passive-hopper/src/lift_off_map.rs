@@ -1,6 +1,7 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 
 use crate::doubt::Doubt;
+use crate::kernel::hop::{Decided, hop as fast_hop};
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
 use crate::real::Real;
 use crate::wide::{Start, WideHop, wide_hop};
@@ -77,8 +78,18 @@ impl LiftOffMap {
     /// # Errors
     /// As [`hop`](Self::hop), and [`Error::Undecided`] for a hop that is not
     /// [certain](Hop::certain).
+    #[inline]
     pub fn image(&self, alpha: f64) -> Result<Option<f64>, Error> {
-        let hop = self.hop(alpha)?;
+        match fast_hop(alpha, self.mu, self.kappa) {
+            Some(decided) => Ok(decided.next()),
+            None => self.careful_image(alpha),
+        }
+    }
+
+    /// What the fast path leaves open.
+    #[cold]
+    fn careful_image(&self, alpha: f64) -> Result<Option<f64>, Error> {
+        let (hop, _) = self.decide(alpha, |_| ())?;
         if !hop.certain {
             return Err(Error::Undecided { alpha, sudden: hop.sudden });
         }
@@ -92,7 +103,10 @@ impl LiftOffMap {
     /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
     /// sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
-        self.decide(alpha, |_| ()).map(|(hop, _)| hop)
+        match fast_hop(alpha, self.mu, self.kappa) {
+            Some(decided) => Ok(decided.hop(alpha)),
+            None => self.decide(alpha, |_| ()).map(|(hop, _)| hop),
+        }
     }
 
     /// The hop with its landings, in the arithmetic that decided it.
@@ -164,6 +178,27 @@ impl LiftOffMap {
         check_speed(alpha)?;
         let start = TakeOff { excess: 0.0, velocity: alpha };
         Ok(Landings { kappa: self.kappa, start: Some(start), flights: 0 })
+    }
+}
+
+impl Decided {
+    /// α′, or nothing if the hopper is grounded.
+    #[inline(always)]
+    pub(crate) fn next(&self) -> Option<f64> {
+        (self.radicand > 0.0).then(|| self.radicand.sqrt())
+    }
+
+    fn hop(&self, alpha: f64) -> Hop {
+        let next = self.next();
+        Hop {
+            speed: alpha,
+            next,
+            loss: next.map(|next| self.taken / (alpha + next)),
+            radicand: self.radicand,
+            sudden: self.sum.flights as usize - 1,
+            flight_time: 2.0 * self.sum.half_time,
+            certain: true,
+        }
     }
 }
 

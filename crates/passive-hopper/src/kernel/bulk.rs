@@ -1,0 +1,1 @@
+//! Many hops at once.
