@@ -17,7 +17,7 @@
 
 use crate::HalfFlight;
 use crate::double_double::DoubleDouble;
-use crate::kernel::table;
+use crate::kernel::table::{Place, stars};
 use crate::lossless::{alpha_star, n_pi};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -82,10 +82,8 @@ impl Cell {
 
     /// Half the time of the first flight: from a table to a few ulps, or from an expansion.
     pub(crate) fn root(&self, alpha: f64) -> Root {
-        let start = match table::Cell::of(alpha) {
-            Some((cell, place)) => alpha - cell.beyond(&place),
-            None => self.expansion(alpha),
-        };
+        let tabled = Place::of(alpha, stars()).first(alpha);
+        let start = tabled.map_or_else(|| self.expansion(alpha), |first| first.half_time);
         solve(0.0, alpha, self.bracket(alpha), start)
     }
 

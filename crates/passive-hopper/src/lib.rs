@@ -74,6 +74,7 @@ mod mass_ratio;
 mod motion;
 mod printed;
 mod real;
+mod simd;
 mod state;
 mod variation;
 mod wide;

@@ -1,6 +1,7 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 
 use crate::doubt::Doubt;
+use crate::kernel::bulk::{BLOCK, Block};
 use crate::kernel::hop::{Decided, hop as fast_hop};
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
 use crate::real::Real;
@@ -12,6 +13,9 @@ use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 /// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. A hop
 /// that uses up the budget takes some tenths of a second.
 pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
+
+/// Fewer speeds than this go one by one.
+const FEW: usize = 16;
 
 /// Above this speed, 2²⁸, hops are computed in longer arithmetic at once: an ulp of the phase is 10⁻⁸.
 pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
@@ -94,6 +98,54 @@ impl LiftOffMap {
             return Err(Error::Undecided { alpha, sudden: hop.sudden });
         }
         Ok(hop.next)
+    }
+
+    /// f of all `speeds` at once, each replaced by its image, with the bits of [`image`](Self::image);
+    /// nothing, for a grounded hopper, stays nothing.
+    ///
+    /// Many times faster than one after the other: flights of different hops share the lanes of a
+    /// vector unit, AVX-512, AVX2 or whatever the processor has.
+    ///
+    /// ```
+    /// use passive_hopper::{LiftOffMap, MassRatio};
+    /// let map = LiftOffMap::new(MassRatio::new(0.2)?);
+    /// let mut speeds = [Some(5.5), Some(7.0), None];
+    /// map.images(&mut speeds)?;
+    /// assert_eq!(speeds, [map.image(5.5)?, map.image(7.0)?, None]);
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The first of those that [`image`](Self::image) gives. All others are replaced all the same; those
+    /// with an error keep their speeds.
+    pub fn images(&self, speeds: &mut [Option<f64>]) -> Result<(), Error> {
+        let mut first = Ok(());
+        let mut careful = |speed: &mut Option<f64>| {
+            let Some(alpha) = *speed else { return };
+            match self.careful_image(alpha) {
+                Ok(next) => *speed = next,
+                Err(error) => {
+                    if first.is_ok() {
+                        first = Err(error);
+                    }
+                }
+            }
+        };
+        if speeds.len() < FEW {
+            for speed in speeds {
+                let Some(alpha) = *speed else { continue };
+                match fast_hop(alpha, self.mu, self.kappa) {
+                    Some(decided) => *speed = decided.next(),
+                    None => careful(speed),
+                }
+            }
+        } else {
+            let mut block = Block::EMPTY;
+            for some in speeds.chunks_mut(BLOCK) {
+                block.images(some, (self.mu, self.kappa), &mut careful);
+            }
+        }
+        first
     }
 
     /// The hop that starts with speed `alpha`.

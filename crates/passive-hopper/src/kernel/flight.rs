@@ -41,15 +41,14 @@ pub(crate) struct Landed {
 /// The branch that a flight lands on, and where its search starts.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Branch {
-    left: f64,
-    right: f64,
+    pub(crate) left: f64,
+    pub(crate) right: f64,
+    /// Where the search starts.
     pub(crate) start: f64,
-    /// Even or odd: u (−1)^m < 0 behind α*_m, where V(h) increases.
-    parity: u64,
-    /// On the branch behind α*_m for V ≥ π: h must be behind α*_m.
-    behind: bool,
-    /// Whether the branch is beyond doubt.
-    sure: bool,
+    /// (−1)^m on a branch that is to be behind α*_m, where u (−1)^m < 0; else 0.
+    pub(crate) side: f64,
+    /// 1 if the branch is beyond doubt, else 0.
+    pub(crate) sure: f64,
 }
 
 impl Branch {
@@ -61,9 +60,8 @@ impl Branch {
             left: if velocity > 0.0 { velocity } else { 0.0 },
             right: PI,
             start: start::slow(excess, velocity),
-            parity: 0,
-            behind: false,
-            sure: true,
+            side: 0.0,
+            sure: 1.0,
         }
     }
 
@@ -76,17 +74,17 @@ impl Branch {
         let part = turns - m;
         let turn = Turn::at(velocity);
         let test = turned(velocity * turn.cos - (1.0 + excess) * turn.sin, parity);
-        let before = test >= 0.0 && part < 0.5;
+        let before = (test >= 0.0) & (part < 0.5);
         let size = 4.0 * (1.0 + excess + velocity);
         let slack = LANDING_ULPS * f64::EPSILON * size + error + size * error;
         let (low, high) = (m * PI, (m + 1.0) * PI);
+        let sure = (test.abs() > slack) & (part > 1e-9) & (part < 1.0 - 1e-9) & (velocity < 128.0);
         Branch {
             left: if before { low } else { velocity },
             right: if before { velocity } else { high },
             start: start::fast(excess, velocity, m, if before { -1.0 } else { 1.0 }),
-            parity,
-            behind: !before,
-            sure: test.abs() > slack && part > 1e-9 && part < 1.0 - 1e-9 && velocity < 128.0,
+            side: if before { 0.0 } else { turned(1.0, parity) },
+            sure: if sure { 1.0 } else { 0.0 },
         }
     }
 
@@ -101,7 +99,7 @@ impl Branch {
     /// The start, if it is inside.
     #[inline(always)]
     pub(crate) fn first(&self) -> f64 {
-        let inside = self.start > self.left && self.start < self.right;
+        let inside = (self.start > self.left) & (self.start < self.right);
         if inside { self.start } else { 0.5 * (self.left + self.right) }
     }
 }
@@ -159,8 +157,8 @@ pub(crate) fn land(turn: &Turn, step: f64, ground: &Ground, branch: &Branch, kap
         & (change.abs() <= FIRST_ORDER * raw)
         & (h > branch.left)
         & (h < branch.right)
-        & (!branch.behind | (turned(u, branch.parity) < 0.0))
-        & branch.sure
+        & ((branch.side == 0.0) | (branch.side * u < 0.0))
+        & (branch.sure > 0.0)
         & (excess.abs() > error);
     Landed {
         ground: Ground { excess, velocity, error },
@@ -191,8 +189,7 @@ fn turn_by(turn: &Turn, e: f64) -> Turn {
 /// The flight from `ground`; nothing where the careful path must decide.
 #[inline]
 pub(crate) fn flight(ground: &Ground, kappa: f64) -> Option<Landed> {
-    let branch =
-        if ground.velocity < PI { Branch::slow(ground) } else { Branch::fast(ground) };
+    let branch = if ground.velocity < PI { Branch::slow(ground) } else { Branch::fast(ground) };
     let mut turn = Turn::at(branch.first());
     for _ in 0..STEPS {
         turn = Turn::at(branch.moved(turn.h, step(&turn, ground)));

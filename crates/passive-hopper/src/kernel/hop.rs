@@ -1,10 +1,10 @@
 //! One hop.
 
 use super::flight::{Ground, LANDING_ULPS, Landed, flight};
-use super::table::{Cell, First};
+use super::table::{First, Place, stars};
 
 /// Flights of a hop here; longer chains are left to the careful path.
-const FLIGHTS: usize = 64;
+pub(crate) const FLIGHTS: f64 = 64.0;
 
 /// What the flights of a hop add up to.
 #[derive(Debug, Clone, Copy)]
@@ -73,10 +73,10 @@ pub(crate) fn ground_after(first: &First, alpha: f64, kappa: f64) -> Ground {
 /// The hop from `alpha`; nothing where the careful path must decide.
 #[inline]
 pub(crate) fn hop(alpha: f64, mu: f64, kappa: f64) -> Option<Decided> {
-    let (cell, place) = Cell::of(alpha)?;
-    let first = cell.first(&place, alpha);
+    let place = Place::of(alpha, stars());
+    let first = place.first(alpha)?;
     let mut sum = Sum::first(&first);
-    if place.sudden {
+    if place.sudden == 1 {
         let mut ground = ground_after(&first, alpha, kappa);
         loop {
             let landed = flight(&ground, kappa)?;
@@ -85,7 +85,7 @@ pub(crate) fn hop(alpha: f64, mu: f64, kappa: f64) -> Option<Decided> {
             if !(ground.excess > 0.0) {
                 break;
             }
-            if sum.flights >= FLIGHTS as f64 {
+            if !(sum.flights < FLIGHTS) {
                 return None;
             }
         }

@@ -4,43 +4,49 @@
 
 use std::f64::consts::PI;
 
-/// By powers of a, then of q.
-const SLOW: [[f64; 5]; 5] = [
+/// Coefficients cᵢⱼ of aⁱ qʲ with i + j ≤ 4, row by row.
+struct Quartic([f64; 5], [f64; 4], [f64; 3], [f64; 2], [f64; 1]);
+
+const SLOW: Quartic = Quartic(
     [3.894587, -0.050390, 0.063813, -0.009699, -0.041907],
-    [6.352252, 0.685032, -0.501031, 0.014033, 0.0],
-    [-17.007439, 1.419803, 1.846877, 0.0, 0.0],
-    [12.847678, -0.718750, 0.0, 0.0, 0.0],
-    [-2.665816, 0.0, 0.0, 0.0, 0.0],
-];
+    [6.352252, 0.685032, -0.501031, 0.014033],
+    [-17.007439, 1.419803, 1.846877],
+    [12.847678, -0.718750],
+    [-2.665816],
+);
 
-/// By powers of the quadratic's root, then of q; to be multiplied by b⁰ and b¹.
-const FAST: [[[f64; 5]; 5]; 2] = [
-    [
-        [1.007936, 0.068245, 0.124808, 0.123929, 0.214718],
-        [-0.356464, -1.528721, -2.183957, -0.833889, 0.0],
-        [3.382140, 7.322871, 4.340733, 0.0, 0.0],
-        [-8.615713, -9.220475, 0.0, 0.0, 0.0],
-        [7.902117, 0.0, 0.0, 0.0, 0.0],
-    ],
-    [
-        [-0.017303, -0.307394, -0.550819, -0.871569, 0.0],
-        [0.983945, 5.929563, 2.772852, 0.0, 0.0],
-        [-2.215785, -11.822482, 0.0, 0.0, 0.0],
-        [2.675684, 0.0, 0.0, 0.0, 0.0],
-        [0.0; 5],
-    ],
-];
+const FAST: Quartic = Quartic(
+    [1.007936, 0.068245, 0.124808, 0.123929, 0.214718],
+    [-0.356464, -1.528721, -2.183957, -0.833889],
+    [3.382140, 7.322871, 4.340733],
+    [-8.615713, -9.220475],
+    [7.902117],
+);
 
-/// Σ cᵢⱼ aⁱ qʲ over i + j ≤ `degree`.
+/// The part to be multiplied by b.
+const FAST_BY_END: Quartic = Quartic(
+    [-0.017303, -0.307394, -0.550819, -0.871569, 0.0],
+    [0.983945, 5.929563, 2.772852, 0.0],
+    [-2.215785, -11.822482, 0.0],
+    [2.675684, 0.0],
+    [0.0],
+);
+
+impl Quartic {
+    #[inline(always)]
+    fn at(&self, a: f64, q: f64) -> f64 {
+        let rows = (row(&self.0, q), row(&self.1, q), row(&self.2, q), row(&self.3, q), self.4[0]);
+        let square = a * a;
+        (rows.0 + a * rows.1) + square * ((rows.2 + a * rows.3) + square * rows.4)
+    }
+}
+
+/// Σ cⱼ qʲ.
 #[inline(always)]
-fn polynomial(c: &[[f64; 5]; 5], degree: usize, a: f64, q: f64) -> f64 {
-    let mut sum = 0.0;
-    for i in (0..=degree).rev() {
-        let mut row = c[i][degree - i];
-        for j in (0..degree - i).rev() {
-            row = row * q + c[i][j];
-        }
-        sum = sum * a + row;
+fn row<const N: usize>(c: &[f64; N], q: f64) -> f64 {
+    let mut sum = c[N - 1];
+    for j in (0..N - 1).rev() {
+        sum = sum * q + c[j];
     }
     sum
 }
@@ -54,7 +60,7 @@ pub(crate) fn slow(excess: f64, velocity: f64) -> f64 {
     let three = 3.0 * excess;
     let root = (velocity * velocity + three).sqrt();
     let a = three / (4.0 * (root - velocity) + three);
-    a * polynomial(&SLOW, 4, a, velocity / root)
+    a * SLOW.at(a, velocity / root)
 }
 
 /// h for V ≥ π, to some percent of the distance e from the end B of its branch: B = mπ if the flight lands
@@ -71,7 +77,7 @@ pub(crate) fn fast(excess: f64, velocity: f64, m: f64, sign: f64) -> f64 {
     let inside = 1.0 + big * distance;
     let a = distance / (1.0 + (if inside > 0.02 { inside } else { 0.02 }).sqrt());
     let q = big / (1.0 + big.abs());
-    let e = a * (polynomial(&FAST[0], 4, a, q) + b * polynomial(&FAST[1], 3, a, q));
+    let e = a * (FAST.at(a, q) + b * FAST_BY_END.at(a, q));
     end - sign * e
 }
 

@@ -5,14 +5,15 @@
 //! and Γ are polynomials of degree 7, to an ulp. The pieces are the numbers of one sign with the same exponent
 //! and the same first four bits: an index needs no search.
 
+use super::turn::nearest;
 use crate::double_double::DoubleDouble;
 use crate::landing;
 use crate::{HalfFlight, alpha_star};
-use std::f64::consts::{FRAC_1_PI, PI};
+use std::f64::consts::FRAC_1_PI;
 use std::sync::{LazyLock, OnceLock};
 
 /// Cells with a table: α up to 100.
-const CELLS: usize = 32;
+pub(crate) const CELLS: usize = 32;
 
 /// Coefficients of a piece.
 const COEFFICIENTS: usize = 8;
@@ -27,31 +28,36 @@ const PIECES: usize = 16 * OCTAVES;
 /// How near to nπ, in parts of π, a speed is left to the careful path.
 const NEAR_END: f64 = 1e-7;
 
-/// The functions on a piece, by powers of the place in [−1, 1].
-#[derive(Debug, Clone, Copy)]
-#[repr(align(128))]
-struct Piece {
-    /// Γ.
-    closing_speed: [f64; COEFFICIENTS],
-    /// α − h.
-    beyond: [f64; COEFFICIENTS],
-}
+/// Coefficients by powers of the place on a piece, in [−1, 1].
+type Piece = [f64; COEFFICIENTS];
 
-/// The pieces of a cell: those above α*_n, then those below.
+/// The pieces of a cell: those above α*_n, then those below, and one that gives no number.
 #[derive(Debug)]
+#[repr(align(64))]
 pub(crate) struct Cell {
-    pieces: Box<[Piece]>,
+    /// Γ.
+    closing_speed: [Piece; SLOTS],
+    /// α − h.
+    beyond: [Piece; SLOTS],
 }
 
-/// A speed in its cell.
+/// The index of the piece that gives no number.
+const NO_PIECE: usize = 2 * PIECES;
+
+/// Pieces of a cell, up to a power of two.
+const SLOTS: usize = 512;
+
+/// Where a speed is in the tables.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
-    /// Index of the piece.
-    piece: usize,
-    /// Where on it, in [−1, 1].
-    at: f64,
-    /// Below α*_n: the first landing is sudden.
-    pub(crate) sudden: bool,
+    /// Index of the cell.
+    pub(crate) cell: u64,
+    /// Index of the piece; the last one for a speed outside the tables.
+    pub(crate) piece: u64,
+    /// Where on the piece, in [−1, 1].
+    pub(crate) at: f64,
+    /// 1 below α*_n, where the first landing is sudden, else 0.
+    pub(crate) sudden: u64,
 }
 
 /// The first flight.
@@ -65,63 +71,117 @@ pub(crate) struct First {
     pub(crate) closing_speed: f64,
 }
 
-static TABLES: [OnceLock<Cell>; CELLS] = [const { OnceLock::new() }; CELLS];
+static TABLES: [OnceLock<Box<Cell>>; CELLS] = [const { OnceLock::new() }; CELLS];
 
-/// α*_n in two parts.
-static STARS: LazyLock<[DoubleDouble; CELLS]> =
-    LazyLock::new(|| std::array::from_fn(|n| alpha_star(n as u64)));
+/// What stands for cells that are not made yet.
+static NO_CELL: Cell = Cell::EMPTY;
 
-impl Cell {
-    /// The cell of `alpha` and the place there; nothing outside the tables, next to nπ, and within 2⁻⁹ of α*_n.
+/// α*_n in two parts, each in a row.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Stars {
+    high: [f64; CELLS],
+    low: [f64; CELLS],
+}
+
+static STARS: LazyLock<Stars> = LazyLock::new(|| {
+    let stars: [DoubleDouble; CELLS] = std::array::from_fn(|n| alpha_star(n as u64));
+    Stars { high: stars.map(|star| star.high), low: stars.map(|star| star.low) }
+});
+
+/// α*_n, for all cells with a table.
+#[inline(always)]
+pub(crate) fn stars() -> &'static Stars {
+    &STARS
+}
+
+impl Place {
+    pub(crate) const NOWHERE: Place = Place { cell: 0, piece: NO_PIECE as u64, at: 0.0, sudden: 0 };
+
+    /// The place of `alpha` > 0; none outside the tables, next to nπ, and within 2⁻⁹ of α*_n. No branch.
     #[inline(always)]
-    pub(crate) fn of(alpha: f64) -> Option<(&'static Cell, Place)> {
+    pub(crate) fn of(alpha: f64, stars: &Stars) -> Self {
+        const ONE: u64 = 1023 << 52;
         let turns = alpha * FRAC_1_PI;
-        let n = turns as usize;
-        let part = turns - n as f64;
-        let star = STARS.get(n)?;
-        if !(part > NEAR_END && part < 1.0 - NEAR_END) && n > 0 || !(alpha < PI || n > 0) {
-            return None;
-        }
-        let place = Place::at((alpha - star.high) - star.low)?;
-        let slot = TABLES.get(n)?;
-        let cell = match slot.get() {
-            Some(cell) => cell,
-            None => slot.get_or_init(|| Cell::new(n as u64)),
-        };
-        Some((cell, place))
+        let (n, bits) = nearest(turns - 0.5);
+        let part = turns - n;
+        let cell = bits & (CELLS as u64 - 1);
+        let at = cell as usize;
+        let delta = (alpha - stars.high[at]) - stars.low[at];
+        let bits = delta.to_bits() & (u64::MAX >> 1);
+        let index = (bits >> 48).wrapping_sub(FIRST_OCTAVE << 4);
+        let sudden = delta.to_bits() >> 63;
+        let inside = (index < PIECES as u64)
+            & (turns < CELLS as f64)
+            & (part < 1.0 - NEAR_END)
+            & ((part > NEAR_END) | (turns < 0.5));
+        let piece = if inside { index + sudden * PIECES as u64 } else { NO_PIECE as u64 };
+        // The bits after the first four, as the fraction of a number in [1, 2).
+        let fraction = f64::from_bits((bits << 4) & (u64::MAX >> 12) | ONE);
+        Place { cell, piece, at: 2.0 * fraction - 3.0, sudden: if inside { sudden } else { 0 } }
     }
 
-    /// The first flight from `alpha`.
+    /// The first flight from `alpha`; nothing for a place outside the tables.
     #[inline(always)]
-    pub(crate) fn first(&self, place: &Place, alpha: f64) -> First {
-        let beyond = self.beyond(place);
-        First { half_time: alpha - beyond, beyond, closing_speed: self.closing_speed(place) }
+    pub(crate) fn first(&self, alpha: f64) -> Option<First> {
+        if self.piece == NO_PIECE as u64 {
+            return None;
+        }
+        let cell = Cell::get(self.cell);
+        let beyond = cell.beyond(self.piece, self.at);
+        let closing_speed = cell.closing_speed(self.piece, self.at);
+        Some(First { half_time: alpha - beyond, beyond, closing_speed })
+    }
+}
+
+impl Cell {
+    const EMPTY: Cell = {
+        let mut piece = [[0.0; COEFFICIENTS]; SLOTS];
+        piece[NO_PIECE] = [f64::NAN; COEFFICIENTS];
+        Cell { closing_speed: piece, beyond: piece }
+    };
+
+    /// A cell, made when it is first asked for.
+    #[inline(always)]
+    pub(crate) fn get(n: u64) -> &'static Cell {
+        let slot = &TABLES[n as usize % CELLS];
+        match slot.get() {
+            Some(cell) => cell,
+            None => slot.get_or_init(|| Cell::new(n)),
+        }
+    }
+
+    /// All cells, those not made yet without numbers.
+    pub(crate) fn all() -> [&'static Cell; CELLS] {
+        std::array::from_fn(|n| TABLES[n].get().map_or(&NO_CELL, |cell| &**cell))
     }
 
     /// Γ.
     #[inline(always)]
-    pub(crate) fn closing_speed(&self, place: &Place) -> f64 {
-        self.pieces.get(place.piece).map_or(f64::NAN, |p| polynomial(&p.closing_speed, place.at))
+    pub(crate) fn closing_speed(&self, piece: u64, at: f64) -> f64 {
+        polynomial(&self.closing_speed[piece as usize % SLOTS], at)
     }
 
     /// α − h.
     #[inline(always)]
-    pub(crate) fn beyond(&self, place: &Place) -> f64 {
-        self.pieces.get(place.piece).map_or(f64::NAN, |p| polynomial(&p.beyond, place.at))
+    pub(crate) fn beyond(&self, piece: u64, at: f64) -> f64 {
+        polynomial(&self.beyond[piece as usize % SLOTS], at)
     }
 
-    fn new(n: u64) -> Self {
+    #[cold]
+    fn new(n: u64) -> Box<Self> {
         let star = alpha_star(n);
         let end = |turns: u64| (DoubleDouble::multiple_of_pi(turns as f64) - star).high.abs();
-        let side = |below: bool| {
-            let reach = end(if below { n } else { n + 1 });
-            (0..PIECES).map(move |index| {
-                let left = left_end(index);
-                // Pieces beyond the cell are never asked for.
-                if left < reach { Piece::new(star, index, below) } else { Piece::EMPTY }
-            })
-        };
-        Cell { pieces: side(false).chain(side(true)).collect() }
+        let mut cell = Box::new(Cell::EMPTY);
+        for (side, sign, turns) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
+            // Pieces beyond the cell are never asked for.
+            let reach = end(turns);
+            for index in (0..PIECES).take_while(|&index| left_end(index) < reach) {
+                let (closing_speed, beyond) = piece(star, index, sign);
+                cell.closing_speed[side + index] = closing_speed;
+                cell.beyond[side + index] = beyond;
+            }
+        }
+        cell
     }
 }
 
@@ -130,23 +190,8 @@ fn left_end(index: usize) -> f64 {
     f64::from_bits((FIRST_OCTAVE << 52) + ((index as u64) << 48))
 }
 
-impl Place {
-    /// The place of δ.
-    #[inline(always)]
-    fn at(delta: f64) -> Option<Self> {
-        const ONE: u64 = 1023 << 52;
-        let bits = delta.to_bits() & (u64::MAX >> 1);
-        let index = (bits >> 48).wrapping_sub(FIRST_OCTAVE << 4) as usize;
-        // The bits after the first four, as the fraction of a number in [1, 2).
-        let fraction = f64::from_bits((bits << 4) & (u64::MAX >> 12) | ONE);
-        let sudden = delta < 0.0;
-        let piece = index + if sudden { PIECES } else { 0 };
-        (index < PIECES).then_some(Place { piece, at: 2.0 * fraction - 3.0, sudden })
-    }
-}
-
 #[inline(always)]
-fn polynomial(c: &[f64; COEFFICIENTS], x: f64) -> f64 {
+fn polynomial(c: &Piece, x: f64) -> f64 {
     let square = x * x;
     let fourth = square * square;
     let low = (c[0] + c[1] * x) + square * (c[2] + c[3] * x);
@@ -154,22 +199,18 @@ fn polynomial(c: &[f64; COEFFICIENTS], x: f64) -> f64 {
     low + fourth * high
 }
 
-impl Piece {
-    const EMPTY: Piece = Piece { closing_speed: [0.0; COEFFICIENTS], beyond: [0.0; COEFFICIENTS] };
-
-    fn new(star: DoubleDouble, index: usize, below: bool) -> Self {
-        let left = left_end(index);
-        let half = 0.5 * (left_end(index + 1) - left);
-        let nodes = &INTERPOLATION.nodes;
-        let values: [_; COEFFICIENTS] = std::array::from_fn(|k| {
-            let size = (nodes[k] + 1.0) * half + left;
-            exact_first(star + if below { -size } else { size })
-        });
-        Piece {
-            closing_speed: INTERPOLATION.coefficients(values.map(|(speed, _)| speed)),
-            beyond: INTERPOLATION.coefficients(values.map(|(_, beyond)| beyond)),
-        }
-    }
+/// Γ and α − h on a piece of the side with this `sign`.
+fn piece(star: DoubleDouble, index: usize, sign: f64) -> (Piece, Piece) {
+    let left = left_end(index);
+    let half = 0.5 * (left_end(index + 1) - left);
+    let values: [_; COEFFICIENTS] = std::array::from_fn(|k| {
+        let size = (INTERPOLATION.nodes[k] + 1.0) * half + left;
+        exact_first(star + size * sign)
+    });
+    (
+        INTERPOLATION.coefficients(values.map(|(speed, _)| speed)),
+        INTERPOLATION.coefficients(values.map(|(_, beyond)| beyond)),
+    )
 }
 
 /// Γ and α − h from `alpha`, to 30 digits or nearly.

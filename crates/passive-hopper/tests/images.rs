@@ -1,0 +1,100 @@
+//! Many hops at once are the single hops, bit for bit.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use proptest::prelude::*;
+use std::f64::consts::PI;
+
+/// What `images` must give: one by one.
+fn one_by_one(map: &LiftOffMap, speeds: &[Option<f64>]) -> (Vec<Option<f64>>, bool) {
+    let mut failed = false;
+    let image = |speed: &Option<f64>| {
+        let Some(alpha) = *speed else { return None };
+        match map.image(alpha) {
+            Ok(next) => next,
+            Err(_) => {
+                failed = true;
+                *speed
+            }
+        }
+    };
+    (speeds.iter().map(image).collect(), failed)
+}
+
+fn check(m: f64, speeds: &[Option<f64>]) {
+    let map = LiftOffMap::new(MassRatio::new(m).unwrap());
+    let (expected, failed) = one_by_one(&map, speeds);
+    let mut found = speeds.to_vec();
+    let result = map.images(&mut found);
+    assert_eq!(result.is_err(), failed);
+    let bits = |speeds: &[Option<f64>]| -> Vec<_> {
+        speeds.iter().map(|speed| speed.map(f64::to_bits)).collect()
+    };
+    assert_eq!(bits(&found), bits(&expected), "M = {m}");
+}
+
+/// Speeds of every kind: of the paper's window, of any size, next to verdicts, wrong ones, and none.
+fn speed() -> impl Strategy<Value = Option<f64>> {
+    let near = |point: f64, exponent: f64, sign: bool| {
+        let step = 10f64.powf(-exponent);
+        if sign { point + step } else { point - step }
+    };
+    prop_oneof![
+        6 => (4.4..20.4f64).prop_map(Some),
+        4 => (0.0..110.0f64).prop_map(Some),
+        1 => (-12.0..13.0f64).prop_map(|exponent| Some(10f64.powf(exponent))),
+        1 => (1..30u64, 0.0..17.0f64, any::<bool>())
+            .prop_map(move |(n, e, sign)| Some(near(alpha_star(n).high, e, sign))),
+        1 => (1..30u64, 0.0..17.0f64, any::<bool>())
+            .prop_map(move |(n, e, sign)| Some(near(n as f64 * PI, e, sign))),
+        1 => Just(None),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+
+    #[test]
+    fn images_are_the_single_images(
+        exponent in -4.0..2.5f64,
+        speeds in proptest::collection::vec(speed(), 0..700),
+    ) {
+        check(10f64.powf(exponent), &speeds);
+    }
+}
+
+#[test]
+fn wrong_speeds_keep_their_places() {
+    let wrong = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -0.0];
+    for &bad in &wrong {
+        let mut speeds: Vec<_> = (0..40).map(|k| Some(4.5 + 0.3 * f64::from(k))).collect();
+        speeds[17] = Some(bad);
+        let map = LiftOffMap::new(MassRatio::new(0.7).unwrap());
+        let mut found = speeds.clone();
+        assert_eq!(
+            map.images(&mut found).unwrap_err().to_string(),
+            map.image(bad).unwrap_err().to_string()
+        );
+        assert_eq!(found[17].map(f64::to_bits), Some(bad.to_bits()));
+        for (found, speed) in found.iter().zip(&speeds).filter(|(_, s)| s.unwrap() != bad) {
+            if !speed.unwrap().is_nan() {
+                assert_eq!(*found, map.image(speed.unwrap()).unwrap());
+            }
+        }
+    }
+}
+
+#[test]
+fn orbits_of_a_window_go_on_together() {
+    let map = LiftOffMap::new(MassRatio::new(0.2).unwrap());
+    let starts: Vec<_> = (0..1000).map(|k| Some(4.5 + 0.016 * f64::from(k))).collect();
+    let mut speeds = starts.clone();
+    for _ in 0..20 {
+        map.images(&mut speeds).unwrap();
+    }
+    for (start, found) in starts.iter().zip(speeds) {
+        let follow = |speed: Option<f64>, _| speed.and_then(|alpha| map.image(alpha).unwrap());
+        assert_eq!((0..20).fold(*start, follow), found);
+    }
+}
