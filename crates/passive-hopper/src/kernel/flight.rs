@@ -133,7 +133,7 @@ pub(crate) fn land(turn: &Turn, step: f64, ground: &Ground, branch: &Branch, kap
     let raw = 2.0 * rho * w; // Γ before the correction
     let residual = (h - v) + (sin * rho - x * (square * inverse));
     let loss_slope = -4.0 * (h * sin * w + u * (h * sin + x * cos) + 2.0 * square * rho * w);
-    let per_speed = 1.0 / raw;
+    let per_speed = d / (2.0 * (u * w)); // 1/Γ, without waiting for ρ
     let share = residual * per_speed;
     let rest = -share * d;
     let change = -0.5 * share * loss_slope;

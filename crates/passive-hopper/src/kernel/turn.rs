@@ -63,10 +63,7 @@ impl Turn {
     pub(crate) fn at(h: f64) -> Self {
         let (quarters, bits) = nearest(h * std::f64::consts::FRAC_2_PI);
         let [a, b, c] = HALF_PI;
-        let rest = h - quarters * a; // exact
-        let second = quarters * b; // exact
-        let reduced = rest - second;
-        let r = reduced + (((rest - reduced) - second) - quarters * c);
+        let r = ((h - quarters * a) - quarters * b) - quarters * c; // the products and the first difference are exact
         let z = r * r;
         let s = (r * z) * polynomial(&SIN, z); // sin r − r
         let versine = z * (0.5 - z * polynomial(&COS, z)); // 1 − cos r
