@@ -44,7 +44,7 @@ pub fn grounding(n: u64) -> Result<Crisis, Error> {
 }
 
 fn touch(n: u64, target_is_zero: bool) -> Result<Crisis, Error> {
-    let Touch { mu, alpha } = Hump::new(n)?.touch(target_is_zero)?;
+    let Touch { mu, alpha, .. } = Hump::new(n)?.touch(target_is_zero)?;
     // M/(1+M)² = μ, the root below one, without cancellation.
     let mass_ratio = 2.0 * mu / (1.0 - 2.0 * mu + (1.0 - 4.0 * mu).sqrt());
     Ok(Crisis { n, mu, mass_ratio, alpha })

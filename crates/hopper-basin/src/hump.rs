@@ -9,9 +9,13 @@ use crate::Error;
 use hybrid_system::bracketed_root;
 use passive_hopper::{DoubleDouble, HalfFlight, LARGEST_LIFT_OFF_SPEED, LocalFlight, alpha_star};
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 /// The last hump below the largest lift-off speed.
 pub(crate) const LARGEST: u64 = (LARGEST_LIFT_OFF_SPEED / PI) as u64 - 1;
+
+/// Steps of Newton's method before a bracketed search takes over.
+const NEWTON_STEPS: usize = 12;
 
 /// One hump of the map, whatever the mass ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,8 +30,10 @@ pub(crate) struct Hump {
 }
 
 /// Where μ makes the minimum of the map touch a target.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Touch {
     pub(crate) mu: f64,
+    t: f64,
     pub(crate) alpha: f64,
 }
 
@@ -82,17 +88,63 @@ impl Hump {
     }
 
     /// The place t at which α' first falls to α*_n (to 0 for n = 0); nothing if it does not on this
-    /// part. It lies between the critical points, where the map falls.
+    /// part.
+    ///
+    /// There μ Γ² = α² − α*_n². On the rising side of the hump f > α*_n, on the falling side there is one such
+    /// place if μ exceeds μ_c of the crisis, and the larger μ, the smaller t: it lies left of the touch at μ_c.
     pub(crate) fn first_fall(&self, mu: f64) -> Result<Option<f64>, Error> {
+        let touch = self.fall_touch()?;
+        if mu <= touch.mu {
+            return Ok(None);
+        }
         let above = |t: f64| {
             let closing = self.closing_speed(t);
             self.squares(t, false) - mu * closing * closing
         };
-        let Some((maximum, minimum)) = self.critical(mu)? else { return Ok(None) };
-        if above(minimum) >= 0.0 {
-            return Ok(None);
+        if above(touch.t) >= 0.0 {
+            return Ok(None); // μ is μ_c but for rounding
         }
-        self.root(above, maximum, minimum).map(Some)
+        let start = touch.t * (1.0 - (1.0 - touch.mu / mu).sqrt());
+        if let Some(t) = self.newton(mu, start, above, touch.t) {
+            return Ok(Some(t));
+        }
+        let mut left = 0.5 * touch.t;
+        while above(left) <= 0.0 {
+            left *= 0.5; // ends: α² − α*_n² ∝ t³ (t² for n = 0) outweighs Γ² ∝ t⁴ (t⁶)
+        }
+        self.root(above, left, touch.t).map(Some)
+    }
+
+    /// The touch of α*_n by the minimum (of zero for n = 0); computed once for the first humps.
+    fn fall_touch(&self) -> Result<Touch, Error> {
+        static FIRST: [OnceLock<Touch>; 64] = [const { OnceLock::new() }; 64];
+        let slot = usize::try_from(self.n).ok().and_then(|n| FIRST.get(n));
+        if let Some(&touch) = slot.and_then(OnceLock::get) {
+            return Ok(touch);
+        }
+        let touch = self.touch(self.n == 0)?;
+        Ok(slot.map_or(touch, |slot| *slot.get_or_init(|| touch)))
+    }
+
+    /// Newton's method on `above`, with d(α'²)/dt = 2α (1 − 4μW) Γ/(2D), from a parabola through 0 and the
+    /// touch; nothing if it leaves (0, `right`), or where it falls no more.
+    fn newton(&self, mu: f64, start: f64, above: impl Fn(f64) -> f64, right: f64) -> Option<f64> {
+        let mut t = start;
+        for _ in 0..NEWTON_STEPS {
+            let h = self.star.high + 0.5 * t;
+            let half = HalfFlight::at(h);
+            let alpha = self.star.high + self.delta(t);
+            let slope = alpha * (1.0 - 4.0 * mu * self.w(t)) * self.closing_speed(t) / half.d;
+            let step = above(t) / slope;
+            t -= step;
+            if !(slope < 0.0 && t > 0.0 && t < right) {
+                return None;
+            }
+            if step.abs() <= 4.0 * f64::EPSILON * t {
+                return Some(t);
+            }
+        }
+        None
     }
 
     /// The minimum of the map touches α*_n, or zero: there α'² = target² and dα'/dα = 0, so that
@@ -103,7 +155,7 @@ impl Hump {
             closing * closing - 4.0 * self.w(t) * self.squares(t, target_is_zero)
         };
         let t = self.root(condition, self.steepest, self.end)?;
-        Ok(Touch { mu: 0.25 / self.w(t), alpha: self.star.high + self.delta(t) })
+        Ok(Touch { mu: 0.25 / self.w(t), t, alpha: self.star.high + self.delta(t) })
     }
 
     fn root(&self, f: impl FnMut(f64) -> f64, left: f64, right: f64) -> Result<f64, Error> {
