@@ -34,6 +34,14 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
+    /// A column with another number of labels than the raster has rows.
+    #[error("a column has {labels} labels, not {rows}")]
+    BadColumn {
+        /// Its labels.
+        labels: usize,
+        /// Number of rows.
+        rows: usize,
+    },
     /// The caller asked to stop.
     #[error("interrupted after {finished} of {columns} columns")]
     Interrupted {

@@ -73,7 +73,7 @@ pub struct LegendEntry {
     pub pixels: usize,
 }
 
-/// Labels every pixel of `grid` by its middle.
+/// Labels every pixel of `grid` by its middle, one after the other.
 ///
 /// `prepare` does the work that a column shares; `label` labels a point of it. `progress` hears
 /// how many columns are finished and may break off. The image does not depend on the number of
@@ -97,19 +97,38 @@ pub fn raster<C>(
     label: impl Fn(&C, f64) -> u16 + Sync,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, Error> {
+    let column = |x: f64, ys: &[f64]| {
+        let shared = prepare(x);
+        ys.iter().map(|&y| label(&shared, y)).collect()
+    };
+    raster_by_columns(grid, column, progress)
+}
+
+/// Labels every pixel of `grid` by its middle, a column at a time, in parallel.
+///
+/// `column` takes x and all y of the grid in increasing order, and gives as many labels: whoever can label many
+/// points faster together than one by one. The rest is as for [`raster`].
+///
+/// # Errors
+/// As [`raster`], and [`Error::BadColumn`] for a column with another number of labels.
+pub fn raster_by_columns(
+    grid: Grid,
+    column: impl Fn(f64, &[f64]) -> Vec<u16> + Sync,
+    progress: impl Fn(usize) -> ControlFlow<()> + Sync,
+) -> Result<LabelImage, Error> {
     let Grid { columns, rows, .. } = grid;
     let pixels = columns.checked_mul(rows).filter(|&pixels| pixels > 0 && pixels <= 1 << 34);
     let Some(pixels) = pixels else { return Err(Error::BadRaster { columns, rows }) };
+    let ys: Vec<f64> = (0..rows).map(|row| grid.y_at(row)).collect();
     let finished = AtomicUsize::new(0);
     let interrupted = AtomicBool::new(false);
     let by_column: Vec<Vec<u16>> = (0..columns)
         .into_par_iter()
-        .map(|column| {
+        .map(|at| {
             if interrupted.load(Ordering::Relaxed) {
                 return Vec::new();
             }
-            let shared = prepare(grid.x_at(column));
-            let labels = (0..rows).map(|row| label(&shared, grid.y_at(row))).collect();
+            let labels = column(grid.x_at(at), &ys);
             let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
             if progress(done).is_break() {
                 interrupted.store(true, Ordering::Relaxed);
@@ -120,10 +139,14 @@ pub fn raster<C>(
     if interrupted.into_inner() {
         return Err(Error::Interrupted { finished: finished.into_inner(), columns });
     }
+    if let Some(bad) = by_column.iter().find(|labels| labels.len() != rows) {
+        return Err(Error::BadColumn { labels: bad.len(), rows });
+    }
     let mut labels = vec![0; pixels];
-    for (column, values) in by_column.iter().enumerate() {
-        for (row, &value) in values.iter().enumerate() {
-            labels[row * columns + column] = value;
+    // Row by row: the writes follow one another, and the columns' next labels are in the cache.
+    for (row, line) in labels.chunks_exact_mut(columns).enumerate() {
+        for (label, column) in line.iter_mut().zip(&by_column) {
+            *label = column[row];
         }
     }
     Ok(LabelImage { grid, labels })

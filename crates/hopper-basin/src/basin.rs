@@ -3,7 +3,7 @@
 use crate::{Error, Fates, HopperFate, TrapEdge};
 use basin_of_attraction::{
     Branch, Grid, Interval, IntervalSet, LabelImage, equally_spaced_counts, monotone_branches,
-    preimage_levels, raster,
+    preimage_levels, raster_by_columns,
 };
 use passive_hopper::{MassRatio, alpha_star};
 use std::collections::BTreeMap;
@@ -61,7 +61,7 @@ pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Resul
 ///
 /// # Errors
 /// [`Error::Window`] unless the speeds are positive and their fixed points have labels, errors of
-/// [`MassRatio::new`] and of [`raster`].
+/// [`MassRatio::new`] and of [`raster_by_columns`].
 pub fn basin_raster(
     grid: Grid,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
@@ -77,11 +77,11 @@ pub fn basin_raster(
         }
     }
     let prepare = |m: f64| MassRatio::new(m).map_err(Error::from).and_then(Fates::new).ok();
-    let label = |fates: &Option<Fates>, alpha: f64| {
-        let fate = fates.as_ref().and_then(|fates| fates.fate(alpha).ok());
-        fate.map_or(HopperFate::UNDECIDED_HOP, HopperFate::label)
+    let labels = |m: f64, speeds: &[f64]| match prepare(m) {
+        Some(fates) => fates.labels(speeds),
+        None => vec![HopperFate::UNDECIDED_HOP; speeds.len()],
     };
-    Ok(raster(grid, prepare, label, progress)?)
+    Ok(raster_by_columns(grid, labels, progress)?)
 }
 
 /// The monotone branches of the map from α*_`from` to α*_`to`.

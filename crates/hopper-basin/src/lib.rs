@@ -43,6 +43,7 @@ mod error;
 mod fate;
 mod hump;
 mod intervals;
+mod labels;
 mod map;
 mod reach;
 mod trap;
