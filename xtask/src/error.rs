@@ -75,6 +75,12 @@ pub enum Error {
         /// What the library said.
         reason: String,
     },
+    /// Other people's software could not be run.
+    #[error("the peers cannot be compared with: {reason}")]
+    Peers {
+        /// Why.
+        reason: String,
+    },
     /// Something that was checked does not hold; the details have been printed.
     #[error("{0}")]
     CheckFailed(String),

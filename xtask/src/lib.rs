@@ -10,10 +10,12 @@ mod error;
 pub mod figures;
 pub mod models;
 pub mod output;
+mod peers;
 pub mod plot;
 pub mod progress;
 mod reference;
 pub mod report;
+mod speed;
 mod work_precision;
 
 pub use error::Error;
@@ -55,6 +57,10 @@ enum Command {
     CheckReference(commands::check_reference::Options),
     /// Measure time against error of every way to compute a hop
     WorkPrecision(commands::work_precision::Options),
+    /// Measure how fast hops and rasters are, each after its output was checked
+    Speed(commands::speed::Options),
+    /// Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index
+    ComparePeers(commands::compare_peers::Options),
     /// Check the repository's rules
     Tidy,
 }
@@ -84,6 +90,8 @@ pub fn run() -> Result<(), Error> {
         Command::ModelFigures(options) => commands::model_figures::run(&options),
         Command::CheckReference(options) => commands::check_reference::run(&options),
         Command::WorkPrecision(options) => commands::work_precision::run(&options),
+        Command::Speed(options) => commands::speed::run(&options),
+        Command::ComparePeers(options) => commands::compare_peers::run(&options),
         Command::Tidy => commands::tidy::run(),
     }
 }

@@ -42,6 +42,18 @@ pub(crate) struct Hop {
     pub(crate) slope_mass_ratio: f64,
 }
 
+impl Hop {
+    /// The unit of its error: what half an ulp in α, in M, in α′ and in α² make, together.
+    pub(crate) fn unit(&self) -> f64 {
+        let scale = self.next.map_or(0.0, |next| {
+            next + self.slope_alpha * self.alpha
+                + self.slope_mass_ratio * self.mass_ratio.value()
+                + self.alpha * (self.alpha / next)
+        });
+        0.5 * f64::EPSILON * scale
+    }
+}
+
 /// The loss of a small hop.
 pub(crate) struct Loss {
     pub(crate) mass_ratio: MassRatio,

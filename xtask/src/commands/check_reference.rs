@@ -23,6 +23,9 @@ pub struct Options {
     files: Vec<PathBuf>,
 }
 
+/// Hops at once, enough for vectors.
+const AT_ONCE: usize = 24;
+
 /// The tally of a class.
 #[derive(Default)]
 struct Tally {
@@ -197,17 +200,17 @@ fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
         Ok(_) => return tally.is_wrong(at, "undecided"),
         Err(error) => return tally.is_wrong(at, &error.to_string()),
     };
-    let m = hop.mass_ratio.value();
-    let scale = hop.next.map_or(0.0, |next| {
-        next + hop.slope_alpha * hop.alpha
-            + hop.slope_mass_ratio * m
-            + hop.alpha * (hop.alpha / next)
-    });
-    let place = format!("M = {m}, α = {}", hop.alpha);
+    let mut many = [Some(hop.alpha); AT_ONCE];
+    if LiftOffMap::new(hop.mass_ratio).images(&mut many).is_err()
+        || many.iter().any(|image| *image != found.next)
+    {
+        return tally.is_wrong(at, "another image among many at once");
+    }
+    let place = format!("M = {}, α = {}", hop.mass_ratio.value(), hop.alpha);
     let verdict = Verdict {
         found: (found.sudden, found.next),
         exact: (hop.sudden, hop.next),
-        unit: 0.5 * f64::EPSILON * scale,
+        unit: hop.unit(),
     };
     tally.judge(at, &place, verdict, limit);
 }

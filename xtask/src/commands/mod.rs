@@ -3,8 +3,10 @@
 pub mod basin_raster;
 pub mod beyond_paper;
 pub mod check_reference;
+pub mod compare_peers;
 pub mod model_figures;
 pub mod reproduce_paper;
+pub mod speed;
 pub mod tidy;
 pub mod verify_invariance;
 pub mod work_precision;

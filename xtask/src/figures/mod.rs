@@ -8,6 +8,7 @@ mod fig_04_local_map;
 mod fig_05_construction;
 mod fig_06_to_09_basins;
 mod invariance;
+mod peers;
 mod printed_against_stable;
 mod work_precision;
 
@@ -17,6 +18,7 @@ pub(crate) mod construction {
 }
 
 pub(crate) use basin_plot::{Window, draw_basins};
+pub(crate) use peers::peers_figure;
 pub(crate) use work_precision::work_precision_figure;
 
 use crate::Error;

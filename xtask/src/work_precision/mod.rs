@@ -8,7 +8,7 @@ pub(crate) mod table;
 mod timing;
 
 pub(crate) use methods::{ALL as METHODS, Method};
-pub(crate) use timing::{median_time, sin_cos_time};
+pub(crate) use timing::{median_seconds, median_time, sin_cos_seconds, sin_cos_time};
 
 use crate::Error;
 use crate::output::repository;

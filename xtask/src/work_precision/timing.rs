@@ -11,6 +11,11 @@ const LEAST: Duration = Duration::from_millis(4);
 
 /// The time of one call of `call`, over the inputs 0, …, `count` − 1.
 pub(crate) fn median_time<T>(count: usize, call: impl Fn(usize) -> T) -> Duration {
+    Duration::from_secs_f64(median_seconds(count, call))
+}
+
+/// The same in seconds, with all digits: a `Duration` ends with nanoseconds.
+pub(crate) fn median_seconds<T>(count: usize, call: impl Fn(usize) -> T) -> f64 {
     let pass = || (0..count).for_each(|k| drop(black_box(call(black_box(k)))));
     let begin = Instant::now();
     pass();
@@ -26,12 +31,17 @@ pub(crate) fn median_time<T>(count: usize, call: impl Fn(usize) -> T) -> Duratio
         })
         .collect();
     times.sort();
-    times[repeats / 2].div_f64(count.max(1) as f64)
+    times[repeats / 2].as_secs_f64() / count.max(1) as f64
 }
 
 /// The time of one `f64::sin_cos` on arguments in [0, 50]: the unit of speed.
-#[allow(clippy::disallowed_methods)] // the comparison is with std's
 pub(crate) fn sin_cos_time() -> Duration {
+    Duration::from_secs_f64(sin_cos_seconds())
+}
+
+/// The same in seconds.
+#[allow(clippy::disallowed_methods)] // the comparison is with std's
+pub(crate) fn sin_cos_seconds() -> f64 {
     let arguments: Vec<f64> = (0..10_000).map(|k| 0.005 * f64::from(k)).collect();
-    median_time(arguments.len(), |k| arguments[k].sin_cos())
+    median_seconds(arguments.len(), |k| arguments[k].sin_cos())
 }

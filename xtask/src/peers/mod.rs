@@ -1,0 +1,154 @@
+//! The same hops by other people's software, side by side in one run.
+
+mod python;
+mod table;
+
+pub(crate) use python::Python;
+pub(crate) use table::{csv, markdown};
+
+use crate::Error;
+use crate::output::repository;
+use crate::progress::Progress;
+use crate::reference::{Hop, Line, parse};
+use crate::speed::bulk_time;
+use crate::work_precision::{Case, Method, median_seconds};
+use std::path::Path;
+
+const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
+
+/// How one of them did.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Peer {
+    pub(crate) name: String,
+    /// One of ours.
+    pub(crate) ours: bool,
+    /// Seconds for a hop.
+    pub(crate) seconds: f64,
+    /// Hops compared with the reference.
+    pub(crate) compared: usize,
+    /// Grounded wrongly, or not.
+    pub(crate) wrong: usize,
+    /// Relative errors: median and worst; nothing where no speed is given.
+    pub(crate) errors: Option<(f64, f64)>,
+}
+
+/// What a peer says of the hops, in their order.
+#[derive(Debug, Clone, serde::Deserialize)]
+struct Found {
+    name: String,
+    seconds: f64,
+    next: Vec<Option<f64>>,
+}
+
+/// All of them on the paper's window.
+pub(crate) fn measure(
+    python: &Python,
+    folder: &Path,
+    progress: &Progress,
+) -> Result<Vec<Peer>, Error> {
+    let bar = progress.bar("peers", 3);
+    let hops = hops()?;
+    let found = theirs(python, folder, &hops)?;
+    bar.set(1);
+    let mut peers: Vec<Peer> = found.into_iter().map(|found| peer(found, false, &hops)).collect();
+    for method in [Method::HybridSearched, Method::HybridExact, Method::Stable] {
+        peers.push(peer(ours(method, &hops), true, &hops));
+    }
+    bar.set(2);
+    peers.push(peer(at_once(&hops)?, true, &hops));
+    bar.finish();
+    Ok(peers)
+}
+
+fn hops() -> Result<Vec<Hop>, Error> {
+    let lines = parse(&repository().join(WINDOW))?.into_iter();
+    Ok(lines
+        .filter_map(|(_, line)| match line {
+            Line::Hop(hop) => Some(hop),
+            _ => None,
+        })
+        .collect())
+}
+
+/// The peers' own measurements, in their own process.
+fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Error> {
+    let (input, output) = (folder.join("hops.json"), folder.join("results.json"));
+    let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
+    let understood = |e: serde_json::Error| Error::Peers { reason: e.to_string() };
+    let text = serde_json::to_string(&pairs).map_err(understood)?;
+    std::fs::write(&input, text).map_err(|source| Error::File { path: input.clone(), source })?;
+    python.run(include_str!("peers.py"), &[&input, &output])?;
+    serde_json::from_str(&crate::output::read(&output)?).map_err(understood)
+}
+
+/// One of our ways, hop by hop.
+fn ours(method: Method, hops: &[Hop]) -> Found {
+    let cases: Vec<Case> = hops
+        .iter()
+        .map(|hop| Case {
+            mass_ratio: hop.mass_ratio,
+            alpha: hop.alpha,
+            local: None,
+            sudden: Some(hop.sudden),
+            exact: hop.next,
+        })
+        .collect();
+    let next = |case: &Case| method.hop(case).and_then(|answer| answer.next);
+    Found {
+        name: format!("ours: {}", method.name()),
+        seconds: median_seconds(cases.len(), |k| next(&cases[k])),
+        next: cases.iter().map(next).collect(),
+    }
+}
+
+/// Many at once: every mass ratio is a map of its own, so the time is that of the window's hops with 1024
+/// speeds a map.
+fn at_once(hops: &[Hop]) -> Result<Found, Error> {
+    let mut next = Vec::with_capacity(hops.len());
+    for hop in hops {
+        let mut speeds = [Some(hop.alpha); 32];
+        passive_hopper::LiftOffMap::new(hop.mass_ratio).images(&mut speeds)?;
+        next.push(speeds[17]);
+    }
+    Ok(Found { name: "ours: stable form, at once".into(), seconds: bulk_time(), next })
+}
+
+fn peer(found: Found, ours: bool, hops: &[Hop]) -> Peer {
+    let (mut errors, mut wrong) = (Vec::new(), 0);
+    for (&next, hop) in found.next.iter().zip(hops) {
+        match (next, hop.next) {
+            (Some(next), Some(exact)) => errors.push(((next - exact) / exact).abs()),
+            (None, None) => {}
+            _ => wrong += 1,
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let errors = errors.last().map(|&worst| (errors[errors.len() / 2], worst));
+    let compared = found.next.len();
+    Peer { name: found.name, ours, seconds: found.seconds, compared, wrong, errors }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_and_wrong_verdicts_are_told_apart() {
+        let hops = hops().unwrap();
+        let mut next: Vec<_> = hops.iter().map(|hop| hop.next).collect();
+        let grounded = hops.iter().position(|hop| hop.next.is_none()).unwrap();
+        next[grounded] = Some(1.0);
+        let found = Found { name: "a peer".into(), seconds: 1.0, next };
+        let peer = peer(found, false, &hops);
+        assert_eq!((peer.compared, peer.wrong, peer.errors), (1000, 1, Some((0.0, 0.0))));
+    }
+
+    #[test]
+    fn our_ways_are_right() {
+        let hops = hops().unwrap();
+        for found in [ours(Method::Stable, &hops), at_once(&hops).unwrap()] {
+            let peer = peer(found, true, &hops);
+            assert!(peer.wrong == 0 && peer.errors.unwrap().0 < 4e-16, "{peer:?}");
+        }
+    }
+}

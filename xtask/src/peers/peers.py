@@ -1,0 +1,254 @@
+"""Hops of the passive hopper by heyoka, SciPy and numba: time a hop, and the speeds found.
+
+python peers.py hops.json results.json
+
+A hop is its landings, each the first zero of the height after the take-off; between them, and from the
+last landing to the lift-off speed, the closed forms of collision and contact, the same for every peer. The
+flight is integrated in stretch s and momentum coordinate P, s'' = -s, P'' = -1, height P - s. The height has a
+double or triple zero at the take-off, which no peer can start from: they start a little later, from the
+closed form.
+"""
+
+import json
+import math
+import sys
+import time
+
+import heyoka
+import numba
+import numpy
+import scipy
+from scipy.integrate import solve_ivp
+
+LATEST = 1.0e3  # no flight of these hops lasts that long
+
+
+def start(x, v, later):
+    """The flight from stretch 1 + x with velocity v, `later` after the take-off: (s, s', P, P')."""
+    s, c, y = math.sin(later), math.cos(later), 1.0 + x
+    return (y * c + v * s, v * c - y * s, y + v * later - later * later / 2, v - later)
+
+
+def later(x, v):
+    """A time after the take-off and well before the landing."""
+    if x <= 0.0:
+        return min(0.1, v)
+    root = math.sqrt(v * v + 3.0 * x)
+    short = v + root if v > 0.0 else 3.0 * x / (root - v)
+    return 0.05 * min(short, 1.0)
+
+
+def after(state, ratio):
+    """Closing speed, stretch minus one and velocity after a landing in `state`."""
+    s, sd, _, pd = state
+    closing = sd - pd
+    return closing, s - 1.0, pd + ratio / (1.0 + ratio) * closing
+
+
+def hop_by(landing, ratio, alpha):
+    """The next lift-off speed, or None, by `landing(x, v) -> state`."""
+    x, v, squares = 0.0, alpha, 0.0
+    while True:
+        closing, x, v = after(landing(x, v), ratio)
+        squares += closing * closing
+        if x <= 0.0:
+            break
+    rest = alpha * alpha - ratio / (1.0 + ratio) ** 2 * squares
+    return math.sqrt(rest) if rest > 0.0 else None
+
+
+def by_scipy(hops):
+    def height(t, y):
+        return y[2] - y[0]
+
+    height.terminal, height.direction = True, -1
+
+    def flow(t, y):
+        return (y[1], -y[0], y[3], -1.0)
+
+    def landing(x, v):
+        first = later(x, v)
+        solution = solve_ivp(
+            flow, (first, LATEST), start(x, v, first), "DOP853", rtol=1e-10, atol=1e-12, events=height
+        )
+        return solution.y_events[0][0]
+
+    return [hop_by(landing, *hop) for hop in hops]
+
+
+def equations():
+    s, sd, p, pd = heyoka.make_vars("s", "sd", "p", "pd")
+    return [(s, sd), (sd, -s), (p, pd), (pd, heyoka.expression(-1.0))], p - s
+
+
+def heyoka_scalar():
+    flow, height = equations()
+    event = heyoka.t_event(height, direction=heyoka.event_direction.negative)
+    integrator = heyoka.taylor_adaptive(flow, [1.0, 1.0, 1.0, 1.0], t_events=[event])
+
+    def landing(x, v):
+        first = later(x, v)
+        integrator.time = first
+        integrator.state[:] = start(x, v, first)
+        integrator.reset_cooldowns()
+        integrator.propagate_until(LATEST)
+        return integrator.state
+
+    return lambda hops: [hop_by(landing, *hop) for hop in hops]
+
+
+def heyoka_batch():
+    flow, height = equations()
+    lanes = heyoka.recommended_simd_size()
+    job = {}
+
+    def landed(integrator, _, lane):
+        """Books the landing; the lane goes on with the next flight, or the next hop."""
+        if job["hop"][lane] is None:
+            return True
+        number, ratio, alpha = job["hop"][lane]
+        closing, x, v = after(integrator.state[:, lane], ratio)
+        job["squares"][lane] += closing * closing
+        if x <= 0.0:
+            rest = alpha * alpha - ratio / (1.0 + ratio) ** 2 * job["squares"][lane]
+            job["next"][number] = math.sqrt(rest) if rest > 0.0 else None
+            x, v = next_hop(lane)
+        integrator.state[:, lane] = start(x, v, later(x, v))
+        return job["left"] > 0
+
+    def next_hop(lane):
+        try:
+            number, (ratio, alpha) = next(job["hops"])
+            job["hop"][lane] = (number, ratio, alpha)
+        except StopIteration:
+            job["left"] -= job["hop"][lane] is not None
+            job["hop"][lane], alpha = None, 5.0
+        job["squares"][lane] = 0.0
+        return 0.0, alpha
+
+    event = heyoka.t_event_batch(
+        height, direction=heyoka.event_direction.negative, callback=landed
+    )
+    integrator = heyoka.taylor_adaptive_batch(flow, numpy.ones((4, lanes)), t_events=[event])
+
+    def run(hops):
+        job.update(
+            hops=iter(enumerate(hops)),
+            next=[None] * len(hops),
+            hop=[(-1, 0.0, 0.0)] * lanes,
+            squares=[0.0] * lanes,
+            left=lanes,
+        )
+        integrator.set_time(0.0)
+        integrator.reset_cooldowns()
+        for lane in range(lanes):
+            x, v = next_hop(lane)
+            integrator.state[:, lane] = start(x, v, later(x, v))
+        while job["left"] > 0:
+            integrator.propagate_until(numpy.array(integrator.time) + LATEST)
+        return job["next"]
+
+    return run
+
+
+def heyoka_flights():
+    """The first flight of every hop alone, each lane to the end of its bracket: no Python but a note of the
+    landing's time."""
+    flow, height = equations()
+    lanes = heyoka.recommended_simd_size()
+    found = []
+    event = heyoka.nt_event_batch(
+        height,
+        lambda integrator, at, sign, lane: found.append(at),
+        direction=heyoka.event_direction.negative,
+    )
+    integrator = heyoka.taylor_adaptive_batch(flow, numpy.ones((4, lanes)), nt_events=[event])
+
+    def run(hops):
+        found.clear()
+        for first in range(0, len(hops) - lanes + 1, lanes):
+            alphas = [alpha for _, alpha in hops[first : first + lanes]]
+            begins = [later(0.0, alpha) for alpha in alphas]
+            integrator.set_time(numpy.array(begins))
+            integrator.state[:] = numpy.array(
+                [start(0.0, alpha, begin) for alpha, begin in zip(alphas, begins)]
+            ).T
+            ends = [2.0 * math.pi * (math.floor(alpha / math.pi) + 1.0) for alpha in alphas]
+            integrator.propagate_until(numpy.array(ends))
+        if len(found) < len(hops) - lanes:
+            raise RuntimeError(f"{len(found)} landings of {len(hops)} flights")
+        return []
+
+    return run
+
+
+@numba.njit
+def numba_hop(ratio, alpha):
+    x, v, squares = 0.0, alpha, 0.0
+    kappa = ratio / (1.0 + ratio)
+    while True:
+        y = 1.0 + x
+        # Scan for the change of sign, then halve.
+        step = 0.05
+        left = 0.1 if x <= 0.0 else 1e-6
+        right = left + step
+        while y + v * right - right * right / 2 - y * math.cos(right) - v * math.sin(right) > 0.0:
+            left, right = right, right + step
+        for _ in range(60):
+            middle = 0.5 * (left + right)
+            height = y + v * middle - middle * middle / 2 - y * math.cos(middle) - v * math.sin(middle)
+            if height > 0.0:
+                left = middle
+            else:
+                right = middle
+        t = 0.5 * (left + right)
+        closing = t - v + v * math.cos(t) - y * math.sin(t)
+        x = y * math.cos(t) + v * math.sin(t) - 1.0
+        v = v - t + kappa * closing
+        squares += closing * closing
+        if x <= 0.0:
+            break
+    rest = alpha * alpha - kappa / (1.0 + ratio) * squares
+    return math.sqrt(rest) if rest > 0.0 else -1.0
+
+
+@numba.njit
+def numba_hops(ratios, alphas):
+    images = numpy.empty(len(ratios))
+    for k in range(len(ratios)):
+        images[k] = numba_hop(ratios[k], alphas[k])
+    return images
+
+
+def by_numba(hops):
+    ratios, alphas = numpy.array(hops).T
+    return [speed if speed > 0.0 else None for speed in numba_hops(ratios.copy(), alphas.copy())]
+
+
+def measure(name, run, hops, repeats):
+    """Once to warm up, then the median of some runs."""
+    run(hops[:16])
+    times = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        found = run(hops)
+        times.append(time.perf_counter() - begin)
+    return {"name": name, "seconds": sorted(times)[repeats // 2] / len(hops), "next": found}
+
+
+def main():
+    with open(sys.argv[1]) as file:
+        hops = [tuple(hop) for hop in json.load(file)]
+    lanes = heyoka.recommended_simd_size()
+    results = [
+        measure(f"SciPy {scipy.__version__}, DOP853, events, 1e-10", by_scipy, hops[:200], 1),
+        measure(f"numba {numba.__version__}, closed form, scan and bisect", by_numba, hops, 5),
+        measure(f"heyoka {heyoka.__version__}, terminal event", heyoka_scalar(), hops, 5),
+        measure(f"heyoka {heyoka.__version__}, batch of {lanes}", heyoka_batch(), hops, 5),
+        measure(f"heyoka {heyoka.__version__}, batch of {lanes}, first flights alone", heyoka_flights(), hops, 5),
+    ]
+    with open(sys.argv[2], "w") as file:
+        json.dump(results, file)
+
+
+main()

@@ -1,0 +1,101 @@
+//! Hops of the paper's window, one by one and many at once.
+
+use crate::Error;
+use crate::output::repository;
+use crate::reference::{Line, parse};
+use crate::work_precision::median_seconds;
+use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+
+const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
+
+/// Errors allowed, as `check-reference` does: so many units of the reference, per flight.
+const LIMIT: f64 = 4.0;
+
+/// Mass ratios, and speeds for each, of the set that is timed.
+const MAPS: usize = 64;
+const SPEEDS: usize = 1024;
+
+/// The paper's window as its class has it: M in [0.05, 20], log-uniform, α in [α*_1, α*_6].
+fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
+    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+    let part = |k: usize, step: f64| (k as f64 * step).fract();
+    let speed = |k: usize| low + (high - low) * part(k, 0.754_877_666_246_693);
+    (1..=MAPS)
+        .filter_map(|j| {
+            let m = 0.05 * pxfm::f_pow(400.0, part(j, 0.618_033_988_749_895));
+            let map = LiftOffMap::new(MassRatio::new(m).ok()?);
+            Some((map, (0..SPEEDS).map(|k| speed(k * MAPS + j)).collect()))
+        })
+        .collect()
+}
+
+/// Single hops against the reference, and hops at once against single ones.
+pub(super) fn check() -> Result<String, Error> {
+    let mut lines = 0;
+    for (at, line) in parse(&repository().join(WINDOW))? {
+        let Line::Hop(hop) = line else { continue };
+        let map = LiftOffMap::new(hop.mass_ratio);
+        let mut many = vec![Some(hop.alpha); 32];
+        map.images(&mut many)?;
+        let found = map.image(hop.alpha)?;
+        let right = many.iter().all(|image| *image == found)
+            && match (found, hop.next) {
+                (Some(found), Some(exact)) => {
+                    (found - exact).abs() <= LIMIT * (1 + hop.sudden) as f64 * hop.unit()
+                }
+                (None, None) => true,
+                _ => false,
+            };
+        if !right {
+            return Err(Error::CheckFailed(format!("{WINDOW}, line {at}: {found:?}")));
+        }
+        lines += 1;
+    }
+    for (map, speeds) in window_maps() {
+        let mut many: Vec<_> = speeds.iter().copied().map(Some).collect();
+        map.images(&mut many)?;
+        for (&alpha, image) in speeds.iter().zip(many) {
+            if map.image(alpha)? != image {
+                let m = map.mass_ratio().value();
+                return Err(Error::CheckFailed(format!("M = {m}, α = {alpha}: {image:?} at once")));
+            }
+        }
+    }
+    Ok(format!("{lines} reference hops; {} at once bit for bit", MAPS * SPEEDS))
+}
+
+/// A hop by `LiftOffMap::image`.
+pub(super) fn scalar_time() -> f64 {
+    let maps = window_maps();
+    // Mass ratios and speeds mixed, so that nothing is learnt from the hop before.
+    median_seconds(MAPS * SPEEDS, |k| {
+        let (map, speeds) = &maps[k % MAPS];
+        map.image(speeds[k / MAPS])
+    })
+}
+
+/// A hop by `LiftOffMap::images`, on one core.
+pub(crate) fn bulk_time() -> f64 {
+    let maps = window_maps();
+    let mut buffer = vec![None; SPEEDS];
+    let cell = std::cell::RefCell::new(&mut buffer);
+    median_seconds(MAPS, |k| {
+        let (map, speeds) = &maps[k];
+        let mut buffer = cell.borrow_mut();
+        for (slot, &speed) in buffer.iter_mut().zip(speeds) {
+            *slot = Some(speed);
+        }
+        map.images(&mut buffer)
+    }) / SPEEDS as f64
+}
+
+/// A landing by `LiftOffMap::landings`, which gives its time and state.
+pub(super) fn landing_time() -> f64 {
+    let maps = window_maps();
+    let landings = |k: usize| {
+        let (map, speeds) = &maps[k % MAPS];
+        map.landings(speeds[k / MAPS]).map_or(0, Iterator::count)
+    };
+    let count: usize = (0..MAPS * SPEEDS).map(landings).sum();
+    median_seconds(MAPS * SPEEDS, landings) * (MAPS * SPEEDS) as f64 / count as f64
+}
