@@ -54,6 +54,11 @@ impl Hump {
         if self.n == 0 { HalfFlight::at(0.5 * t).w() } else { self.flight.w(t) }
     }
 
+    /// The largest value of W.
+    pub(crate) fn largest_w(&self) -> f64 {
+        self.w(self.steepest)
+    }
+
     /// α − α*_n.
     pub(crate) fn delta(&self, t: f64) -> f64 {
         if self.n == 0 { HalfFlight::at(0.5 * t).start_speed(0.0) } else { self.flight.delta(t) }
@@ -115,6 +120,59 @@ impl Hump {
         self.root(above, left, touch.t).map(Some)
     }
 
+    /// The same to some digits, from one sine and cosine a step.
+    fn plain_newton(&self, mu: f64, start: f64) -> Option<f64> {
+        let square = self.star.high * self.star.high;
+        let mut h = self.star.high + 0.5 * start;
+        for _ in 0..NEWTON_STEPS {
+            let half = HalfFlight::at(h);
+            let (alpha, closing) = (half.start_speed(0.0), half.closing_speed(0.0));
+            let above = alpha * alpha - square - mu * closing * closing;
+            let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d;
+            let step = above / slope;
+            h -= step;
+            if !(slope < 0.0 && h > self.star.high) {
+                return None;
+            }
+            if step.abs() < 1e-6 * (h - self.star.high) {
+                break;
+            }
+        }
+        Some(2.0 * (h - self.star.high))
+    }
+
+    /// The ends of the falling part of the hump as speeds, to some ulps; nothing if it rises throughout.
+    ///
+    /// There 4μW = 1, with W' = SC − h cos 2h and W″ = 2h sin 2h, about −2h at the maximum.
+    pub(crate) fn falling(&self, mu: f64) -> Result<Option<(f64, f64)>, Error> {
+        let middle = self.star.high + 0.5 * self.steepest;
+        let level = 0.25 / mu;
+        let rest = self.largest_w() - level;
+        if rest <= 0.0 {
+            return Ok(None);
+        }
+        let reach = (rest / middle).sqrt();
+        let end = |sign: f64| {
+            let mut h = middle + sign * reach;
+            for _ in 0..NEWTON_STEPS {
+                let half = HalfFlight::at(h);
+                let slope = half.sin * half.cos - h * (1.0 - 2.0 * half.sin * half.sin);
+                let step = (half.w() - level) / slope;
+                h -= step;
+                let inside = h > self.star.high && sign * (h - middle) > 0.0;
+                if !inside || step.abs() < 4.0 * f64::EPSILON * h {
+                    return inside.then(|| HalfFlight::at(h).start_speed(0.0));
+                }
+            }
+            None
+        };
+        if let (Some(top), Some(foot)) = (end(-1.0), end(1.0)) {
+            return Ok(Some((top, foot)));
+        }
+        let place = |t: f64| self.star.high + self.delta(t);
+        Ok(self.critical(mu)?.map(|(top, foot)| (place(top), place(foot))))
+    }
+
     /// The touch of α*_n by the minimum (of zero for n = 0); computed once for the first humps.
     fn fall_touch(&self) -> Result<Touch, Error> {
         static FIRST: [OnceLock<Touch>; 64] = [const { OnceLock::new() }; 64];
@@ -129,7 +187,7 @@ impl Hump {
     /// Newton's method on `above`, with d(α'²)/dt = 2α (1 − 4μW) Γ/(2D), from a parabola through 0 and the
     /// touch; nothing if it leaves (0, `right`), or where it falls no more.
     fn newton(&self, mu: f64, start: f64, above: impl Fn(f64) -> f64, right: f64) -> Option<f64> {
-        let mut t = start;
+        let mut t = self.plain_newton(mu, start)?;
         for _ in 0..NEWTON_STEPS {
             let h = self.star.high + 0.5 * t;
             let half = HalfFlight::at(h);

@@ -1,70 +1,27 @@
 //! The fates of many lift-off speeds at one mass ratio, hop by hop together.
 
-use crate::{Error, Fates, HOP_BUDGET, HopperFate, TrapEdge};
-use basin_of_attraction::Traps;
-use passive_hopper::{DoubleDouble, alpha_star, index_below};
-use std::f64::consts::FRAC_1_PI;
+use crate::arcs::Arcs;
+use crate::itinerary::Itinerary;
+use crate::ladder::Ladder;
+use crate::orbits::Orbits;
+use crate::{Fates, HopperFate};
 
-/// Traps in a ladder; those of larger n are asked one by one.
-const RUNGS: u64 = 64;
+/// Speeds in increasing order are first looked at so far apart.
+const COARSEST: usize = 16;
 
-/// The traps as closed intervals of `f64`, from 0 = α*_0 up.
-struct Ladder {
-    traps: Vec<(f64, f64)>,
-}
+/// Fewer speeds are all followed: there is little between them that has a common itinerary.
+const MANY: usize = 20;
 
-impl Ladder {
-    /// The traps of all fixed points up to the one below `alpha`.
-    fn below(fates: &Fates, alpha: f64) -> Result<Self, Error> {
-        let last = index_below(alpha)?.min(RUNGS - 1);
-        let trap = |n: u64| {
-            let trap = fates.trap(n)?;
-            let right = match trap.edge {
-                TrapEdge::NextFixedPoint => last_below(alpha_star(n + 1)),
-                TrapEdge::Crossing | TrapEdge::ContactEnd => trap.right(),
-            };
-            Ok((first_from(trap.star), right))
-        };
-        let mut traps = (0..=last).map(trap).collect::<Result<Vec<_>, Error>>()?;
-        if last + 1 < RUNGS {
-            // Nobody is on the next rung, but some are on the way to it.
-            traps.push((f64::INFINITY, f64::INFINITY));
-        }
-        Ok(Ladder { traps })
-    }
-
-    /// The label of the trap that holds `alpha` > 0, as that of [`Traps`] for [`Fates`].
-    #[inline]
-    fn label(&self, alpha: f64, fates: &Fates) -> Option<u16> {
-        // α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index below or one more, if it is right; next to nπ, where
-        // it may not be, the two differ in nothing: neither trap begins there.
-        let n = (alpha * FRAC_1_PI) as usize;
-        match self.traps.get(n) {
-            Some(&(left, right)) if alpha >= left => (alpha <= right).then_some(n as u16),
-            Some(_) => {
-                let &(_, right) = self.traps.get(n.wrapping_sub(1))?;
-                (alpha <= right).then_some((n - 1) as u16)
-            }
-            None => fates.label(alpha),
-        }
-    }
-}
-
-/// The smallest `f64` from `star` on.
-fn first_from(star: DoubleDouble) -> f64 {
-    if star.low > 0.0 { star.high.next_up() } else { star.high }
-}
-
-/// The largest `f64` below `star`.
-fn last_below(star: DoubleDouble) -> f64 {
-    if star.low > 0.0 { star.high } else { star.high.next_down() }
-}
+/// Not labelled yet; what stays so is undecided.
+const OPEN: u16 = HopperFate::UNDECIDED;
 
 impl Fates {
     /// The [labels](HopperFate::label) of the fates of all `speeds`, those that [`fate`](Self::fate) gives one
     /// by one; a speed that it refuses has the label of an undecided hop.
     ///
-    /// The orbits hop together, as [`LiftOffMap::images`](passive_hopper::LiftOffMap::images) does.
+    /// The orbits hop together, as [`LiftOffMap::images`](passive_hopper::LiftOffMap::images) does. Of speeds in
+    /// increasing order not all are followed: what lies between two orbits that visit the same arcs of the map, on
+    /// which it is proved to be monotone, ends as they do.
     ///
     /// ```
     /// use hopper_basin::{Fates, HopperFate};
@@ -74,13 +31,21 @@ impl Fates {
     /// # Ok::<(), hopper_basin::Error>(())
     /// ```
     pub fn labels(&self, speeds: &[f64]) -> Vec<u16> {
-        let mut labels = vec![HopperFate::UNDECIDED; speeds.len()];
+        let mut labels = vec![OPEN; speeds.len()];
         let largest = speeds.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
-        match Ladder::below(self, largest) {
-            Ok(ladder) => Orbits::new(self, &ladder, speeds).follow(&mut labels),
-            Err(_) => {
-                for (label, &speed) in labels.iter_mut().zip(speeds) {
-                    *label = self.label_of(speed);
+        let Ok(ladder) = Ladder::below(self, largest) else {
+            return speeds.iter().map(|&speed| self.label_of(speed)).collect();
+        };
+        let many = speeds.len() >= MANY && speeds.is_sorted();
+        match many.then(|| Arcs::below(self.map().mass_ratio(), largest)) {
+            Some(Ok(Some(arcs))) => {
+                Column { fates: self, ladder: &ladder, arcs: &arcs, speeds }.label(&mut labels);
+            }
+            _ => {
+                let mut orbits = Orbits::new(self, &ladder, speeds, ());
+                orbits.add(0..speeds.len() as u32, &mut labels, &mut []);
+                while !orbits.is_empty() {
+                    orbits.hop(&(), &mut labels, &mut []);
                 }
             }
         }
@@ -93,67 +58,90 @@ impl Fates {
     }
 }
 
-/// Orbits that have not come to their end.
-struct Orbits<'a> {
+/// Speeds in increasing order: what lies between two with a common itinerary needs no orbit of its own.
+struct Column<'a> {
     fates: &'a Fates,
     ladder: &'a Ladder,
-    starts: &'a [f64],
-    /// Which start.
-    index: Vec<u32>,
-    /// Where they are.
-    speeds: Vec<Option<f64>>,
-    /// Where they were.
-    before: Vec<f64>,
+    arcs: &'a Arcs,
+    speeds: &'a [f64],
 }
 
-impl<'a> Orbits<'a> {
-    fn new(fates: &'a Fates, ladder: &'a Ladder, starts: &'a [f64]) -> Self {
-        let speeds = starts.iter().map(|&start| Some(start)).collect();
-        let index = (0..starts.len() as u32).collect();
-        // Nowhere before: no number equals it.
-        Orbits { fates, ladder, starts, index, speeds, before: vec![f64::NAN; starts.len()] }
-    }
-
-    /// Follows all to their labels.
-    fn follow(&mut self, labels: &mut [u16]) {
-        for _ in 0..=HOP_BUDGET {
-            self.sort_out(labels);
-            if self.index.is_empty() {
-                return;
+impl Column<'_> {
+    /// First every 16th, then, as soon as its ends are known, the middle of what is open.
+    fn label(&self, labels: &mut [u16]) {
+        let last = self.speeds.len().saturating_sub(1) as u32;
+        let coarse: Vec<u32> = (0..last).step_by(COARSEST).chain([last]).collect();
+        let mut gaps = Gaps::between(&coarse, self.speeds.len());
+        let mut orbits = Orbits::new(self.fates, self.ladder, self.speeds, Itinerary::START);
+        orbits.add(coarse.into_iter(), labels, &mut gaps.notes);
+        let mut ended = Vec::new();
+        loop {
+            while !orbits.ended.is_empty() {
+                std::mem::swap(&mut ended, &mut orbits.ended);
+                let middles = gaps.narrow(&ended, labels);
+                orbits.add(middles.into_iter(), labels, &mut gaps.notes);
+                ended.clear();
             }
-            self.before.clear();
-            self.before.extend(self.speeds.iter().map(|speed| speed.unwrap_or(f64::NAN)));
-            // Those with an error keep their speeds, and are sorted out one by one.
-            let _ = self.fates.map().images(&mut self.speeds);
+            if orbits.is_empty() {
+                break;
+            }
+            orbits.hop(self.arcs, labels, &mut gaps.notes);
         }
     }
+}
 
-    /// Labels those that have come to an end, and keeps the others.
-    fn sort_out(&mut self, labels: &mut [u16]) {
-        let mut kept = 0;
-        for at in 0..self.index.len() {
-            let index = self.index[at];
-            let label = match self.speeds[at] {
-                None => Some(HopperFate::GROUNDED),
-                Some(alpha) if alpha == self.before[at] || !(alpha > 0.0) => {
-                    Some(self.fates.label_of(self.starts[index as usize]))
-                }
-                // Higher indices share a label of the generic traps.
-                Some(alpha) => self.ladder.label(alpha, self.fates).map(|label| {
-                    let many = u64::from(label) >= HopperFate::LARGEST_LABEL;
-                    if many { self.fates.label_of(self.starts[index as usize]) } else { label }
-                }),
-            };
-            match label {
-                Some(label) => labels[index as usize] = label,
-                None => {
-                    self.index[kept] = index;
-                    self.speeds[kept] = self.speeds[at];
-                    kept += 1;
-                }
+/// The gaps between the speeds whose orbits are followed.
+struct Gaps {
+    notes: Vec<Itinerary>,
+    /// For a speed that is followed the next ones below and above that are.
+    below: Vec<u32>,
+    above: Vec<u32>,
+}
+
+impl Gaps {
+    fn between(followed: &[u32], count: usize) -> Self {
+        let mut gaps = Gaps {
+            notes: vec![Itinerary::START; count],
+            below: (0..count as u32).collect(),
+            above: (0..count as u32).collect(),
+        };
+        for pair in followed.windows(2) {
+            gaps.join(pair[0], pair[1]);
+        }
+        gaps
+    }
+
+    fn join(&mut self, left: u32, right: u32) {
+        self.above[left as usize] = right;
+        self.below[right as usize] = left;
+    }
+
+    /// Of the gaps beside those that have `ended`, fills the closed ones and halves the open ones; the middles.
+    fn narrow(&mut self, ended: &[u32], labels: &mut [u16]) -> Vec<u32> {
+        let mut middles = Vec::new();
+        for &at in ended {
+            for (left, right) in [(self.below[at as usize], at), (at, self.above[at as usize])] {
+                middles.extend(self.halved(left, right, labels));
             }
         }
-        self.index.truncate(kept);
-        self.speeds.truncate(kept);
+        middles
+    }
+
+    /// The middle of a gap whose ends are known and differ.
+    fn halved(&mut self, left: u32, right: u32, labels: &mut [u16]) -> Option<u32> {
+        let (from, to) = (left as usize, right as usize);
+        let known = self.notes[from].ended && self.notes[to].ended;
+        if right - left < 2 || !known {
+            return None;
+        }
+        if labels[from] == labels[to] && self.notes[from].leads_as(&self.notes[to]) {
+            let label = labels[from];
+            labels[from + 1..to].fill(label);
+            return None;
+        }
+        let middle = left.midpoint(right);
+        self.join(left, middle);
+        self.join(middle, right);
+        Some(middle)
     }
 }

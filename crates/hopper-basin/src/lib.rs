@@ -37,16 +37,21 @@
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
 //! Phys. Rev. E, Secs. V and VI.
 
+mod arcs;
 mod basin;
 mod crisis;
 mod error;
 mod fate;
 mod hump;
 mod intervals;
+mod itinerary;
 mod labels;
+mod ladder;
 mod map;
+mod orbits;
 mod reach;
 mod trap;
+mod window;
 
 pub use basin::{Shares, basin_levels, basin_raster, branches, shares};
 pub use crisis::{Crisis, crisis, grounding};
@@ -55,3 +60,4 @@ pub use fate::{Fates, HOP_BUDGET, HopperFate};
 pub use intervals::{HopperBasins, hopper_basins};
 pub use reach::{Reach, ReachEdge, reach, recovery};
 pub use trap::{Trap, TrapEdge};
+pub use window::{RisingWindow, rising_window};

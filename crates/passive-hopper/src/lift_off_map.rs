@@ -140,10 +140,11 @@ impl LiftOffMap {
                 }
             }
         } else {
-            let mut block = Block::EMPTY;
-            for some in speeds.chunks_mut(BLOCK) {
-                block.images(some, (self.mu, self.kappa), &mut careful);
-            }
+            Block::of_this_thread(|block| {
+                for some in speeds.chunks_mut(BLOCK) {
+                    block.images(some, (self.mu, self.kappa), &mut careful);
+                }
+            });
         }
         first
     }

@@ -15,6 +15,7 @@ use super::hop::{FLIGHTS, Sum, ground_after};
 use super::table::{CELLS, Cell, First, Place, Stars, stars};
 use super::turn::Turn;
 use crate::simd;
+use std::cell::RefCell;
 use std::f64::consts::PI;
 
 /// Speeds that go through the steps together: their arrays stay in the cache.
@@ -106,6 +107,15 @@ impl Block {
             settled: ZERO,
         },
     };
+
+    /// Arrays that a thread makes once; anew where they are in use.
+    pub(crate) fn of_this_thread(work: impl FnOnce(&mut Block)) {
+        thread_local!(static KEPT: RefCell<Block> = const { RefCell::new(Block::EMPTY) });
+        KEPT.with(|kept| match kept.try_borrow_mut() {
+            Ok(mut block) => work(&mut block),
+            Err(_) => work(&mut Block::EMPTY),
+        });
+    }
 
     /// The images of `speeds`, at most BLOCK of them; those that the fast path leaves open go to `careful`.
     pub(crate) fn images(

@@ -1,0 +1,57 @@
+//! The traps at one mass ratio as a ladder.
+
+use crate::{Error, Fates, TrapEdge};
+use basin_of_attraction::Traps;
+use passive_hopper::{DoubleDouble, alpha_star, index_below};
+use std::f64::consts::FRAC_1_PI;
+
+/// Traps in a ladder; those of larger n are asked one by one.
+const RUNGS: u64 = 64;
+
+/// The traps as closed intervals of `f64`, from 0 = α*_0 up.
+pub(crate) struct Ladder {
+    pub(crate) traps: Vec<(f64, f64)>,
+}
+
+impl Ladder {
+    /// The traps of all fixed points up to the one below `alpha`.
+    pub(crate) fn below(fates: &Fates, alpha: f64) -> Result<Self, Error> {
+        let last = index_below(alpha)?.min(RUNGS - 1);
+        let trap = |n: u64| {
+            let trap = fates.trap(n)?;
+            let right = match trap.edge {
+                TrapEdge::NextFixedPoint => last_below(alpha_star(n + 1)),
+                TrapEdge::Crossing | TrapEdge::ContactEnd => trap.right(),
+            };
+            Ok((first_from(trap.star), right))
+        };
+        let mut traps = (0..=last).map(trap).collect::<Result<Vec<_>, Error>>()?;
+        if last + 1 < RUNGS {
+            // Nobody is on the next rung, but some are on the way to it.
+            traps.push((f64::INFINITY, f64::INFINITY));
+        }
+        Ok(Ladder { traps })
+    }
+
+    /// The label of the trap that holds `alpha` > 0, as that of [`Traps`] for [`Fates`].
+    #[inline]
+    pub(crate) fn label(&self, alpha: f64, fates: &Fates) -> Option<u16> {
+        // α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index below or one more, if it is right; next to nπ, where
+        // it may not be, the two differ in nothing: neither trap begins there.
+        let n = (alpha * FRAC_1_PI) as usize;
+        let Some(&(left, _)) = self.traps.get(n) else { return fates.label(alpha) };
+        let n = n - usize::from(alpha < left).min(n);
+        let &(left, right) = self.traps.get(n)?;
+        (alpha >= left && alpha <= right).then_some(n as u16)
+    }
+}
+
+/// The smallest `f64` from `star` on.
+fn first_from(star: DoubleDouble) -> f64 {
+    if star.low > 0.0 { star.high.next_up() } else { star.high }
+}
+
+/// The largest `f64` below `star`.
+fn last_below(star: DoubleDouble) -> f64 {
+    if star.low > 0.0 { star.high } else { star.high.next_down() }
+}
