@@ -1,8 +1,8 @@
 //! What two lift-off speeds have in common with all that lie between them.
 //!
 //! If the orbits of two speeds visit the same arcs on which the map is monotone and continuous, one after the other,
-//! and then enter the same trap, so does every orbit that starts between them: it stays between theirs. That is true
-//! of the orbits that `f64` computes as well if the two keep away from the ends of arcs and traps by more than the
+//! and then enter the same interval of known fate, a trap to begin with, so does every orbit that starts between them: it stays between theirs. That is true
+//! of the orbits that `f64` computes as well if the two keep away from the ends of arcs and intervals by more than the
 //! errors handed on: from hop to hop a distance g becomes at most
 //!
 //! ```text
@@ -12,6 +12,7 @@
 //! and a quarter more for the curvature of the root, while it is under a tenth of α′.
 
 use crate::arcs::Arcs;
+use crate::orbits::Known;
 use passive_hopper::LiftOffMap;
 
 /// Hops that an itinerary can hold.
@@ -23,6 +24,8 @@ pub(crate) struct Itinerary {
     /// Five bits an arc.
     arcs: u64,
     hops: u32,
+    /// The interval of known fate that it ends in; none for the ground.
+    end: u32,
     /// Whether it has come to its end.
     pub(crate) ended: bool,
     /// Whether it keeps away from all ends.
@@ -34,7 +37,7 @@ pub(crate) struct Itinerary {
 impl Itinerary {
     /// Before the first hop.
     pub(crate) const START: Itinerary =
-        Itinerary { arcs: 0, hops: 0, ended: false, sure: true, pad: 0.0 };
+        Itinerary { arcs: 0, hops: 0, end: u32::MAX, ended: false, sure: true, pad: 0.0 };
 
     /// Goes on with a hop from `alpha` to `next`, or to the ground.
     #[inline]
@@ -62,16 +65,19 @@ impl Itinerary {
         }
     }
 
-    /// Ends in the trap from `left` to `right`.
+    /// Ends in an interval of known fate.
     #[inline]
-    pub(crate) fn trapped(&mut self, alpha: f64, (left, right): (f64, f64)) {
+    pub(crate) fn ends_in(&mut self, alpha: f64, known: &Known) {
+        let (left, right) = known.between;
+        self.end = known.id;
         self.sure &= alpha - left > self.pad && right - alpha > self.pad;
     }
 
     /// Whether what lies between ends as the two do.
     #[inline]
     pub(crate) fn leads_as(&self, other: &Self) -> bool {
-        self.sure && other.sure && self.hops == other.hops && self.arcs == other.arcs
+        let same = self.hops == other.hops && self.arcs == other.arcs && self.end == other.end;
+        same && self.sure && other.sure
     }
 }
 

@@ -1,16 +1,20 @@
 //! The traps at one mass ratio as a ladder.
 
+use crate::orbits::{Ends, Known};
 use crate::{Error, Fates, TrapEdge};
 use basin_of_attraction::Traps;
 use passive_hopper::{DoubleDouble, alpha_star, index_below};
 use std::f64::consts::FRAC_1_PI;
 
 /// Traps in a ladder; those of larger n are asked one by one.
-const RUNGS: u64 = 64;
+pub(crate) const RUNGS: u64 = 64;
+
+/// The number of traps that are asked one by one: it says nothing of others.
+const NOT_ONE: u32 = u32::MAX;
 
 /// The traps as closed intervals of `f64`, from 0 = α*_0 up.
 pub(crate) struct Ladder {
-    pub(crate) traps: Vec<(f64, f64)>,
+    traps: Vec<(f64, f64)>,
 }
 
 impl Ladder {
@@ -33,16 +37,27 @@ impl Ladder {
         Ok(Ladder { traps })
     }
 
-    /// The label of the trap that holds `alpha` > 0, as that of [`Traps`] for [`Fates`].
+    /// The trap that holds `alpha` > 0, as [`Traps`] for [`Fates`] has it.
     #[inline]
-    pub(crate) fn label(&self, alpha: f64, fates: &Fates) -> Option<u16> {
+    fn trap(&self, alpha: f64, fates: &Fates) -> Option<Known> {
         // α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index below or one more, if it is right; next to nπ, where
         // it may not be, the two differ in nothing: neither trap begins there.
         let n = (alpha * FRAC_1_PI) as usize;
-        let Some(&(left, _)) = self.traps.get(n) else { return fates.label(alpha) };
+        let Some(&(left, _)) = self.traps.get(n) else {
+            let label = fates.label(alpha)?;
+            return Some(Known { label, id: NOT_ONE, between: (f64::NAN, f64::NAN) });
+        };
         let n = n - usize::from(alpha < left).min(n);
         let &(left, right) = self.traps.get(n)?;
-        (alpha >= left && alpha <= right).then_some(n as u16)
+        let inside = alpha >= left && alpha <= right;
+        inside.then_some(Known { label: n as u16, id: n as u32, between: (left, right) })
+    }
+}
+
+impl Ends for Ladder {
+    #[inline]
+    fn known(&self, alpha: f64, fates: &Fates) -> Option<Known> {
+        self.trap(alpha, fates)
     }
 }
 

@@ -39,6 +39,7 @@
 
 mod arcs;
 mod basin;
+mod column;
 mod crisis;
 mod error;
 mod fate;

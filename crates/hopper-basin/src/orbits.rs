@@ -2,7 +2,6 @@
 
 use crate::arcs::Arcs;
 use crate::itinerary::Itinerary;
-use crate::ladder::Ladder;
 use crate::{Fates, HOP_BUDGET, HopperFate};
 
 /// What is noted of an orbit on its way.
@@ -11,26 +10,36 @@ pub(crate) trait Note: Copy {
     type With;
     /// A hop.
     fn hop(&mut self, alpha: f64, next: Option<f64>, fates: &Fates, with: &Self::With);
-    /// The end: in a trap, on the ground, or undecided.
-    fn end(&mut self, end: End);
+    /// The end at a speed, in an interval of known fate or in a way that says nothing of its neighbours; or on the
+    /// ground.
+    fn end(&mut self, speed: Option<f64>, known: Option<Known>);
 }
 
-/// How an orbit ends.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum End {
-    /// At a speed in the trap between two others.
-    Trapped(f64, (f64, f64)),
-    /// On the ground.
-    Grounded,
-    /// In a way that says nothing of its neighbours.
-    Otherwise,
+/// The label of what is not labelled yet; what stays so is undecided.
+pub(crate) const OPEN: u16 = HopperFate::UNDECIDED;
+
+/// An interval all of whose points have the same fate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Known {
+    /// The label of the fate.
+    pub(crate) label: u16,
+    /// One for each interval.
+    pub(crate) id: u32,
+    /// Its ends; no numbers if they are not known.
+    pub(crate) between: (f64, f64),
+}
+
+/// Where orbits come to their ends.
+pub(crate) trait Ends {
+    /// The interval that holds `alpha`.
+    fn known(&self, alpha: f64, fates: &Fates) -> Option<Known>;
 }
 
 /// Nothing.
 impl Note for () {
     type With = ();
     fn hop(&mut self, _: f64, _: Option<f64>, _: &Fates, (): &()) {}
-    fn end(&mut self, _: End) {}
+    fn end(&mut self, _: Option<f64>, _: Option<Known>) {}
 }
 
 impl Note for Itinerary {
@@ -40,20 +49,20 @@ impl Note for Itinerary {
         self.hop(alpha, next, arcs, fates.map());
     }
     #[inline]
-    fn end(&mut self, end: End) {
+    fn end(&mut self, speed: Option<f64>, known: Option<Known>) {
         self.ended = true;
-        match end {
-            End::Trapped(alpha, trap) => self.trapped(alpha, trap),
-            End::Grounded => {}
-            End::Otherwise => self.sure = false,
+        match (speed, known) {
+            (Some(alpha), Some(known)) => self.ends_in(alpha, &known),
+            (Some(_), None) => self.sure = false,
+            (None, _) => {}
         }
     }
 }
 
 /// Orbits that have not come to their end.
-pub(crate) struct Orbits<'a, N> {
+pub(crate) struct Orbits<'a, N, E> {
     fates: &'a Fates,
-    ladder: &'a Ladder,
+    ends: &'a E,
     starts: &'a [f64],
     note: N,
     /// Which start.
@@ -68,12 +77,12 @@ pub(crate) struct Orbits<'a, N> {
     pub(crate) ended: Vec<u32>,
 }
 
-impl<'a, N: Note> Orbits<'a, N> {
+impl<'a, N: Note, E: Ends> Orbits<'a, N, E> {
     /// None yet.
-    pub(crate) fn new(fates: &'a Fates, ladder: &'a Ladder, starts: &'a [f64], note: N) -> Self {
+    pub(crate) fn new(fates: &'a Fates, ends: &'a E, starts: &'a [f64], note: N) -> Self {
         let (index, speeds, before, notes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
         let ended = Vec::new();
-        Orbits { fates, ladder, starts, note, index, speeds, before, notes, hops: 0, ended }
+        Orbits { fates, ends, starts, note, index, speeds, before, notes, hops: 0, ended }
     }
 
     /// Adds the orbits of the starts with these numbers; those in a trap come to their end at once.
@@ -117,10 +126,11 @@ impl<'a, N: Note> Orbits<'a, N> {
         let mut kept = first;
         for at in first..self.index.len() {
             let index = self.index[at];
-            if let Some(label) = self.end(at) {
+            if let Some((label, known)) = self.end(at) {
                 labels[index as usize] = label;
-                if let Some(note) = notes.get_mut(index as usize) {
-                    *note = self.notes[at];
+                if let Some(slot) = notes.get_mut(index as usize) {
+                    *slot = self.notes[at];
+                    slot.end(self.speeds[at], known);
                     self.ended.push(index);
                 }
             } else {
@@ -136,27 +146,18 @@ impl<'a, N: Note> Orbits<'a, N> {
         self.notes.truncate(kept);
     }
 
-    /// The label of an orbit that has come to its end.
+    /// The label of an orbit that has come to its end, and the interval of known fate that it has come to.
     #[inline]
-    fn end(&mut self, at: usize) -> Option<u16> {
-        let Some(alpha) = self.speeds[at] else {
-            self.notes[at].end(End::Grounded);
-            return Some(HopperFate::GROUNDED);
-        };
+    fn end(&self, at: usize) -> Option<(u16, Option<Known>)> {
+        let Some(alpha) = self.speeds[at] else { return Some((HopperFate::GROUNDED, None)) };
         let moves = alpha != self.before[at] && alpha > 0.0 && self.hops <= HOP_BUDGET;
-        let label = if moves { Some(self.ladder.label(alpha, self.fates)?) } else { None };
-        match label {
+        if moves {
+            let known = self.ends.known(alpha, self.fates)?;
             // Higher indices share a label of the generic traps.
-            Some(n) if u64::from(n) < HopperFate::LARGEST_LABEL => {
-                let trap = self.ladder.traps.get(usize::from(n));
-                let end = trap.map_or(End::Otherwise, |&trap| End::Trapped(alpha, trap));
-                self.notes[at].end(end);
-                label
-            }
-            _ => {
-                self.notes[at].end(End::Otherwise);
-                Some(self.fates.label_of(self.starts[self.index[at] as usize]))
+            if u64::from(known.label) != HopperFate::LARGEST_LABEL {
+                return Some((known.label, Some(known)));
             }
         }
+        Some((self.fates.label_of(self.starts[self.index[at] as usize]), None))
     }
 }

@@ -113,7 +113,10 @@ impl Block {
         thread_local!(static KEPT: RefCell<Block> = const { RefCell::new(Block::EMPTY) });
         KEPT.with(|kept| match kept.try_borrow_mut() {
             Ok(mut block) => work(&mut block),
-            Err(_) => work(&mut Block::EMPTY),
+            Err(_) => {
+                let mut block = Block::EMPTY;
+                work(&mut block);
+            }
         });
     }
 
