@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 fn one_by_one(map: &LiftOffMap, speeds: &[Option<f64>]) -> (Vec<Option<f64>>, bool) {
     let mut failed = false;
     let image = |speed: &Option<f64>| {
-        let Some(alpha) = *speed else { return None };
+        let alpha = (*speed)?;
         match map.image(alpha) {
             Ok(next) => next,
             Err(_) => {

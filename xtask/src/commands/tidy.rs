@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 /// Crates that must not know the hopper.
 const GENERIC: [&str; 3] = ["hybrid-system", "return-map", "basin-of-attraction"];
+/// Calls of loops that are compiled for wider vectors.
+const WITH_UNSAFE_CODE: &str = "crates/passive-hopper/src/simd.rs";
 /// A file holds one concept.
 const LONGEST_FILE: usize = 400;
 
@@ -137,8 +139,10 @@ fn check_file(file: &Path, text: &str, breaches: &mut Vec<Breach>) {
         {
             breach(at, "libraries return errors as values");
         }
-        if code.contains("unsafe ") || code.contains("unsafe{") {
-            breach(at, "no unsafe code");
+        if (code.contains("unsafe ") || code.contains("unsafe{") || code.contains("unsafe_code"))
+            && name != WITH_UNSAFE_CODE
+        {
+            breach(at, "unsafe code is in passive-hopper/src/simd.rs alone");
         }
         if code.contains("roots::") && !name.ends_with("hybrid-system/src/bracketed_root.rs") {
             breach(at, "only hybrid-system/src/bracketed_root.rs uses the roots crate");
@@ -191,6 +195,8 @@ mod tests {
         );
         assert_eq!(rules(generic, "//! X.\nuse roots::find_root_brent;\n").len(), 1);
         assert_eq!(rules(generic, "//! X.\nprintln!(\"{x}\");\n").len(), 1);
+        assert_eq!(rules(generic, "//! X.\n#![allow(unsafe_code)]\nunsafe { x() };\n").len(), 2);
+        assert!(rules(WITH_UNSAFE_CODE, "//! X.\nunsafe { x() };\n").is_empty());
         assert_eq!(rules("crates/x/Cargo.toml", "[dependencies]\nserde = \"1\"\n").len(), 1);
         assert!(rules("xtask/src/x.rs", &"\n".repeat(401)).len() == 1);
         assert!(rules(generic, "//! X.\n/// x.unwrap()\n#[cfg(test)]\nassert!(x);\n").is_empty());

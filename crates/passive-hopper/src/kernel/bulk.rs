@@ -10,21 +10,20 @@
 //!
 //! What does not settle is landed again, one by one, by the same functions as a single hop's.
 
-use super::flight::{Branch, Ground, flight, land, step};
+use super::flight::{Ground, flight};
 use super::hop::{FLIGHTS, Sum, ground_after};
-use super::table::{CELLS, Cell, First, Place, Stars, stars};
-use super::turn::Turn;
+use super::landings::{Flights, Landings};
+use super::table::{CELLS, Cell, Eight, First, Place, Stars, stars};
 use crate::simd;
 use std::cell::RefCell;
-use std::f64::consts::PI;
 
 /// Speeds that go through the steps together: their arrays stay in the cache.
-pub(crate) const BLOCK: usize = 256;
+pub(crate) const BLOCK: usize = 512;
 
 /// Lanes of the widest vectors.
-const LANES: usize = 8;
+pub(crate) const LANES: usize = 8;
 
-type Row = [f64; BLOCK];
+pub(crate) type Row = [f64; BLOCK];
 
 /// The speeds of a block, their places, and what becomes of them.
 pub(crate) struct Hops {
@@ -41,34 +40,6 @@ pub(crate) struct Hops {
     next: Row,
 }
 
-/// Flights, those with V < π from the front and those with V ≥ π from the back.
-pub(crate) struct Flights {
-    slow: usize,
-    fast: usize,
-    /// Which speed of the block.
-    index: [u16; BLOCK],
-    excess: Row,
-    velocity: Row,
-    error: Row,
-}
-
-/// Their landings.
-pub(crate) struct Landings {
-    /// Where the search is.
-    h: Row,
-    left: Row,
-    right: Row,
-    side: Row,
-    sure: Row,
-    excess: Row,
-    velocity: Row,
-    error: Row,
-    square: Row,
-    square_error: Row,
-    /// 1 if settled, else 0.
-    settled: Row,
-}
-
 /// The arrays of a block.
 pub(crate) struct Block {
     hops: Hops,
@@ -77,7 +48,7 @@ pub(crate) struct Block {
     pub(crate) landings: Landings,
 }
 
-const ZERO: Row = [0.0; BLOCK];
+pub(crate) const ZERO: Row = [0.0; BLOCK];
 
 impl Block {
     pub(crate) const EMPTY: Block = Block {
@@ -93,19 +64,7 @@ impl Block {
             next: ZERO,
         },
         lists: [const { Flights::EMPTY }; 2],
-        landings: Landings {
-            h: ZERO,
-            left: ZERO,
-            right: ZERO,
-            side: ZERO,
-            sure: ZERO,
-            excess: ZERO,
-            velocity: ZERO,
-            error: ZERO,
-            square: ZERO,
-            square_error: ZERO,
-            settled: ZERO,
-        },
+        landings: Landings::EMPTY,
     };
 
     /// Arrays that a thread makes once; anew where they are in use.
@@ -163,26 +122,8 @@ impl Block {
                 *cell = Cell::get(n as u64);
             }
         }
-        let mut sudden = [0u16; BLOCK];
-        let mut length = 0;
-        for at in 0..count {
-            let cell = cells[hops.cell[at] as usize % CELLS];
-            let closing_speed = cell.closing_speed(hops.piece[at], hops.at[at]);
-            hops.squares[at] = closing_speed * closing_speed;
-            sudden[length % BLOCK] = at as u16;
-            length += hops.sudden[at] as usize;
-            // For a sudden landing Γ is asked for once more.
-            hops.next[at] = closing_speed;
-        }
         list.clear();
-        for &index in sudden.iter().take(length) {
-            let at = usize::from(index) % BLOCK;
-            let cell = cells[hops.cell[at] as usize % CELLS];
-            let beyond = cell.beyond(hops.piece[at], hops.at[at]);
-            let (alpha, closing_speed) = (hops.alpha[at], hops.next[at]);
-            let first = First { half_time: alpha - beyond, beyond, closing_speed };
-            list.push(index, &ground_after(&first, alpha, kappa));
-        }
+        simd::first_flights(hops, &cells, list, (count, kappa));
     }
 
     /// The flights of the list `now`; those that follow go to the other list.
@@ -236,41 +177,6 @@ impl Hops {
     }
 }
 
-impl Flights {
-    pub(crate) const EMPTY: Flights =
-        Flights { slow: 0, fast: 0, index: [0; BLOCK], excess: ZERO, velocity: ZERO, error: ZERO };
-
-    fn clear(&mut self) {
-        (self.slow, self.fast) = (0, 0);
-    }
-
-    #[inline(always)]
-    fn push(&mut self, index: u16, ground: &Ground) {
-        let is_slow = ground.velocity < PI;
-        let at = if is_slow { self.slow } else { BLOCK - 1 - self.fast } % BLOCK;
-        self.slow += usize::from(is_slow);
-        self.fast += usize::from(!is_slow);
-        self.index[at] = index;
-        self.excess[at] = ground.excess;
-        self.velocity[at] = ground.velocity;
-        self.error[at] = ground.error;
-    }
-
-    #[inline(always)]
-    fn ground(&self, at: usize) -> Ground {
-        let (excess, velocity, error) = (self.excess[at], self.velocity[at], self.error[at]);
-        Ground { excess, velocity, error }
-    }
-}
-
-impl Landings {
-    #[inline(always)]
-    fn ground(&self, at: usize) -> Ground {
-        let (excess, velocity, error) = (self.excess[at], self.velocity[at], self.error[at]);
-        Ground { excess, velocity, error }
-    }
-}
-
 /// The places of the first `count` speeds, up to whole vectors.
 #[inline(always)]
 pub(crate) fn places(hops: &mut Hops, stars: &Stars, count: usize) {
@@ -284,6 +190,64 @@ pub(crate) fn places(hops: &mut Hops, stars: &Stars, count: usize) {
         (cell[k], piece[k]) = (place.cell, place.piece);
         (at[k], sudden[k]) = (place.at, place.sudden);
         (errors[k], flights[k]) = (0.0, 1.0);
+    }
+}
+
+/// The first flights of the first `count` speeds, up to whole vectors, and the list of those that follow.
+#[inline(always)]
+pub(crate) fn first<E: Eight>(
+    hops: &mut Hops,
+    cells: &[&Cell; CELLS],
+    list: &mut Flights,
+    (count, kappa): (usize, f64),
+) {
+    let mut sudden = [0u16; BLOCK];
+    let mut length = 0;
+    let (places, _) = hops.cell.as_chunks::<LANES>();
+    let (pieces, _) = hops.piece.as_chunks::<LANES>();
+    let (ats, _) = hops.at.as_chunks::<LANES>();
+    let (suddens, _) = hops.sudden.as_chunks::<LANES>();
+    let (squares, _) = hops.squares.as_chunks_mut::<LANES>();
+    let (nexts, _) = hops.next.as_chunks_mut::<LANES>();
+    for group in 0..count.div_ceil(LANES).min(BLOCK / LANES) {
+        let (place, piece, at) = (&places[group], &pieces[group], &ats[group]);
+        let mut rows = [cells[0].of_closing_speed(0); LANES];
+        for k in 0..LANES {
+            rows[k] = cells[place[k] as usize % CELLS].of_closing_speed(piece[k]);
+        }
+        let closing_speed = E::polynomials(rows, at);
+        for k in 0..LANES {
+            squares[group][k] = closing_speed[k] * closing_speed[k];
+        }
+        // For a sudden landing Γ is asked for once more.
+        nexts[group] = closing_speed;
+        for (k, &is_sudden) in suddens[group].iter().enumerate() {
+            sudden[length % BLOCK] = (group * LANES + k) as u16;
+            length += is_sudden as usize;
+        }
+    }
+    for group in sudden[..length.next_multiple_of(LANES).min(BLOCK)].as_chunks::<LANES>().0 {
+        let (mut alpha, mut closing_speed, mut at) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let mut rows = [cells[0].of_beyond(0); LANES];
+        for (k, &index) in group.iter().enumerate() {
+            let from = usize::from(index) % BLOCK;
+            (alpha[k], closing_speed[k], at[k]) =
+                (hops.alpha[from], hops.next[from], hops.at[from]);
+            rows[k] = cells[hops.cell[from] as usize % CELLS].of_beyond(hops.piece[from]);
+        }
+        let beyond = E::polynomials(rows, &at);
+        let (mut excess, mut velocity, mut error) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        for k in 0..LANES {
+            let (alpha, beyond, closing_speed) = (alpha[k], beyond[k], closing_speed[k]);
+            let first = First { half_time: alpha - beyond, beyond, closing_speed };
+            let ground = ground_after(&first, alpha, kappa);
+            (excess[k], velocity[k], error[k]) = (ground.excess, ground.velocity, ground.error);
+        }
+        for k in 0..length.min(LANES) {
+            let ground = Ground { excess: excess[k], velocity: velocity[k], error: error[k] };
+            list.push(group[k], &ground);
+        }
+        length = length.saturating_sub(LANES);
     }
 }
 
@@ -302,94 +266,5 @@ pub(crate) fn ends(hops: &mut Hops, mu: f64, count: usize) {
         let root = if again { decided.radicand } else { 0.0 }.sqrt();
         let known = if again { root } else { -1.0 };
         next[k] = if sure { known } else { 0.0 };
-    }
-}
-
-/// All landings on the branches of V < π.
-#[inline(always)]
-pub(crate) fn land_slow(list: &Flights, landings: &mut Landings, kappa: f64) {
-    land_all::<false>(list, 0, list.slow, landings, kappa);
-}
-
-/// All landings on the branches of V ≥ π.
-#[inline(always)]
-pub(crate) fn land_fast(list: &Flights, landings: &mut Landings, kappa: f64) {
-    land_all::<true>(list, BLOCK - list.fast.min(BLOCK), BLOCK, landings, kappa);
-}
-
-/// All landings from `begin` to `end`: loops without a branch, and short enough that a processor has several
-/// vectors under way.
-#[inline(always)]
-fn land_all<const FAST: bool>(
-    list: &Flights,
-    begin: usize,
-    end: usize,
-    landings: &mut Landings,
-    kappa: f64,
-) {
-    // Whole vectors: what lies beyond is old, lands as well and is not looked at. And slices of one length: no
-    // bounds to check, no exit but the end.
-    let (begin, end) = (begin / LANES * LANES, end.next_multiple_of(LANES).min(BLOCK));
-    let Some(count) = end.checked_sub(begin) else { return };
-    let (excess, velocity) = (&list.excess[begin..end], &list.velocity[begin..end]);
-    let error = &list.error[begin..end];
-    let h = &mut landings.h[begin..end];
-    let (left, right) = (&mut landings.left[begin..end], &mut landings.right[begin..end]);
-    let (side, sure) = (&mut landings.side[begin..end], &mut landings.sure[begin..end]);
-    let ground =
-        |at: usize| Ground { excess: excess[at], velocity: velocity[at], error: error[at] };
-    for at in 0..count {
-        let branch = if FAST { Branch::fast(&ground(at)) } else { Branch::slow(&ground(at)) };
-        h[at] = branch.first();
-        (left[at], right[at]) = (branch.left, branch.right);
-        (side[at], sure[at]) = (branch.side, branch.sure);
-    }
-    let branch = |at: usize, left: &[f64], right: &[f64], side: &[f64], sure: &[f64]| Branch {
-        left: left[at],
-        right: right[at],
-        side: side[at],
-        sure: sure[at],
-        start: 0.0,
-    };
-    for at in 0..count {
-        let turn = Turn::at(h[at]);
-        let branch = branch(at, left, right, side, sure);
-        h[at] = branch.moved(turn.h, step(&turn, &ground(at)));
-    }
-    let (to_excess, to_velocity) =
-        (&mut landings.excess[begin..end], &mut landings.velocity[begin..end]);
-    let (to_error, square) = (&mut landings.error[begin..end], &mut landings.square[begin..end]);
-    let (square_error, settled) =
-        (&mut landings.square_error[begin..end], &mut landings.settled[begin..end]);
-    for at in 0..count {
-        let turn = Turn::at(h[at]);
-        let (ground, branch) = (ground(at), branch(at, left, right, side, sure));
-        let landed = land(&turn, step(&turn, &ground), &ground, &branch, kappa);
-        to_excess[at] = landed.ground.excess;
-        to_velocity[at] = landed.ground.velocity;
-        to_error[at] = landed.ground.error;
-        square[at] = landed.square;
-        square_error[at] = landed.square_error;
-        settled[at] = if landed.settled { 1.0 } else { 0.0 };
-    }
-}
-
-#[cfg(test)]
-impl Flights {
-    pub(crate) fn add(&mut self, index: u16, [excess, velocity, error]: [f64; 3]) {
-        self.push(index, &Ground { excess, velocity, error });
-    }
-}
-
-#[cfg(test)]
-impl Landings {
-    pub(crate) fn same_bits(&self, other: &Self) -> bool {
-        let rows = |landings: &Self| {
-            let Landings { excess, velocity, error, square, square_error, settled, h, .. } =
-                *landings;
-            [excess, velocity, error, square, square_error, settled, h]
-        };
-        let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits() || (a.is_nan() && b.is_nan());
-        rows(self).iter().flatten().zip(rows(other).iter().flatten()).all(same)
     }
 }

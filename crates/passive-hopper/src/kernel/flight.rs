@@ -72,11 +72,11 @@ impl Branch {
         let turns = velocity * FRAC_1_PI;
         let (m, parity) = nearest(turns - 0.5);
         let part = turns - m;
-        let turn = Turn::at(velocity);
+        let turn = Turn::near(velocity);
         let test = turned(velocity * turn.cos - (1.0 + excess) * turn.sin, parity);
         let before = (test >= 0.0) & (part < 0.5);
         let size = 4.0 * (1.0 + excess + velocity);
-        let slack = LANDING_ULPS * f64::EPSILON * size + error + size * error;
+        let slack = 1e-8 * size + error + size * error;
         let (low, high) = (m * PI, (m + 1.0) * PI);
         let sure = (test.abs() > slack) & (part > 1e-9) & (part < 1.0 - 1e-9) & (velocity < 128.0);
         Branch {
@@ -119,6 +119,18 @@ pub(crate) fn step(turn: &Turn, ground: &Ground) -> f64 {
     -f * (slope - 0.5 * f * second) / (first * (slope - f * second) + f * f * third * (1.0 / 6.0))
 }
 
+/// The step of order three (Halley's) on the same function: enough for the last one.
+#[inline(always)]
+pub(crate) fn last_step(turn: &Turn, ground: &Ground) -> f64 {
+    let Turn { h, sin, cos, d, .. } = *turn;
+    let (y, v) = (1.0 + ground.excess, ground.velocity);
+    let (square, product) = (sin * sin, sin * cos);
+    let f = (h * h - y * square) - v * d;
+    let half_first = h - y * product - v * square;
+    let half_second = 1.0 - y * (1.0 - 2.0 * square) - 2.0 * (v * product);
+    -f * half_first / (2.0 * (half_first * half_first) - 0.5 * (f * half_second))
+}
+
 /// The landing a last `step` away from `turn`.
 #[inline(always)]
 pub(crate) fn land(turn: &Turn, step: f64, ground: &Ground, branch: &Branch, kappa: f64) -> Landed {
@@ -145,8 +157,7 @@ pub(crate) fn land(turn: &Turn, step: f64, ground: &Ground, branch: &Branch, kap
     let rounding = LANDING_ULPS * f64::EPSILON * size;
     let before = error + 4.0 * f64::EPSILON * size;
     let time_error = 2.0 * (square + d) * before * per_speed;
-    let double = 1.0 - 2.0 * square;
-    let rate = (v * double - 2.0 * y * product).abs() + 1e-5 * size;
+    let rate = (v * (1.0 - 2.0 * square) - 2.0 * y * product).abs() + 1e-5 * size;
     let excess_error = rounding + 1.5 * before + rate * time_error;
     let closing_error = 2.5 * before + excess.abs() * time_error;
     let velocity_error = rounding + before + time_error + kappa * closing_error;
@@ -190,10 +201,10 @@ fn turn_by(turn: &Turn, e: f64) -> Turn {
 #[inline]
 pub(crate) fn flight(ground: &Ground, kappa: f64) -> Option<Landed> {
     let branch = if ground.velocity < PI { Branch::slow(ground) } else { Branch::fast(ground) };
-    let mut turn = Turn::at(branch.first());
+    let mut turn = Turn::near(branch.first());
     for _ in 0..STEPS {
         turn = Turn::at(branch.moved(turn.h, step(&turn, ground)));
-        let last = step(&turn, ground);
+        let last = last_step(&turn, ground);
         if last.abs() <= LAST_STEP {
             let landed = land(&turn, last, ground, &branch, kappa);
             if landed.settled {

@@ -14,6 +14,7 @@
 pub(crate) mod bulk;
 pub(crate) mod flight;
 pub(crate) mod hop;
+pub(crate) mod landings;
 mod start;
 pub(crate) mod table;
 mod turn;

@@ -3,7 +3,8 @@
 //! In the cell (nπ, (n+1)π) the landing depends on δ = α − α*_n alone, and all that is not analytic in it
 //! is the cube root at δ = 0 (theory: c). On pieces whose length is a 16th of their distance from there, α − h
 //! and Γ are polynomials of degree 7, to an ulp. The pieces are the numbers of one sign with the same exponent
-//! and the same first four bits: an index needs no search.
+//! and the same first four bits: an index needs no search. They are counted from α*_n as `f64` has it, so that
+//! a place is exact.
 
 use super::turn::nearest;
 use crate::double_double::DoubleDouble;
@@ -29,7 +30,7 @@ const PIECES: usize = 16 * OCTAVES;
 const NEAR_END: f64 = 1e-7;
 
 /// Coefficients by powers of the place on a piece, in [−1, 1].
-type Piece = [f64; COEFFICIENTS];
+pub(crate) type Piece = [f64; COEFFICIENTS];
 
 /// The pieces of a cell: those above α*_n, then those below, and one that gives no number.
 #[derive(Debug)]
@@ -76,17 +77,11 @@ static TABLES: [OnceLock<Box<Cell>>; CELLS] = [const { OnceLock::new() }; CELLS]
 /// What stands for cells that are not made yet.
 static NO_CELL: Cell = Cell::EMPTY;
 
-/// α*_n in two parts, each in a row.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Stars {
-    high: [f64; CELLS],
-    low: [f64; CELLS],
-}
+/// α*_n, rounded: what the pieces are counted from.
+pub(crate) type Stars = [f64; CELLS];
 
-static STARS: LazyLock<Stars> = LazyLock::new(|| {
-    let stars: [DoubleDouble; CELLS] = std::array::from_fn(|n| alpha_star(n as u64));
-    Stars { high: stars.map(|star| star.high), low: stars.map(|star| star.low) }
-});
+static STARS: LazyLock<Stars> =
+    LazyLock::new(|| std::array::from_fn(|n| alpha_star(n as u64).high));
 
 /// α*_n, for all cells with a table.
 #[inline(always)]
@@ -105,8 +100,7 @@ impl Place {
         let (n, bits) = nearest(turns - 0.5);
         let part = turns - n;
         let cell = bits & (CELLS as u64 - 1);
-        let at = cell as usize;
-        let delta = (alpha - stars.high[at]) - stars.low[at];
+        let delta = alpha - stars[cell as usize]; // exact
         let bits = delta.to_bits() & (u64::MAX >> 1);
         let index = (bits >> 48).wrapping_sub(FIRST_OCTAVE << 4);
         let sudden = delta.to_bits() >> 63;
@@ -127,8 +121,8 @@ impl Place {
             return None;
         }
         let cell = Cell::get(self.cell);
-        let beyond = cell.beyond(self.piece, self.at);
-        let closing_speed = cell.closing_speed(self.piece, self.at);
+        let beyond = polynomial(cell.of_beyond(self.piece), self.at);
+        let closing_speed = polynomial(cell.of_closing_speed(self.piece), self.at);
         Some(First { half_time: alpha - beyond, beyond, closing_speed })
     }
 }
@@ -155,21 +149,21 @@ impl Cell {
         std::array::from_fn(|n| TABLES[n].get().map_or(&NO_CELL, |cell| &**cell))
     }
 
-    /// Γ.
+    /// The coefficients of Γ.
     #[inline(always)]
-    pub(crate) fn closing_speed(&self, piece: u64, at: f64) -> f64 {
-        polynomial(&self.closing_speed[piece as usize % SLOTS], at)
+    pub(crate) fn of_closing_speed(&self, piece: u64) -> &Piece {
+        &self.closing_speed[piece as usize % SLOTS]
     }
 
-    /// α − h.
+    /// The coefficients of α − h.
     #[inline(always)]
-    pub(crate) fn beyond(&self, piece: u64, at: f64) -> f64 {
-        polynomial(&self.beyond[piece as usize % SLOTS], at)
+    pub(crate) fn of_beyond(&self, piece: u64) -> &Piece {
+        &self.beyond[piece as usize % SLOTS]
     }
 
     #[cold]
     fn new(n: u64) -> Box<Self> {
-        let star = alpha_star(n);
+        let star = DoubleDouble::from(alpha_star(n).high);
         let end = |turns: u64| (DoubleDouble::multiple_of_pi(turns as f64) - star).high.abs();
         let mut cell = Box::new(Cell::EMPTY);
         for (side, sign, turns) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
@@ -190,6 +184,23 @@ fn left_end(index: usize) -> f64 {
     f64::from_bits((FIRST_OCTAVE << 52) + ((index as u64) << 48))
 }
 
+/// Polynomials of eight places at once.
+pub(crate) trait Eight {
+    /// Those with the coefficients of `rows`, each at its place.
+    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8];
+}
+
+/// One by one.
+pub(crate) struct OneByOne;
+
+impl Eight for OneByOne {
+    #[inline(always)]
+    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8] {
+        std::array::from_fn(|k| polynomial(rows[k], at[k]))
+    }
+}
+
+/// A polynomial of degree seven.
 #[inline(always)]
 fn polynomial(c: &Piece, x: f64) -> f64 {
     let square = x * x;

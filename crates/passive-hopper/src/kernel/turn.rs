@@ -1,5 +1,7 @@
 //! Sine and cosine of half a flight's time, and what is made of them, without a branch.
 
+use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+
 /// S = sin h, C = cos h, D = h − SC, u = hC − S.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Turn {
@@ -57,16 +59,38 @@ fn polynomial(c: &[f64; 6], z: f64) -> f64 {
     low + (square * square) * (c[4] + c[5] * z)
 }
 
+/// Its first four terms.
+#[inline(always)]
+fn cubic(c: &[f64; 6], z: f64) -> f64 {
+    (c[0] + c[1] * z) + (z * z) * (c[2] + c[3] * z)
+}
+
 impl Turn {
     /// The functions of `h`, 0 < h < 2²⁰: S and C to 1.2 ulps, D and u without the cancellation at small h.
     #[inline(always)]
     pub(crate) fn at(h: f64) -> Self {
-        let (quarters, bits) = nearest(h * std::f64::consts::FRAC_2_PI);
+        let (quarters, bits) = nearest(h * FRAC_2_PI);
         let [a, b, c] = HALF_PI;
         let r = ((h - quarters * a) - quarters * b) - quarters * c; // the products and the first difference are exact
         let z = r * r;
-        let s = (r * z) * polynomial(&SIN, z); // sin r − r
-        let versine = z * (0.5 - z * polynomial(&COS, z)); // 1 − cos r
+        Turn::reduced(h, (quarters, bits, r), polynomial(&SIN, z), polynomial(&COS, z))
+    }
+
+    /// The same to eight digits: enough for a first step.
+    #[inline(always)]
+    pub(crate) fn near(h: f64) -> Self {
+        let (quarters, bits) = nearest(h * FRAC_2_PI);
+        let r = h - quarters * FRAC_PI_2;
+        let z = r * r;
+        Turn::reduced(h, (quarters, bits, r), cubic(&SIN, z), cubic(&COS, z))
+    }
+
+    /// From h = r + quarters·π/2, with (sin r − r)/r³ and (½ − (1 − cos r)/r²)/r².
+    #[inline(always)]
+    fn reduced(h: f64, (quarters, bits, r): (f64, u64, f64), of_sin: f64, of_cos: f64) -> Self {
+        let z = r * r;
+        let s = (r * z) * of_sin; // sin r − r
+        let versine = z * (0.5 - z * of_cos); // 1 − cos r
         let (sin_r, cos_r) = (r + s, 1.0 - versine);
         let swapped = bits & 1 == 1;
         let sin = turned(if swapped { cos_r } else { sin_r }, bits >> 1);
@@ -109,6 +133,9 @@ mod tests {
             for h in [h, h * pxfm::f_exp10(exponent)] {
                 let (turn, exact) = (Turn::at(h), HalfFlight::at(h));
                 prop_assert!(ulps(turn.sin, exact.sin) <= 1.2 && ulps(turn.cos, exact.cos) <= 1.2);
+                let near = Turn::near(h);
+                prop_assert!((near.sin - exact.sin).abs() < 1e-8 && (near.cos - exact.cos).abs() < 1e-8);
+                prop_assert!((near.d / exact.d - 1.0).abs() < 1e-7);
                 prop_assert!((turn.d / exact.d - 1.0).abs() < 4e-15);
                 prop_assert!((turn.u - exact.u).abs() < 4e-15 * exact.u.abs() + 4e-16 * h * h.min(1.0));
             }
