@@ -16,16 +16,20 @@ fn has_avx512() -> bool {
         && is_x86_feature_detected!("avx512bw")
 }
 
-/// A function that runs a loop, compiled for the widest vectors that the processor has.
-macro_rules! widest {
-    ($(#[$about:meta])* $name:ident = $body:path, ($($argument:ident: $of:ty),*)) => {
+/// A function compiled for the best instructions that the processor has: `$body`, and with AVX-512 `$eight`.
+macro_rules! best {
+    (
+        $(#[$about:meta])*
+        $name:ident = $body:path | $eight:path,
+        ($($argument:ident: $of:ty),*)
+    ) => {
         $(#[$about])*
         pub(crate) fn $name($($argument: $of),*) {
             #[cfg(target_arch = "x86_64")]
             {
                 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
                 fn with_avx512($($argument: $of),*) {
-                    $body($($argument),*);
+                    $eight($($argument),*);
                 }
                 #[target_feature(enable = "avx2")]
                 fn with_avx2($($argument: $of),*) {
@@ -45,52 +49,31 @@ macro_rules! widest {
     };
 }
 
-widest!(
+best!(
     /// See [`bulk::places`].
-    places = bulk::places,
+    places = bulk::places | bulk::places,
     (hops: &mut Hops, stars: &Stars, count: usize)
 );
-widest!(
+best!(
+    /// See [`bulk::first`].
+    first_flights = bulk::first::<OneByOne> | bulk::first::<Turned>,
+    (hops: &mut Hops, cells: &[&Cell; CELLS], list: &mut Flights, count: usize, kappa: f64)
+);
+best!(
     /// See [`landings::land_slow`].
-    slow_landings = landings::land_slow,
+    slow_landings = landings::land_slow | landings::land_slow,
     (list: &Flights, landings: &mut Landings, kappa: f64)
 );
-widest!(
+best!(
     /// See [`landings::land_fast`].
-    fast_landings = landings::land_fast,
+    fast_landings = landings::land_fast | landings::land_fast,
     (list: &Flights, landings: &mut Landings, kappa: f64)
 );
-widest!(
+best!(
     /// See [`bulk::ends`].
-    ends = bulk::ends,
+    ends = bulk::ends | bulk::ends,
     (hops: &mut Hops, mu: f64, count: usize)
 );
-
-/// See [`bulk::first`].
-pub(crate) fn first_flights(
-    hops: &mut Hops,
-    cells: &[&Cell; CELLS],
-    list: &mut Flights,
-    (count, kappa): (usize, f64),
-) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
-        fn with_avx512(
-            hops: &mut Hops,
-            cells: &[&Cell; CELLS],
-            list: &mut Flights,
-            (count, kappa): (usize, f64),
-        ) {
-            bulk::first::<Turned>(hops, cells, list, (count, kappa));
-        }
-        if has_avx512() {
-            // SAFETY: the processor has these instructions.
-            return unsafe { with_avx512(hops, cells, list, (count, kappa)) };
-        }
-    }
-    bulk::first::<OneByOne>(hops, cells, list, (count, kappa));
-}
 
 /// Eight rows of coefficients turned into columns, for AVX-512.
 #[cfg(target_arch = "x86_64")]

@@ -123,7 +123,7 @@ impl Block {
             }
         }
         list.clear();
-        simd::first_flights(hops, &cells, list, (count, kappa));
+        simd::first_flights(hops, &cells, list, count, kappa);
     }
 
     /// The flights of the list `now`; those that follow go to the other list.
@@ -199,7 +199,8 @@ pub(crate) fn first<E: Eight>(
     hops: &mut Hops,
     cells: &[&Cell; CELLS],
     list: &mut Flights,
-    (count, kappa): (usize, f64),
+    count: usize,
+    kappa: f64,
 ) {
     let mut sudden = [0u16; BLOCK];
     let mut length = 0;
