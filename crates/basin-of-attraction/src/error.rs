@@ -34,11 +34,13 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// A column with another number of labels than the raster has rows.
-    #[error("a column has {labels} labels, not {rows}")]
-    BadColumn {
+    /// A strip with other columns than the raster has, or another number of labels.
+    #[error("a strip of {columns} columns and {rows} rows has {found} labels")]
+    BadStrip {
         /// Its labels.
-        labels: usize,
+        found: usize,
+        /// Number of columns.
+        columns: usize,
         /// Number of rows.
         rows: usize,
     },

@@ -74,7 +74,7 @@ pub use interval_basins::{Ended, IntervalBasins, Part, Refinement, interval_basi
 pub use power_law::{PowerLaw, Warning, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{Node, PreimageTree, Remainder, geometric_limit};
-pub use raster::{Grid, LabelImage, LegendEntry, raster, raster_by_columns};
+pub use raster::{Grid, LabelImage, LegendEntry, raster, raster_by_strips};
 pub use sampling::{
     equally_spaced_counts, equally_spaced_shares, low_discrepancy_shares, random_shares,
 };

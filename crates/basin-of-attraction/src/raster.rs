@@ -97,50 +97,69 @@ pub fn raster<C>(
     label: impl Fn(&C, f64) -> u16 + Sync,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, Error> {
-    let column = |x: f64, ys: &[f64]| {
+    let column = |&x: &f64, ys: &[f64]| {
         let shared = prepare(x);
         ys.iter().map(|&y| label(&shared, y)).collect()
     };
-    raster_by_columns(grid, column, progress)
+    let strip = |xs: &[f64], ys: &[f64]| xs.iter().map(|x| column(x, ys)).collect();
+    raster_by_strips(grid, 1, strip, progress)
 }
 
-/// Labels every pixel of `grid` by its middle, a column at a time, in parallel.
+/// Labels every pixel of `grid` by its middle, in strips of `width` columns, in parallel.
 ///
-/// `column` takes x and all y of the grid in increasing order, and gives as many labels: whoever can label many
-/// points faster together than one by one. The rest is as for [`raster`].
+/// `strip` takes the x of neighbouring columns and all y of the grid, both in increasing order, and gives the labels
+/// of every column: whoever can label many points faster together than one by one. The rest is as for [`raster`].
+///
+/// ```
+/// use basin_of_attraction::{Grid, Interval, raster_by_strips};
+/// use std::ops::ControlFlow::Continue;
+/// let unit = Interval::new(0.0, 1.0)?;
+/// let grid = Grid { x: unit, y: unit, columns: 4, rows: 4 };
+/// let column = |x: f64, ys: &[f64]| ys.iter().map(|&y| u16::from(y > x)).collect();
+/// let strip = |xs: &[f64], ys: &[f64]| xs.iter().map(|&x| column(x, ys)).collect();
+/// let image = raster_by_strips(grid, 2, strip, |_| Continue(()))?;
+/// assert_eq!(image.counts(), [(0, 10), (1, 6)]);
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
 ///
 /// # Errors
-/// As [`raster`], and [`Error::BadColumn`] for a column with another number of labels.
-pub fn raster_by_columns(
+/// As [`raster`], and [`Error::BadStrip`] for a strip with another number of columns or labels.
+pub fn raster_by_strips(
     grid: Grid,
-    column: impl Fn(f64, &[f64]) -> Vec<u16> + Sync,
+    width: usize,
+    strip: impl Fn(&[f64], &[f64]) -> Vec<Vec<u16>> + Sync,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, Error> {
     let Grid { columns, rows, .. } = grid;
     let pixels = columns.checked_mul(rows).filter(|&pixels| pixels > 0 && pixels <= 1 << 34);
     let Some(pixels) = pixels else { return Err(Error::BadRaster { columns, rows }) };
     let ys: Vec<f64> = (0..rows).map(|row| grid.y_at(row)).collect();
+    let xs: Vec<f64> = (0..columns).map(|column| grid.x_at(column)).collect();
     let finished = AtomicUsize::new(0);
     let interrupted = AtomicBool::new(false);
-    let by_column: Vec<Vec<u16>> = (0..columns)
-        .into_par_iter()
-        .map(|at| {
+    let by_column: Vec<Vec<u16>> = xs
+        .par_chunks(width.max(1))
+        .map(|xs| {
             if interrupted.load(Ordering::Relaxed) {
-                return Vec::new();
+                return Ok(Vec::new());
             }
-            let labels = column(grid.x_at(at), &ys);
-            let done = finished.fetch_add(1, Ordering::Relaxed) + 1;
+            let labels = strip(xs, &ys);
+            if labels.len() != xs.len() || labels.iter().any(|column| column.len() != rows) {
+                let found = labels.iter().map(Vec::len).sum();
+                return Err(Error::BadStrip { found, columns: xs.len(), rows });
+            }
+            let done = finished.fetch_add(xs.len(), Ordering::Relaxed) + xs.len();
             if progress(done).is_break() {
                 interrupted.store(true, Ordering::Relaxed);
             }
-            labels
+            Ok(labels)
         })
+        .collect::<Result<Vec<_>, Error>>()?
+        .into_iter()
+        .flatten()
         .collect();
     if interrupted.into_inner() {
         return Err(Error::Interrupted { finished: finished.into_inner(), columns });
-    }
-    if let Some(bad) = by_column.iter().find(|labels| labels.len() != rows) {
-        return Err(Error::BadColumn { labels: bad.len(), rows });
     }
     let mut labels = vec![0; pixels];
     // Row by row: the writes follow one another, and the columns' next labels are in the cache.

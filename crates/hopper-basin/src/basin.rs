@@ -1,9 +1,10 @@
 //! Basins at a fixed mass ratio, and over the plane of mass ratio and lift-off speed.
 
+use crate::labels::labels_of_all;
 use crate::{Error, Fates, HopperFate, TrapEdge};
 use basin_of_attraction::{
     Branch, Grid, Interval, IntervalSet, LabelImage, equally_spaced_counts, monotone_branches,
-    preimage_levels, raster_by_columns,
+    preimage_levels, raster_by_strips,
 };
 use passive_hopper::{MassRatio, alpha_star};
 use std::collections::BTreeMap;
@@ -61,7 +62,7 @@ pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Resul
 ///
 /// # Errors
 /// [`Error::Window`] unless the speeds are positive and their fixed points have labels, errors of
-/// [`MassRatio::new`] and of [`raster_by_columns`].
+/// [`MassRatio::new`] and of [`raster_by_strips`].
 pub fn basin_raster(
     grid: Grid,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
@@ -76,12 +77,15 @@ pub fn basin_raster(
             Fates::new(MassRatio::new(grid.x_at(column))?)?;
         }
     }
-    let prepare = |m: f64| MassRatio::new(m).map_err(Error::from).and_then(Fates::new).ok();
-    let labels = |m: f64, speeds: &[f64]| match prepare(m) {
-        Some(fates) => fates.labels(speeds),
-        None => vec![HopperFate::UNDECIDED_HOP; speeds.len()],
-    };
-    Ok(raster_by_columns(grid, labels, progress)?)
+    let prepare = |m: &f64| Fates::new(MassRatio::new(*m)?);
+    let strip =
+        |ms: &[f64], speeds: &[f64]| match ms.iter().map(prepare).collect::<Result<Vec<_>, _>>() {
+            Ok(fates) => labels_of_all(&fates.iter().collect::<Vec<_>>(), speeds),
+            Err(_) => vec![vec![HopperFate::UNDECIDED_HOP; speeds.len()]; ms.len()],
+        };
+    // As much as stays in a processor's cache, and work for many threads.
+    let width = (16_384 / grid.rows.max(1)).min(grid.columns / 16).clamp(1, 16);
+    Ok(raster_by_strips(grid, width, strip, progress)?)
 }
 
 /// The monotone branches of the map from α*_`from` to α*_`to`.

@@ -1,9 +1,9 @@
 //! What two lift-off speeds have in common with all that lie between them.
 //!
 //! If the orbits of two speeds visit the same arcs on which the map is monotone and continuous, one after the other,
-//! and then enter the same interval of known fate, a trap to begin with, so does every orbit that starts between them: it stays between theirs. That is true
-//! of the orbits that `f64` computes as well if the two keep away from the ends of arcs and intervals by more than the
-//! errors handed on: from hop to hop a distance g becomes at most
+//! and then enter the same trap, or are grounded, so does every orbit that starts between them: it stays between
+//! theirs. That is true of the orbits that `f64` computes as well if the two keep away from the ends of arcs and traps
+//! by more than the errors handed on: from hop to hop a distance g becomes at most
 //!
 //! ```text
 //!   (α/α′) (s g + 8ε (s + 2) α)          s = |α′ (dα′/dα)/α| at most, 8ε … twice the error of one hop
@@ -12,75 +12,92 @@
 //! and a quarter more for the curvature of the root, while it is under a tenth of α′.
 
 use crate::arcs::Arcs;
-use crate::orbits::Known;
+use crate::known::Known;
 use passive_hopper::LiftOffMap;
 
-/// Hops that an itinerary can hold.
-const LONGEST: u32 = 12;
+/// An end that is none yet.
+const ON_THE_WAY: u32 = u32::MAX - 1;
 
-/// The arcs an orbit visits, as far as it has gone.
+/// The ground.
+const GROUND: u32 = u32::MAX - 2;
+
+/// The arcs an orbit visits, and its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Itinerary {
-    /// Five bits an arc.
+    /// Five bits an arc, after a one.
     arcs: u64,
-    hops: u32,
-    /// The interval of known fate that it ends in; none for the ground.
+    /// The trap.
     end: u32,
-    /// Whether it has come to its end.
-    pub(crate) ended: bool,
-    /// Whether it keeps away from all ends.
-    pub(crate) sure: bool,
-    /// Distance within which computed orbits stay.
-    pad: f64,
+    /// Distance within which computed orbits stay; infinite if nothing is sure.
+    pad: f32,
 }
 
 impl Itinerary {
     /// Before the first hop.
-    pub(crate) const START: Itinerary =
-        Itinerary { arcs: 0, hops: 0, end: u32::MAX, ended: false, sure: true, pad: 0.0 };
+    pub(crate) const START: Itinerary = Itinerary { arcs: 1, end: ON_THE_WAY, pad: 0.0 };
 
     /// Goes on with a hop from `alpha` to `next`, or to the ground.
     #[inline]
     pub(crate) fn hop(&mut self, alpha: f64, next: Option<f64>, arcs: &Arcs, map: &LiftOffMap) {
-        if !self.sure {
+        if self.pad == f32::INFINITY {
             return;
         }
-        let Some(arc) = arcs.arc(alpha, self.pad).filter(|_| self.hops < LONGEST) else {
-            self.sure = false;
-            return;
+        let pad = f64::from(self.pad);
+        let room = self.arcs >> 59 == 0;
+        let Some(arc) = arcs.arc(alpha, pad).filter(|_| room) else {
+            return self.give_up();
         };
         self.arcs = self.arcs << 5 | u64::from(arc.id);
-        self.hops += 1;
-        let handed_on = arc.slope * self.pad + 8.0 * f64::EPSILON * (arc.slope + 2.0) * alpha;
+        let handed_on = arc.slope * pad + 8.0 * f64::EPSILON * (arc.slope + 2.0) * alpha;
         match next {
             Some(next) => {
-                self.pad = 1.25 * (alpha / next) * handed_on;
-                self.sure = self.pad < 0.1 * next;
+                let pad = 1.25 * (alpha / next) * handed_on;
+                // Rounded up.
+                self.pad = if pad < 0.1 * next { (1.000_001 * pad) as f32 } else { f32::INFINITY };
             }
             // All between are grounded if α′² < 0 by more than what the distance can change of it.
             None => {
                 let margin = 4.0 * alpha * handed_on;
-                self.sure = map.hop(alpha).is_ok_and(|hop| hop.radicand < -margin);
+                self.end = GROUND;
+                if !map.hop(alpha).is_ok_and(|hop| hop.radicand < -margin) {
+                    self.give_up();
+                }
             }
         }
     }
 
-    /// Ends in an interval of known fate.
+    /// Nothing is sure any more.
     #[inline]
-    pub(crate) fn ends_in(&mut self, alpha: f64, known: &Known) {
+    pub(crate) fn give_up(&mut self) {
+        self.pad = f32::INFINITY;
+    }
+
+    /// Comes to `alpha` in an interval of known fate, and goes on as all do from there.
+    #[inline]
+    pub(crate) fn end_in(&mut self, alpha: f64, known: &Known) {
         let (left, right) = known.between;
-        self.end = known.id;
-        self.sure &= alpha - left > self.pad && right - alpha > self.pad;
+        let pad = f64::from(self.pad);
+        let follow = 63 - known.arcs.leading_zeros();
+        let room = self.arcs.leading_zeros() >= follow;
+        self.end = known.end;
+        self.arcs = self.arcs << follow | (known.arcs ^ 1 << follow);
+        if !(room && alpha - left > pad && right - alpha > pad) {
+            self.give_up();
+        }
     }
 
     /// Whether what lies between ends as the two do.
     #[inline]
     pub(crate) fn leads_as(&self, other: &Self) -> bool {
-        let same = self.hops == other.hops && self.arcs == other.arcs && self.end == other.end;
-        same && self.sure && other.sure
+        let sure = self.pad.max(other.pad) < f32::INFINITY;
+        sure && self.arcs == other.arcs && self.end == other.end
+    }
+
+    /// The same as an interval.
+    pub(crate) fn known(&self, label: u16, between: (f64, f64)) -> Known {
+        Known { label, end: self.end, arcs: self.arcs, between }
     }
 }
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -116,11 +133,11 @@ mod tests {
             common += 1;
             for part in [0.1, 0.5, 0.9] {
                 let (between, orbit) = follow(a + part * (b - a));
-                assert!(between.leads_as(&first) || !between.sure, "{a} {b}");
+                assert!(between.leads_as(&first) || between.pad == f32::INFINITY, "{a} {b}");
                 assert_eq!(orbit.len(), from.len());
                 for ((low, high), at) in from.iter().zip(&to).zip(orbit) {
-                    let (low, high) = (low.min(*high), low.max(*high));
-                    assert!(at >= low - first.pad && at <= high + first.pad, "{a} {b}: {at}");
+                    let (low, high, pad) = (low.min(*high), low.max(*high), f64::from(first.pad));
+                    assert!(at >= low - pad && at <= high + pad, "{a} {b}: {at}");
                 }
             }
         }

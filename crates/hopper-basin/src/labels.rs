@@ -1,21 +1,17 @@
-//! The fates of many lift-off speeds at one mass ratio, hop by hop together.
+//! The fates of many lift-off speeds, hop by hop together.
 
-use crate::arcs::Arcs;
-use crate::column::{Column, from_zero};
-use crate::ladder::Ladder;
-use crate::orbits::{OPEN, Orbits};
-use crate::{Fates, HopperFate};
+use crate::{Fates, HopperFate, strip};
 
-/// Fewer speeds are all followed: there is little between them that has a common itinerary.
-const MANY: usize = 64;
+/// Fewer speeds go one by one.
+const FEW: usize = 32;
 
 impl Fates {
     /// The [labels](HopperFate::label) of the fates of all `speeds`, those that [`fate`](Self::fate) gives one
     /// by one; a speed that it refuses has the label of an undecided hop.
     ///
-    /// The orbits hop together, as [`LiftOffMap::images`](passive_hopper::LiftOffMap::images) does. Of speeds in
-    /// increasing order not all are followed: what lies between two orbits that visit the same arcs of the map, on
-    /// which it is proved to be monotone, ends as they do.
+    /// The orbits hop together, as [`LiftOffMap::images`](passive_hopper::LiftOffMap::images) does, and not all are
+    /// followed: what lies between two orbits that visit the same arcs of the map, on which it is proved to be
+    /// monotone, ends as they do.
     ///
     /// ```
     /// use hopper_basin::{Fates, HopperFate};
@@ -25,32 +21,33 @@ impl Fates {
     /// # Ok::<(), hopper_basin::Error>(())
     /// ```
     pub fn labels(&self, speeds: &[f64]) -> Vec<u16> {
-        let mut labels = vec![OPEN; speeds.len()];
-        let largest = speeds.iter().fold(0.0, |a: f64, &b| if b > a { b } else { a });
-        let Ok(ladder) = Ladder::below(self, largest) else {
-            return speeds.iter().map(|&speed| self.label_of(speed)).collect();
-        };
-        let many = speeds.len() >= MANY && speeds.is_sorted();
-        match many.then(|| Arcs::below(self.map().mass_ratio(), largest)) {
-            Some(Ok(Some(arcs))) => {
-                let (all, first) = from_zero(speeds);
-                let mut all_labels = vec![OPEN; all.len()];
-                Column::new(self, &ladder, &arcs, (&all, first)).label(&mut all_labels);
-                labels.copy_from_slice(&all_labels[first..]);
-            }
-            _ => {
-                let mut orbits = Orbits::new(self, &ladder, speeds, ());
-                orbits.add(0..speeds.len() as u32, &mut labels, &mut []);
-                while !orbits.is_empty() {
-                    orbits.hop(&(), &mut labels, &mut []);
-                }
-            }
-        }
-        labels
+        labels_of_all(&[self], speeds).pop().unwrap_or_default()
     }
 
     /// The label of one fate.
     pub(crate) fn label_of(&self, alpha: f64) -> u16 {
         self.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label)
     }
+}
+
+/// The labels of `speeds` at every mass ratio.
+pub(crate) fn labels_of_all(all: &[&Fates], speeds: &[f64]) -> Vec<Vec<u16>> {
+    let one_by_one = |fates: &&Fates| speeds.iter().map(|&speed| fates.label_of(speed)).collect();
+    let mut order: Vec<usize> = (0..speeds.len()).filter(|&at| speeds[at] > 0.0).collect();
+    if order.len() < FEW {
+        return all.iter().map(one_by_one).collect();
+    }
+    order.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
+    let sorted: Vec<f64> = order.iter().map(|&at| speeds[at]).collect();
+    let Ok(found) = strip::labels(all, &sorted) else {
+        return all.iter().map(one_by_one).collect();
+    };
+    let in_order = |labels: Vec<u16>| {
+        let mut all = vec![HopperFate::UNDECIDED_HOP; speeds.len()];
+        for (&at, label) in order.iter().zip(labels) {
+            all[at] = label;
+        }
+        all
+    };
+    found.into_iter().map(in_order).collect()
 }

@@ -1,15 +1,14 @@
 //! The traps at one mass ratio as a ladder.
 
-use crate::orbits::{Ends, Known};
+use crate::known::Known;
 use crate::{Error, Fates, TrapEdge};
-use basin_of_attraction::Traps;
 use passive_hopper::{DoubleDouble, alpha_star, index_below};
 use std::f64::consts::FRAC_1_PI;
 
 /// Traps in a ladder; those of larger n are asked one by one.
-pub(crate) const RUNGS: u64 = 64;
+const RUNGS: u64 = 64;
 
-/// The number of traps that are asked one by one: it says nothing of others.
+/// Traps that are asked one by one share this: it says nothing of others.
 const NOT_ONE: u32 = u32::MAX;
 
 /// The traps as closed intervals of `f64`, from 0 = α*_0 up.
@@ -37,28 +36,33 @@ impl Ladder {
         Ok(Ladder { traps })
     }
 
-    /// The trap that holds `alpha` > 0, as [`Traps`] for [`Fates`] has it.
+    /// All traps, from below.
+    pub(crate) fn traps(&self) -> impl Iterator<Item = Known> {
+        (0..).zip(&self.traps).map(|(n, &between)| trap(n, between))
+    }
+
+    /// The trap that holds `alpha` > 0, as [`Traps`](basin_of_attraction::Traps) for [`Fates`] has it.
     #[inline]
-    fn trap(&self, alpha: f64, fates: &Fates) -> Option<Known> {
+    pub(crate) fn trap(&self, alpha: f64, fates: &Fates) -> Option<Known> {
         // α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index below or one more, if it is right; next to nπ, where
         // it may not be, the two differ in nothing: neither trap begins there.
         let n = (alpha * FRAC_1_PI) as usize;
-        let Some(&(left, _)) = self.traps.get(n) else {
-            let label = fates.label(alpha)?;
-            return Some(Known { label, id: NOT_ONE, between: (f64::NAN, f64::NAN) });
-        };
+        let Some(&(left, _)) = self.traps.get(n) else { return not_one(alpha, fates) };
         let n = n - usize::from(alpha < left).min(n);
         let &(left, right) = self.traps.get(n)?;
-        let inside = alpha >= left && alpha <= right;
-        inside.then_some(Known { label: n as u16, id: n as u32, between: (left, right) })
+        (alpha >= left && alpha <= right).then(|| trap(n as u32, (left, right)))
     }
 }
 
-impl Ends for Ladder {
-    #[inline]
-    fn known(&self, alpha: f64, fates: &Fates) -> Option<Known> {
-        self.trap(alpha, fates)
-    }
+fn trap(n: u32, between: (f64, f64)) -> Known {
+    Known { label: n as u16, end: n, arcs: 1, between }
+}
+
+#[cold]
+fn not_one(alpha: f64, fates: &Fates) -> Option<Known> {
+    use basin_of_attraction::Traps;
+    let label = fates.label(alpha)?;
+    Some(Known { label, end: NOT_ONE, arcs: 1, between: (f64::NAN, f64::NAN) })
 }
 
 /// The smallest `f64` from `star` on.

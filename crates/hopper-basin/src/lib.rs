@@ -46,11 +46,12 @@ mod fate;
 mod hump;
 mod intervals;
 mod itinerary;
+mod known;
 mod labels;
 mod ladder;
 mod map;
-mod orbits;
 mod reach;
+mod strip;
 mod trap;
 mod window;
 

@@ -64,6 +64,7 @@ mod energy;
 mod error;
 mod flight;
 mod hopper;
+mod images;
 mod kernel;
 mod landing;
 mod lift_off_map;

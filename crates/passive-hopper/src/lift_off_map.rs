@@ -1,8 +1,8 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 
 use crate::doubt::Doubt;
-use crate::kernel::bulk::{BLOCK, Block};
-use crate::kernel::hop::{Decided, hop as fast_hop};
+use crate::images::images;
+use crate::kernel::hop::{Decided, Masses, hop as fast_hop};
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
 use crate::real::Real;
 use crate::wide::{Start, WideHop, wide_hop};
@@ -13,9 +13,6 @@ use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
 /// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. A hop
 /// that uses up the budget takes some tenths of a second.
 pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
-
-/// Fewer speeds than this go one by one.
-const FEW: usize = 16;
 
 /// Above this speed, 2²⁸, hops are computed in longer arithmetic at once: an ulp of the phase is 10⁻⁸.
 pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
@@ -41,8 +38,7 @@ pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LiftOffMap {
     mass_ratio: MassRatio,
-    mu: f64,
-    kappa: f64,
+    pub(crate) masses: Masses,
 }
 
 /// All that one hop does to the lift-off speed.
@@ -69,7 +65,8 @@ pub struct Hop {
 impl LiftOffMap {
     /// The map at `mass_ratio`.
     pub fn new(mass_ratio: MassRatio) -> Self {
-        LiftOffMap { mass_ratio, mu: mass_ratio.mu(), kappa: mass_ratio.kappa() }
+        let masses = Masses { mu: mass_ratio.mu(), kappa: mass_ratio.kappa() };
+        LiftOffMap { mass_ratio, masses }
     }
 
     /// The mass ratio M.
@@ -84,7 +81,7 @@ impl LiftOffMap {
     /// [certain](Hop::certain).
     #[inline]
     pub fn image(&self, alpha: f64) -> Result<Option<f64>, Error> {
-        match fast_hop(alpha, self.mu, self.kappa) {
+        match fast_hop(alpha, self.masses) {
             Some(decided) => Ok(decided.next()),
             None => self.careful_image(alpha),
         }
@@ -92,7 +89,7 @@ impl LiftOffMap {
 
     /// What the fast path leaves open.
     #[cold]
-    fn careful_image(&self, alpha: f64) -> Result<Option<f64>, Error> {
+    pub(crate) fn careful_image(&self, alpha: f64) -> Result<Option<f64>, Error> {
         let (hop, _) = self.decide(alpha, |_| ())?;
         if !hop.certain {
             return Err(Error::Undecided { alpha, sudden: hop.sudden });
@@ -119,34 +116,26 @@ impl LiftOffMap {
     /// The first of those that [`image`](Self::image) gives. All others are replaced all the same; those
     /// with an error keep their speeds.
     pub fn images(&self, speeds: &mut [Option<f64>]) -> Result<(), Error> {
-        let mut first = Ok(());
-        let mut careful = |speed: &mut Option<f64>| {
-            let Some(alpha) = *speed else { return };
-            match self.careful_image(alpha) {
-                Ok(next) => *speed = next,
-                Err(error) => {
-                    if first.is_ok() {
-                        first = Err(error);
-                    }
-                }
-            }
-        };
-        if speeds.len() < FEW {
-            for speed in speeds {
-                let Some(alpha) = *speed else { continue };
-                match fast_hop(alpha, self.mu, self.kappa) {
-                    Some(decided) => *speed = decided.next(),
-                    None => careful(speed),
-                }
-            }
-        } else {
-            Block::of_this_thread(|block| {
-                for some in speeds.chunks_mut(BLOCK) {
-                    block.images(some, (self.mu, self.kappa), &mut careful);
-                }
-            });
-        }
-        first
+        images(speeds, |_| *self, |&speed| speed, |speed| speed)
+    }
+
+    /// The images of speeds each under a map of its own, as [`images`](Self::images) gives them for one map: for
+    /// work over many mass ratios with few speeds each.
+    ///
+    /// ```
+    /// use passive_hopper::{LiftOffMap, MassRatio};
+    /// let [light, heavy] = [0.2, 0.8].map(|m| MassRatio::new(m).map(LiftOffMap::new));
+    /// let (light, heavy) = (light?, heavy?);
+    /// let mut hops = [(&light, Some(5.5)), (&heavy, Some(5.5)), (&heavy, None)];
+    /// LiftOffMap::images_of_each(&mut hops)?;
+    /// assert_eq!(hops.map(|hop| hop.1), [light.image(5.5)?, heavy.image(5.5)?, None]);
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`images`](Self::images).
+    pub fn images_of_each(hops: &mut [(&LiftOffMap, Option<f64>)]) -> Result<(), Error> {
+        images(hops, |hop| *hop.0, |hop| hop.1, |hop| &mut hop.1)
     }
 
     /// The hop that starts with speed `alpha`.
@@ -156,7 +145,7 @@ impl LiftOffMap {
     /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
     /// sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
-        match fast_hop(alpha, self.mu, self.kappa) {
+        match fast_hop(alpha, self.masses) {
             Some(decided) => Ok(decided.hop(alpha)),
             None => self.decide(alpha, |_| ()).map(|(hop, _)| hop),
         }
@@ -198,11 +187,11 @@ impl LiftOffMap {
             shares += ratio * ratio;
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
-            doubt.pass(&landing, self.kappa);
+            doubt.pass(&landing, self.masses.kappa);
             see(&landing);
         }
-        let t = self.mu * shares;
-        let certain = !doubt.is_real(1.0 - t, self.mu, alpha);
+        let t = self.masses.mu * shares;
+        let certain = !doubt.is_real(1.0 - t, self.masses.mu, alpha);
         // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
@@ -230,7 +219,7 @@ impl LiftOffMap {
     pub fn landings(&self, alpha: f64) -> Result<Landings, Error> {
         check_speed(alpha)?;
         let start = TakeOff { excess: 0.0, velocity: alpha };
-        Ok(Landings { kappa: self.kappa, start: Some(start), flights: 0 })
+        Ok(Landings { kappa: self.masses.kappa, start: Some(start), flights: 0 })
     }
 }
 

@@ -1,4 +1,4 @@
-//! Many hops of one map at once: every step a loop over arrays.
+//! Many hops at once: every step a loop over arrays.
 //!
 //! ```text
 //!   places      where the speeds lie in the tables             vectors
@@ -11,7 +11,7 @@
 //! What does not settle is landed again, one by one, by the same functions as a single hop's.
 
 use super::flight::{Ground, flight};
-use super::hop::{FLIGHTS, Sum, ground_after};
+use super::hop::{FLIGHTS, Masses, Sum, ground_after};
 use super::landings::{Flights, Landings};
 use super::table::{CELLS, Cell, Eight, First, Place, Stars, stars};
 use crate::simd;
@@ -25,9 +25,11 @@ pub(crate) const LANES: usize = 8;
 
 pub(crate) type Row = [f64; BLOCK];
 
-/// The speeds of a block, their places, and what becomes of them.
+/// The speeds and masses of a block, their places, and what becomes of them.
 pub(crate) struct Hops {
     alpha: Row,
+    mu: Row,
+    kappa: Row,
     cell: [u64; BLOCK],
     piece: [u64; BLOCK],
     at: Row,
@@ -54,6 +56,8 @@ impl Block {
     pub(crate) const EMPTY: Block = Block {
         hops: Hops {
             alpha: ZERO,
+            mu: ZERO,
+            kappa: ZERO,
             cell: [0; BLOCK],
             piece: [0; BLOCK],
             at: ZERO,
@@ -79,38 +83,35 @@ impl Block {
         });
     }
 
-    /// The images of `speeds`, at most BLOCK of them; those that the fast path leaves open go to `careful`.
-    pub(crate) fn images(
+    /// The hops of `entries`, at most BLOCK, `from` their speeds and with their masses; `to` takes the next speed,
+    /// negative for grounded, zero where the careful path must decide.
+    #[inline]
+    pub(crate) fn hops<H>(
         &mut self,
-        speeds: &mut [Option<f64>],
-        (mu, kappa): (f64, f64),
-        careful: &mut impl FnMut(&mut Option<f64>),
+        entries: &mut [H],
+        from: impl Fn(&H) -> (f64, Masses),
+        mut to: impl FnMut(&mut H, f64),
     ) {
-        let count = speeds.len().min(BLOCK);
-        for (alpha, speed) in self.hops.alpha.iter_mut().zip(&*speeds) {
-            *alpha = speed.unwrap_or(0.0);
+        let count = entries.len().min(BLOCK);
+        for (at, entry) in entries.iter().take(count).enumerate() {
+            let (alpha, Masses { mu, kappa }) = from(entry);
+            (self.hops.alpha[at], self.hops.mu[at], self.hops.kappa[at]) = (alpha, mu, kappa);
         }
         simd::places(&mut self.hops, stars(), count);
-        self.first_flights(count, kappa);
+        self.first_flights(count);
         let mut now = 0;
         while self.lists[now].slow + self.lists[now].fast > 0 {
-            self.later_flights(now, kappa);
+            self.later_flights(now);
             now = 1 - now;
         }
-        simd::ends(&mut self.hops, mu, count);
-        for (&next, speed) in self.hops.next.iter().zip(speeds) {
-            if next > 0.0 {
-                *speed = Some(next);
-            } else if next < 0.0 {
-                *speed = None;
-            } else if speed.is_some() {
-                careful(speed);
-            }
+        simd::ends(&mut self.hops, count);
+        for (entry, &next) in entries.iter_mut().zip(&self.hops.next) {
+            to(entry, next);
         }
     }
 
     /// All first flights, and the list of flights that follow at once.
-    fn first_flights(&mut self, count: usize, kappa: f64) {
+    fn first_flights(&mut self, count: usize) {
         let Block { hops, lists: [list, _], .. } = self;
         let mut cells = Cell::all();
         let mut used = 0u64;
@@ -123,19 +124,19 @@ impl Block {
             }
         }
         list.clear();
-        simd::first_flights(hops, &cells, list, count, kappa);
+        simd::first_flights(hops, &cells, list, count);
     }
 
     /// The flights of the list `now`; those that follow go to the other list.
-    fn later_flights(&mut self, now: usize, kappa: f64) {
+    fn later_flights(&mut self, now: usize) {
         let (first, second) = self.lists.split_at_mut(1);
         let (list, next) =
             if now == 0 { (&first[0], &mut second[0]) } else { (&second[0], &mut first[0]) };
         next.clear();
-        simd::slow_landings(list, &mut self.landings, kappa);
-        self.hops.add(list, 0..list.slow, &self.landings, next, kappa);
-        simd::fast_landings(list, &mut self.landings, kappa);
-        self.hops.add(list, BLOCK - list.fast..BLOCK, &self.landings, next, kappa);
+        simd::slow_landings(list, &mut self.landings);
+        self.hops.add(list, 0..list.slow, &self.landings, next);
+        simd::fast_landings(list, &mut self.landings);
+        self.hops.add(list, BLOCK - list.fast..BLOCK, &self.landings, next);
     }
 }
 
@@ -147,7 +148,6 @@ impl Hops {
         range: std::ops::Range<usize>,
         landings: &Landings,
         next: &mut Flights,
-        kappa: f64,
     ) {
         for at in range {
             let at = at % BLOCK;
@@ -155,7 +155,7 @@ impl Hops {
             let mut ground = landings.ground(at);
             let (mut square, mut error) = (landings.square[at], landings.square_error[at]);
             if !(landings.settled[at] > 0.0) {
-                match flight(&list.ground(at), kappa) {
+                match flight(&list.ground(at), list.kappa[at]) {
                     Some(landed) => {
                         ground = landed.ground;
                         (square, error) = (landed.square, landed.square_error);
@@ -168,7 +168,7 @@ impl Hops {
             self.flights[to] += 1.0;
             if ground.excess > 0.0 {
                 if self.flights[to] < FLIGHTS {
-                    next.push(list.index[at], &ground);
+                    next.push(list.index[at], &ground, list.kappa[at]);
                 } else {
                     self.squares[to] = f64::NAN;
                 }
@@ -200,7 +200,6 @@ pub(crate) fn first<E: Eight>(
     cells: &[&Cell; CELLS],
     list: &mut Flights,
     count: usize,
-    kappa: f64,
 ) {
     let mut sudden = [0u16; BLOCK];
     let mut length = 0;
@@ -229,11 +228,13 @@ pub(crate) fn first<E: Eight>(
     }
     for group in sudden[..length.next_multiple_of(LANES).min(BLOCK)].as_chunks::<LANES>().0 {
         let (mut alpha, mut closing_speed, mut at) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let mut kappa = [0.0; LANES];
         let mut rows = [cells[0].of_beyond(0); LANES];
         for (k, &index) in group.iter().enumerate() {
             let from = usize::from(index) % BLOCK;
             (alpha[k], closing_speed[k], at[k]) =
                 (hops.alpha[from], hops.next[from], hops.at[from]);
+            kappa[k] = hops.kappa[from];
             rows[k] = cells[hops.cell[from] as usize % CELLS].of_beyond(hops.piece[from]);
         }
         let beyond = E::polynomials(rows, &at);
@@ -241,12 +242,12 @@ pub(crate) fn first<E: Eight>(
         for k in 0..LANES {
             let (alpha, beyond, closing_speed) = (alpha[k], beyond[k], closing_speed[k]);
             let first = First { half_time: alpha - beyond, beyond, closing_speed };
-            let ground = ground_after(&first, alpha, kappa);
+            let ground = ground_after(&first, alpha, kappa[k]);
             (excess[k], velocity[k], error[k]) = (ground.excess, ground.velocity, ground.error);
         }
         for k in 0..length.min(LANES) {
             let ground = Ground { excess: excess[k], velocity: velocity[k], error: error[k] };
-            list.push(group[k], &ground);
+            list.push(group[k], &ground, kappa[k]);
         }
         length = length.saturating_sub(LANES);
     }
@@ -254,15 +255,15 @@ pub(crate) fn first<E: Eight>(
 
 /// The ends of the first `count` hops, up to whole vectors.
 #[inline(always)]
-pub(crate) fn ends(hops: &mut Hops, mu: f64, count: usize) {
+pub(crate) fn ends(hops: &mut Hops, count: usize) {
     let count = count.next_multiple_of(LANES).min(BLOCK);
-    let (alpha, squares) = (&hops.alpha[..count], &hops.squares[..count]);
+    let (alpha, mu, squares) = (&hops.alpha[..count], &hops.mu[..count], &hops.squares[..count]);
     let (errors, flights) = (&hops.errors[..count], &hops.flights[..count]);
     let next = &mut hops.next[..count];
     for k in 0..count {
         let sum =
             Sum { squares: squares[k], error: errors[k], half_time: 0.0, flights: flights[k] };
-        let (decided, sure) = sum.end(alpha[k], mu);
+        let (decided, sure) = sum.end(alpha[k], mu[k]);
         let again = decided.radicand > 0.0;
         let root = if again { decided.radicand } else { 0.0 }.sqrt();
         let known = if again { root } else { -1.0 };

@@ -6,6 +6,13 @@ use super::table::{First, Place, stars};
 /// Flights of a hop here; longer chains are left to the careful path.
 pub(crate) const FLIGHTS: f64 = 64.0;
 
+/// What a hop needs of M: μ and κ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Masses {
+    pub(crate) mu: f64,
+    pub(crate) kappa: f64,
+}
+
 /// What the flights of a hop add up to.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sum {
@@ -72,7 +79,7 @@ pub(crate) fn ground_after(first: &First, alpha: f64, kappa: f64) -> Ground {
 
 /// The hop from `alpha`; nothing where the careful path must decide.
 #[inline]
-pub(crate) fn hop(alpha: f64, mu: f64, kappa: f64) -> Option<Decided> {
+pub(crate) fn hop(alpha: f64, Masses { mu, kappa }: Masses) -> Option<Decided> {
     let place = Place::of(alpha, stars());
     let first = place.first(alpha)?;
     let mut sum = Sum::first(&first);

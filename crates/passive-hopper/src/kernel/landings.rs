@@ -14,6 +14,7 @@ pub(crate) struct Flights {
     pub(crate) excess: Row,
     pub(crate) velocity: Row,
     pub(crate) error: Row,
+    pub(crate) kappa: Row,
 }
 
 /// Their landings.
@@ -34,15 +35,22 @@ pub(crate) struct Landings {
 }
 
 impl Flights {
-    pub(crate) const EMPTY: Flights =
-        Flights { slow: 0, fast: 0, index: [0; BLOCK], excess: ZERO, velocity: ZERO, error: ZERO };
+    pub(crate) const EMPTY: Flights = Flights {
+        slow: 0,
+        fast: 0,
+        index: [0; BLOCK],
+        excess: ZERO,
+        velocity: ZERO,
+        error: ZERO,
+        kappa: ZERO,
+    };
 
     pub(crate) fn clear(&mut self) {
         (self.slow, self.fast) = (0, 0);
     }
 
     #[inline(always)]
-    pub(crate) fn push(&mut self, index: u16, ground: &Ground) {
+    pub(crate) fn push(&mut self, index: u16, ground: &Ground, kappa: f64) {
         let is_slow = ground.velocity < PI;
         let at = if is_slow { self.slow } else { BLOCK - 1 - self.fast } % BLOCK;
         self.slow += usize::from(is_slow);
@@ -51,6 +59,7 @@ impl Flights {
         self.excess[at] = ground.excess;
         self.velocity[at] = ground.velocity;
         self.error[at] = ground.error;
+        self.kappa[at] = kappa;
     }
 
     #[inline(always)]
@@ -84,33 +93,27 @@ impl Landings {
 
 /// All landings on the branches of V < π.
 #[inline(always)]
-pub(crate) fn land_slow(list: &Flights, landings: &mut Landings, kappa: f64) {
-    land_all::<false>(list, 0, list.slow, landings, kappa);
+pub(crate) fn land_slow(list: &Flights, landings: &mut Landings) {
+    land_all::<false>(list, 0, list.slow, landings);
 }
 
 /// All landings on the branches of V ≥ π.
 #[inline(always)]
-pub(crate) fn land_fast(list: &Flights, landings: &mut Landings, kappa: f64) {
-    land_all::<true>(list, BLOCK - list.fast.min(BLOCK), BLOCK, landings, kappa);
+pub(crate) fn land_fast(list: &Flights, landings: &mut Landings) {
+    land_all::<true>(list, BLOCK - list.fast.min(BLOCK), BLOCK, landings);
 }
 
 /// All landings from `begin` to `end`: loops without a branch, and short enough that a processor has several
 /// vectors under way.
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "arrays in step")]
-fn land_all<const FAST: bool>(
-    list: &Flights,
-    begin: usize,
-    end: usize,
-    landings: &mut Landings,
-    kappa: f64,
-) {
+fn land_all<const FAST: bool>(list: &Flights, begin: usize, end: usize, landings: &mut Landings) {
     // Whole vectors: what lies beyond is old, lands as well and is not looked at. And slices of one length: no
     // bounds to check, no exit but the end.
     let (begin, end) = (begin / LANES * LANES, end.next_multiple_of(LANES).min(BLOCK));
     let Some(count) = end.checked_sub(begin) else { return };
     let (excess, velocity) = (&list.excess[begin..end], &list.velocity[begin..end]);
-    let error = &list.error[begin..end];
+    let (error, kappa) = (&list.error[begin..end], &list.kappa[begin..end]);
     let h = &mut landings.h[begin..end];
     let (left, right) = (&mut landings.left[begin..end], &mut landings.right[begin..end]);
     let (side, sure) = (&mut landings.side[begin..end], &mut landings.sure[begin..end]);
@@ -142,7 +145,7 @@ fn land_all<const FAST: bool>(
     for at in 0..count {
         let turn = Turn::at(h[at]);
         let (ground, branch) = (ground(at), branch(at, left, right, side, sure));
-        let landed = land(&turn, last_step(&turn, &ground), &ground, &branch, kappa);
+        let landed = land(&turn, last_step(&turn, &ground), &ground, &branch, kappa[at]);
         to_excess[at] = landed.ground.excess;
         to_velocity[at] = landed.ground.velocity;
         to_error[at] = landed.ground.error;
@@ -154,8 +157,8 @@ fn land_all<const FAST: bool>(
 
 #[cfg(test)]
 impl Flights {
-    pub(crate) fn add(&mut self, index: u16, [excess, velocity, error]: [f64; 3]) {
-        self.push(index, &Ground { excess, velocity, error });
+    pub(crate) fn add(&mut self, index: u16, [excess, velocity, error, kappa]: [f64; 4]) {
+        self.push(index, &Ground { excess, velocity, error }, kappa);
     }
 }
 
