@@ -105,6 +105,9 @@ pub fn raster<C>(
     raster_by_strips(grid, 1, strip, progress)
 }
 
+/// Labels in a cache line.
+const BAND: usize = 32;
+
 /// Labels every pixel of `grid` by its middle, in strips of `width` columns, in parallel.
 ///
 /// `strip` takes the x of neighbouring columns and all y of the grid, both in increasing order, and gives the labels
@@ -162,12 +165,15 @@ pub fn raster_by_strips(
         return Err(Error::Interrupted { finished: finished.into_inner(), columns });
     }
     let mut labels = vec![0; pixels];
-    // Row by row: the writes follow one another, and the columns' next labels are in the cache.
-    for (row, line) in labels.chunks_exact_mut(columns).enumerate() {
-        for (label, column) in line.iter_mut().zip(&by_column) {
-            *label = column[row];
+    // In bands as high as a cache line is long: every line of a column is read once.
+    labels.par_chunks_mut(BAND * columns).enumerate().for_each(|(band, lines)| {
+        for (at, column) in by_column.iter().enumerate() {
+            let places = lines.iter_mut().skip(at).step_by(columns);
+            for (place, &label) in places.zip(&column[band * BAND..]) {
+                *place = label;
+            }
         }
-    }
+    });
     Ok(LabelImage { grid, labels })
 }
 

@@ -12,7 +12,6 @@
 //! and a quarter more for the curvature of the root, while it is under a tenth of α′.
 
 use crate::arcs::Arcs;
-use crate::known::Known;
 use passive_hopper::LiftOffMap;
 
 /// An end that is none yet.
@@ -35,6 +34,11 @@ pub(crate) struct Itinerary {
 impl Itinerary {
     /// Before the first hop.
     pub(crate) const START: Itinerary = Itinerary { arcs: 1, end: ON_THE_WAY, pad: 0.0 };
+
+    /// Of what is in trap n already.
+    pub(crate) fn in_trap(n: u32) -> Self {
+        Itinerary { end: n, ..Itinerary::START }
+    }
 
     /// Goes on with a hop from `alpha` to `next`, or to the ground.
     #[inline]
@@ -59,7 +63,8 @@ impl Itinerary {
             None => {
                 let margin = 4.0 * alpha * handed_on;
                 self.end = GROUND;
-                if !map.hop(alpha).is_ok_and(|hop| hop.radicand < -margin) {
+                // A first hop starts between the two, and no verdict is in doubt.
+                if pad > 0.0 && !map.hop(alpha).is_ok_and(|hop| hop.radicand < -margin) {
                     self.give_up();
                 }
             }
@@ -74,14 +79,13 @@ impl Itinerary {
 
     /// Comes to `alpha` in an interval of known fate, and goes on as all do from there.
     #[inline]
-    pub(crate) fn end_in(&mut self, alpha: f64, known: &Known) {
-        let (left, right) = known.between;
+    pub(crate) fn end_in(&mut self, alpha: f64, known: &Itinerary, (left, right): (f64, f64)) {
         let pad = f64::from(self.pad);
         let follow = 63 - known.arcs.leading_zeros();
         let room = self.arcs.leading_zeros() >= follow;
         self.end = known.end;
         self.arcs = self.arcs << follow | (known.arcs ^ 1 << follow);
-        if !(room && alpha - left > pad && right - alpha > pad) {
+        if !(room & (alpha - left > pad) & (right - alpha > pad)) {
             self.give_up();
         }
     }
@@ -92,12 +96,8 @@ impl Itinerary {
         let sure = self.pad.max(other.pad) < f32::INFINITY;
         sure && self.arcs == other.arcs && self.end == other.end
     }
-
-    /// The same as an interval.
-    pub(crate) fn known(&self, label: u16, between: (f64, f64)) -> Known {
-        Known { label, end: self.end, arcs: self.arcs, between }
-    }
 }
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,5 +1,6 @@
 //! The traps at one mass ratio as a ladder.
 
+use crate::itinerary::Itinerary;
 use crate::known::Known;
 use crate::{Error, Fates, TrapEdge};
 use passive_hopper::{DoubleDouble, alpha_star, index_below};
@@ -36,33 +37,31 @@ impl Ladder {
         Ok(Ladder { traps })
     }
 
-    /// All traps, from below.
-    pub(crate) fn traps(&self) -> impl Iterator<Item = Known> {
-        (0..).zip(&self.traps).map(|(n, &between)| trap(n, between))
+    /// All traps, from below, with their ends.
+    pub(crate) fn traps(&self) -> impl Iterator<Item = (Known, (f64, f64))> {
+        (0..).zip(&self.traps).map(|(n, &between)| (trap(n), between))
     }
 
     /// The trap that holds `alpha` > 0, as [`Traps`](basin_of_attraction::Traps) for [`Fates`] has it.
-    #[inline]
-    pub(crate) fn trap(&self, alpha: f64, fates: &Fates) -> Option<Known> {
+    pub(crate) fn trap(&self, alpha: f64, fates: &Fates) -> Option<(Known, (f64, f64))> {
         // α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index below or one more, if it is right; next to nπ, where
         // it may not be, the two differ in nothing: neither trap begins there.
         let n = (alpha * FRAC_1_PI) as usize;
         let Some(&(left, _)) = self.traps.get(n) else { return not_one(alpha, fates) };
         let n = n - usize::from(alpha < left).min(n);
         let &(left, right) = self.traps.get(n)?;
-        (alpha >= left && alpha <= right).then(|| trap(n as u32, (left, right)))
+        (alpha >= left && alpha <= right).then(|| (trap(n as u32), (left, right)))
     }
 }
 
-fn trap(n: u32, between: (f64, f64)) -> Known {
-    Known { label: n as u16, end: n, arcs: 1, between }
+fn trap(n: u32) -> Known {
+    Known { itinerary: Itinerary::in_trap(n), label: n as u16 }
 }
 
-#[cold]
-fn not_one(alpha: f64, fates: &Fates) -> Option<Known> {
+fn not_one(alpha: f64, fates: &Fates) -> Option<(Known, (f64, f64))> {
     use basin_of_attraction::Traps;
     let label = fates.label(alpha)?;
-    Some(Known { label, end: NOT_ONE, arcs: 1, between: (f64::NAN, f64::NAN) })
+    Some((Known { itinerary: Itinerary::in_trap(NOT_ONE), label }, (f64::NAN, f64::NAN)))
 }
 
 /// The smallest `f64` from `star` on.

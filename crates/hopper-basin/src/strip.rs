@@ -13,55 +13,67 @@
 
 use crate::column::Column;
 use crate::itinerary::Itinerary;
-use crate::known::Spacing;
-use crate::{Error, Fates};
+use crate::known::{Intervals, Known, NOWHERE};
+use crate::{Error, Fates, HOP_BUDGET, HopperFate};
 use passive_hopper::{LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
 
 /// At first every 16th speed is followed.
 const COARSEST: usize = 16;
 
-/// Of a column's speeds there are so many times fewer below it, for orbits that come down.
-const LOWER: usize = 8;
+/// Below a column's speeds there are so many times fewer others, for orbits that come down.
+const LOWER: usize = 2;
+
+/// After so many hops all traps are looked for.
+const LOOK_FOR_TRAPS: usize = 8;
 
 /// A speed that is followed.
 #[derive(Debug, Clone, Copy)]
-struct Start {
+struct Followed {
     column: u32,
     at: u32,
     /// The next speeds that are followed below and above; itself if there is none.
     left: u32,
     right: u32,
+    itinerary: Itinerary,
 }
 
-/// Orbits that have not come to their ends.
+/// The orbits of a hump.
 #[derive(Default)]
 struct Orbits<'a> {
-    starts: Vec<Start>,
-    /// Map and speed.
+    /// All that have been followed.
+    all: Vec<Followed>,
+    /// Which of them are on their way, their maps, where they are, and where they were.
+    index: Vec<u32>,
     hops: Vec<(&'a LiftOffMap, Option<f64>)>,
-    /// Where they were.
     before: Vec<f64>,
-    notes: Vec<Itinerary>,
     /// Hops of the oldest.
     count: usize,
+    /// Intervals of known fate that those on their way have come to.
+    found: Vec<u32>,
     /// Those that have come to their ends since this was last emptied.
-    ended: Vec<(Start, Itinerary)>,
+    ended: Vec<u32>,
 }
 
 struct Strip<'a> {
     columns: Vec<Column<'a>>,
     speeds: Vec<f64>,
-    spacing: Spacing,
+    intervals: Intervals,
     orbits: Orbits<'a>,
 }
 
 /// The labels of `speeds` > 0, in increasing order, at every mass ratio.
 pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
     let (speeds, lower) = from_zero(speeds);
-    let spacing = Spacing::of(&speeds, lower);
-    let columns = all.iter().map(|fates| Column::new(fates, &speeds)).collect::<Result<_, _>>()?;
-    let mut strip = Strip { columns, speeds, spacing, orbits: Orbits::default() };
+    let columns: Vec<_> =
+        all.iter().map(|fates| Column::new(fates, &speeds)).collect::<Result<_, _>>()?;
+    let mut intervals = Intervals::new(columns.len(), &speeds, lower);
+    for (at, column) in columns.iter().enumerate() {
+        for (trap, between) in column.ladder.traps() {
+            intervals.add_anywhere(at, &speeds, trap, between);
+        }
+    }
+    let mut strip = Strip { columns, speeds, intervals, orbits: Orbits::default() };
     strip.label()?;
     Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
 }
@@ -96,19 +108,23 @@ impl Strip<'_> {
 
     fn label_hump(&mut self, hump: Range<usize>) {
         self.orbits.count = 0;
+        self.orbits.all.clear();
         for column in 0..self.columns.len() {
             self.add_first(column, &hump);
         }
         self.sort_out(0);
         loop {
             self.narrow();
-            if self.orbits.starts.is_empty() {
+            if self.orbits.index.is_empty() {
                 break;
             }
             self.hop();
         }
-        for column in self.columns.iter_mut().filter(|column| column.arcs.is_some()) {
-            column.keep(hump.clone(), &self.speeds);
+        for (at, column) in self.columns.iter().enumerate() {
+            for (range, itinerary, label) in column.closed(hump.clone()) {
+                let between = (self.speeds[range.start], self.speeds[range.end]);
+                self.intervals.add(at, range, Known { itinerary, label }, between);
+            }
         }
     }
 
@@ -120,7 +136,7 @@ impl Strip<'_> {
         let (first, last) = (hump.start as u32, hump.end as u32 - 1);
         if self.columns[column].arcs.is_none() {
             for at in first..=last {
-                self.add(Start { column: column as u32, at, left: at, right: at });
+                self.add(column, at, (at, at));
             }
             return;
         }
@@ -128,7 +144,7 @@ impl Strip<'_> {
         let mut at = first;
         loop {
             let right = (at + COARSEST as u32).min(last);
-            self.add(Start { column: column as u32, at, left, right });
+            self.add(column, at, (left, right));
             if at == last {
                 break;
             }
@@ -136,76 +152,120 @@ impl Strip<'_> {
         }
     }
 
-    fn add(&mut self, start: Start) {
-        let column = &self.columns[start.column as usize];
-        self.orbits.starts.push(start);
-        self.orbits.hops.push((column.fates.map(), Some(self.speeds[start.at as usize])));
-        self.orbits.before.push(f64::NAN); // nowhere before: no number equals it
-        self.orbits.notes.push(Itinerary::START);
+    fn add(&mut self, column: usize, at: u32, (left, right): (u32, u32)) {
+        let map = self.columns[column].fates.map();
+        let orbits = &mut self.orbits;
+        orbits.index.push(orbits.all.len() as u32);
+        orbits.hops.push((map, Some(self.speeds[at as usize])));
+        orbits.before.push(f64::NAN); // nowhere before: no number equals it
+        let (column, itinerary) = (column as u32, Itinerary::START);
+        orbits.all.push(Followed { column, at, left, right, itinerary });
     }
 
     /// Takes all one hop on; those that come to an end are labelled.
     fn hop(&mut self) {
-        let Orbits { starts, hops, before, notes, count, .. } = &mut self.orbits;
+        let Orbits { all, index, hops, before, .. } = &mut self.orbits;
         before.clear();
         before.extend(hops.iter().map(|hop| hop.1.unwrap_or(f64::NAN)));
         // Those with an error keep their speeds, and are sorted out one by one.
         let _ = LiftOffMap::images_of_each(hops);
-        for ((start, note), (&alpha, hop)) in
-            starts.iter().zip(notes.iter_mut()).zip(before.iter().zip(hops.iter()))
-        {
-            match &self.columns[start.column as usize].arcs {
-                Some(arcs) => note.hop(alpha, hop.1, arcs, hop.0),
-                None => note.give_up(),
+        for ((&at, hop), &alpha) in index.iter().zip(hops.iter()).zip(before.iter()) {
+            let Followed { column, itinerary, .. } = &mut all[at as usize];
+            match &self.columns[*column as usize].arcs {
+                Some(arcs) => itinerary.hop(alpha, hop.1, arcs, hop.0),
+                None => itinerary.give_up(),
             }
         }
-        *count += 1;
+        self.orbits.count += 1;
         self.sort_out(0);
     }
 
     /// From orbit `first` on: labels those that have come to an end, and keeps the others.
     fn sort_out(&mut self, first: usize) {
-        let Orbits { starts, hops, before, notes, count, ended } = &mut self.orbits;
+        // First all that is known, without a branch.
+        let Orbits { all, index, hops, before, found, .. } = &mut self.orbits;
+        found.clear();
+        let orbits = index[first..].iter().zip(&hops[first..]).zip(&before[first..]);
+        found.extend(orbits.map(|((&at, hop), before)| {
+            let alpha = hop.1.unwrap_or(f64::NAN);
+            let found = self.intervals.at(all[at as usize].column as usize, alpha);
+            if alpha == *before { NOWHERE } else { found }
+        }));
         let mut kept = first;
-        for from in first..starts.len() {
-            let (start, hop) = (starts[from], hops[from]);
-            let at = start.at as usize;
-            let column = &mut self.columns[start.column as usize];
-            let way = (self.speeds[at], before[from], hop.1);
-            if let Some((label, known)) = column.end(way, *count, &self.spacing) {
-                column.labels[at] = label;
-                let mut note = notes[from];
-                match (hop.1, known) {
-                    (Some(alpha), Some(known)) => note.end_in(alpha, &known),
-                    (Some(_), None) => note.give_up(),
-                    (None, _) => {}
-                }
-                ended.push((start, note));
+        for from in first..self.orbits.index.len() {
+            let at = self.orbits.index[from];
+            let hop = self.orbits.hops[from];
+            if self.ends(at, (self.orbits.before[from], hop.1), self.orbits.found[from - first]) {
+                self.orbits.ended.push(at);
             } else {
-                (starts[kept], hops[kept], notes[kept]) = (start, hop, notes[from]);
+                (self.orbits.index[kept], self.orbits.hops[kept]) = (at, hop);
                 kept += 1;
             }
         }
-        starts.truncate(kept);
-        hops.truncate(kept);
-        before.truncate(kept);
-        notes.truncate(kept);
+        self.orbits.index.truncate(kept);
+        self.orbits.hops.truncate(kept);
+        self.orbits.before.truncate(kept);
+    }
+
+    /// Whether an orbit has come to its end, which is noted.
+    #[inline]
+    fn ends(&mut self, at: u32, (before, speed): (f64, Option<f64>), found: u32) -> bool {
+        if found != NOWHERE {
+            let (known, between) = self.intervals.get(found);
+            self.end_in(at, speed.unwrap_or(f64::NAN), (known, between));
+            return true;
+        }
+        let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
+        let Column { labels, ladder, fates, .. } = &mut self.columns[*column as usize];
+        let Some(alpha) = speed else {
+            labels[*start as usize] = HopperFate::GROUNDED;
+            return true;
+        };
+        let count = self.orbits.count;
+        if alpha != before && alpha > 0.0 && count <= HOP_BUDGET {
+            // Now and then, because the intervals do not show all that is in a trap.
+            if !count.is_multiple_of(LOOK_FOR_TRAPS) {
+                return false;
+            }
+            match ladder.trap(alpha, fates) {
+                None => return false,
+                Some(trap) if u64::from(trap.0.label) != HopperFate::LARGEST_LABEL => {
+                    self.end_in(at, alpha, trap);
+                    return true;
+                }
+                // Higher indices share a label of the generic traps.
+                Some(_) => {}
+            }
+        }
+        itinerary.give_up();
+        labels[*start as usize] = fates.label_of(self.speeds[*start as usize]);
+        true
+    }
+
+    /// An orbit has come to `alpha` in an interval of known fate.
+    #[inline]
+    fn end_in(&mut self, at: u32, alpha: f64, (known, between): (Known, (f64, f64))) {
+        let Followed { column, at, itinerary, .. } = &mut self.orbits.all[at as usize];
+        itinerary.end_in(alpha, &known.itinerary, between);
+        self.columns[*column as usize].labels[*at as usize] = known.label;
     }
 
     /// Looks at the gaps beside those that have ended, until only orbits on their way are left.
     fn narrow(&mut self) {
         while !self.orbits.ended.is_empty() {
             let mut ended = std::mem::take(&mut self.orbits.ended);
-            let first = self.orbits.starts.len();
-            for (start, note) in ended.drain(..) {
-                let Start { column, at, left, right } = start;
-                self.columns[column as usize].finish(at as usize, note);
+            let first = self.orbits.index.len();
+            for index in ended.drain(..) {
+                let Followed { column, at, left, right, itinerary } =
+                    self.orbits.all[index as usize];
+                let column = column as usize;
+                self.columns[column].finish(at as usize, itinerary);
                 for (left, right) in [(left, at), (at, right)] {
-                    let gap = (left as usize, right as usize);
                     if left < right
-                        && let Some(middle) = self.columns[column as usize].narrow(gap.0, gap.1)
+                        && let Some(middle) =
+                            self.columns[column].narrow(left as usize, right as usize)
                     {
-                        self.add(Start { column, at: middle as u32, left, right });
+                        self.add(column, middle as u32, (left, right));
                     }
                 }
             }

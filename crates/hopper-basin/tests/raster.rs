@@ -38,3 +38,21 @@ fn of_windows_nobody_would_choose() {
     check((0.1, 0.9), (190.0, 230.0), 7, 200);
     check((0.5, 0.6), (alpha_star(2).high - 1e-6, alpha_star(2).high + 1e-6), 4, 200);
 }
+
+/// Speeds in any order, twice, wrong, beyond all tables, and next to where fates part.
+#[test]
+fn of_speeds_in_no_order() {
+    let star = alpha_star(2).high;
+    let near = (0..60).map(|k| star + (f64::from(k) - 30.0) * star * f64::EPSILON);
+    let far = (0..400).map(|k| 40.0 * (f64::from(k) * 0.618_033_988_75).fract());
+    let wrong = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e14, 300.0, 7.0, 7.0, f64::MIN_POSITIVE];
+    let speeds: Vec<f64> = far.chain(near).chain(wrong).collect();
+    for m in [0.05, 0.2, 0.7, 1.0, 30.0] {
+        let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
+        let labels = fates.labels(&speeds);
+        for (&alpha, label) in speeds.iter().zip(labels) {
+            let single = fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label);
+            assert_eq!(label, single, "M = {m}, α = {alpha}");
+        }
+    }
+}

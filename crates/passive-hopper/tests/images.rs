@@ -34,6 +34,22 @@ fn check(m: f64, speeds: &[Option<f64>]) {
     assert_eq!(bits(&found), bits(&expected), "M = {m}");
 }
 
+/// The same under maps of their own.
+fn check_each(ratios: &[f64], speeds: &[Option<f64>]) {
+    let maps: Vec<_> =
+        ratios.iter().map(|&m| LiftOffMap::new(MassRatio::new(m).unwrap())).collect();
+    let hops: Vec<_> = maps.iter().cycle().zip(speeds.iter().copied()).collect();
+    let mut found = hops.clone();
+    let failed = LiftOffMap::images_of_each(&mut found).is_err();
+    let single = hops.iter().map(|&(map, speed)| one_by_one(map, &[speed]));
+    let (expected, errors): (Vec<_>, Vec<_>) = single.unzip();
+    assert_eq!(failed, errors.contains(&true));
+    for ((found, expected), (map, _)) in found.iter().zip(expected).zip(&hops) {
+        let bits = |speed: Option<f64>| speed.map(f64::to_bits);
+        assert_eq!(bits(found.1), bits(expected[0]), "M = {}", map.mass_ratio().value());
+    }
+}
+
 /// Speeds of every kind: of the paper's window, of any size, next to verdicts, wrong ones, and none.
 fn speed() -> impl Strategy<Value = Option<f64>> {
     let near = |point: f64, exponent: f64, sign: bool| {
@@ -61,6 +77,14 @@ proptest! {
         speeds in proptest::collection::vec(speed(), 0..700),
     ) {
         check(10f64.powf(exponent), &speeds);
+    }
+
+    #[test]
+    fn images_of_each_are_the_single_images(
+        exponents in proptest::collection::vec(-4.0..2.5f64, 1..9),
+        speeds in proptest::collection::vec(speed(), 0..700),
+    ) {
+        check_each(&exponents.into_iter().map(|e| 10f64.powf(e)).collect::<Vec<_>>(), &speeds);
     }
 }
 

@@ -102,6 +102,8 @@ fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
         let _ = basin_raster(grid, |_| std::ops::ControlFlow::Continue(()));
     }
     let Ok(fates) = Fates::new(ratio) else { return };
+    let some: Vec<f64> = [b, c, d, e].into_iter().cycle().zip(0..few).map(|(x, k)| x + k as f64).collect();
+    assert_eq!(fates.labels(&some).len(), few);
     let _ = branches(&fates, from, to, few);
     let _ = basin_levels(&fates, from, to, 2, few);
     let refinement = Refinement { shortest: b.abs().max(1e-2), undecided: c, levels: few, intervals: 1000 };
@@ -114,6 +116,8 @@ fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
 
 fn hops(ratio: MassRatio, alpha: f64, n: u64, delta: f64) {
     let map = LiftOffMap::new(ratio);
+    let mut many: Vec<_> = (0..20).map(|k| Some(alpha + delta * f64::from(k))).collect();
+    let _ = map.images(&mut many);
     if let Ok(hop) = map.hop(alpha) {
         assert!(hop.radicand <= alpha * alpha, "{hop:?}");
         assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");

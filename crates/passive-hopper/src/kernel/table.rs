@@ -19,9 +19,9 @@ pub(crate) const CELLS: usize = 32;
 /// Coefficients of a piece.
 const COEFFICIENTS: usize = 8;
 
-/// Octaves of |δ|, from 2⁻⁹ up to 4.
-const OCTAVES: usize = 11;
-const FIRST_OCTAVE: u64 = 1023 - 9;
+/// Octaves of |δ|, from 2⁻¹³ up to 4.
+const OCTAVES: usize = 15;
+const FIRST_OCTAVE: u64 = 1023 - 13;
 
 /// Pieces on one side of α*_n.
 const PIECES: usize = 16 * OCTAVES;
@@ -92,7 +92,7 @@ pub(crate) fn stars() -> &'static Stars {
 impl Place {
     pub(crate) const NOWHERE: Place = Place { cell: 0, piece: NO_PIECE as u64, at: 0.0, sudden: 0 };
 
-    /// The place of `alpha` > 0; none outside the tables, next to nπ, and within 2⁻⁹ of α*_n. No branch.
+    /// The place of `alpha` > 0; none outside the tables, next to nπ, and within 2⁻¹³ of α*_n. No branch.
     #[inline(always)]
     pub(crate) fn of(alpha: f64, stars: &Stars) -> Self {
         const ONE: u64 = 1023 << 52;
