@@ -44,6 +44,9 @@ pub(crate) struct Arcs {
 /// A hundred times the relative error of the arcs' ends.
 const ROUNDING: f64 = 1e-12;
 
+/// For larger M, hops have several sudden lift-offs, and hardly two orbits keep to the humps.
+const LARGEST: f64 = 1.0;
+
 /// Rungs whose arcs have a number under 32.
 const RUNGS: u64 = 10;
 
@@ -52,7 +55,7 @@ impl Arcs {
     pub(crate) fn below(mass_ratio: MassRatio, alpha: f64) -> Result<Option<Self>, Error> {
         let proved = |n| rising_window(n).filter(|w| mass_ratio.value() <= w.largest_mass_ratio);
         let last = index_below(alpha)?;
-        if proved(1).is_none() || last >= RUNGS {
+        if mass_ratio.value() > LARGEST || last >= RUNGS {
             return Ok(None);
         }
         let mu = mass_ratio.mu();

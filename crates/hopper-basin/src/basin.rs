@@ -9,7 +9,7 @@ use basin_of_attraction::{
 use passive_hopper::{MassRatio, alpha_star};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 /// Points counted by their fate.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,25 +67,64 @@ pub fn basin_raster(
     grid: Grid,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, Error> {
-    let largest = alpha_star(HopperFate::LARGEST_LABEL).high;
-    if !(grid.y.left >= 0.0 && grid.y.right <= largest) {
-        return Err(Error::Window { bottom: grid.y.left, top: grid.y.right, largest });
-    }
+    check_speeds(&grid)?;
     // Every column has a valid mass ratio if the outermost have.
     if grid.columns > 0 {
         for column in [0, grid.columns - 1] {
             Fates::new(MassRatio::new(grid.x_at(column))?)?;
         }
     }
-    let prepare = |m: &f64| Fates::new(MassRatio::new(*m)?);
-    let strip =
-        |ms: &[f64], speeds: &[f64]| match ms.iter().map(prepare).collect::<Result<Vec<_>, _>>() {
-            Ok(fates) => labels_of_all(&fates.iter().collect::<Vec<_>>(), speeds),
-            Err(_) => vec![vec![HopperFate::UNDECIDED_HOP; speeds.len()]; ms.len()],
-        };
+    let strip = |ms: &[f64], speeds: &[f64]| {
+        // Not reached: see above.
+        let undecided = |_| vec![vec![HopperFate::UNDECIDED_HOP; speeds.len()]; ms.len()];
+        strip(ms.iter().copied(), speeds).unwrap_or_else(undecided)
+    };
     // As much as stays in a processor's cache, and work for many threads.
     let width = (16_384 / grid.rows.max(1)).min(grid.columns / 16).clamp(1, 16);
     Ok(raster_by_strips(grid, width, strip, progress)?)
+}
+
+/// The labels of some columns of a [`basin_raster`], from the lowest speed up: for rasters too large for memory.
+///
+/// Sixteen neighbouring columns at once take less time than one by one: their orbits hop together.
+///
+/// ```
+/// use basin_of_attraction::{Grid, Interval};
+/// use hopper_basin::{basin_columns, basin_raster};
+/// use std::ops::ControlFlow::Continue;
+/// let (x, y) = (Interval::new(0.1, 1.0)?, Interval::new(4.5, 20.0)?);
+/// let grid = Grid { x, y, columns: 100, rows: 50 };
+/// let columns = basin_columns(&grid, 16..32)?;
+/// let raster = basin_raster(grid, |_| Continue(()))?;
+/// assert_eq!(Some(columns[3][20]), raster.at(16 + 3, 20));
+/// # Ok::<(), hopper_basin::Error>(())
+/// ```
+///
+/// # Errors
+/// As [`basin_raster`]; [`basin_of_attraction::Error::BadRaster`] for columns that the grid has not.
+pub fn basin_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<u16>>, Error> {
+    check_speeds(grid)?;
+    if columns.end > grid.columns {
+        let bad = basin_of_attraction::Error::BadRaster { columns: columns.end, rows: grid.rows };
+        return Err(bad.into());
+    }
+    let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();
+    strip(columns.map(|column| grid.x_at(column)), &speeds)
+}
+
+/// The labels of `speeds` at every mass ratio.
+fn strip(ms: impl Iterator<Item = f64>, speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
+    let fates = ms.map(|m| Fates::new(MassRatio::new(m)?)).collect::<Result<Vec<_>, Error>>()?;
+    Ok(labels_of_all(&fates.iter().collect::<Vec<_>>(), speeds))
+}
+
+/// Whether the speeds of `grid` have labels.
+fn check_speeds(grid: &Grid) -> Result<(), Error> {
+    let largest = alpha_star(HopperFate::LARGEST_LABEL).high;
+    if grid.y.left >= 0.0 && grid.y.right <= largest {
+        return Ok(());
+    }
+    Err(Error::Window { bottom: grid.y.left, top: grid.y.right, largest })
 }
 
 /// The monotone branches of the map from α*_`from` to α*_`to`.

@@ -13,7 +13,8 @@
 //! | [`reach`], [`Reach`], [`recovery`] | how far a basin reaches into the sudden windows, down to a stated width; mass ratios from which none falls through |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at fixed M as intervals, with what is undecided |
 //! | [`shares`], [`Shares`] | measures by the paper's protocol |
-//! | [`basin_raster`] | basins over (M, α) |
+//! | [`basin_raster`], [`basin_columns`] | basins over (M, α), whole or some columns at a time |
+//! | [`Fates::labels`] | the fates of many speeds, hopping together |
 //! | [`basin_levels`], [`branches`] | a basin as intervals, level by level, from the map itself |
 //!
 //! ```
@@ -55,7 +56,7 @@ mod strip;
 mod trap;
 mod window;
 
-pub use basin::{Shares, basin_levels, basin_raster, branches, shares};
+pub use basin::{Shares, basin_columns, basin_levels, basin_raster, branches, shares};
 pub use crisis::{Crisis, crisis, grounding};
 pub use error::Error;
 pub use fate::{Fates, HOP_BUDGET, HopperFate};

@@ -7,12 +7,11 @@ use crate::output::Folder;
 use crate::plot::render::render;
 use crate::progress::Progress;
 use basin_of_attraction::{Grid, Interval, LabelImage};
-use hopper_basin::{HopperFate, basin_raster};
+use hopper_basin::{HopperFate, basin_columns};
 use passive_hopper::{MassRatio, alpha_star};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::io::{BufWriter, Write};
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -126,14 +125,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
 fn columns(grid: &Grid, tile: usize) -> Result<Vec<u8>, Error> {
     let first = tile * TILE;
     let count = TILE.min(grid.columns - first);
-    // A window of whole columns: the same middles as in the whole grid, to the bit.
-    let labels: Vec<Vec<u16>> = (first..first + count)
-        .map(|column| {
-            let m = grid.x_at(column);
-            let one = Grid { x: Interval::new(m, m)?, columns: 1, ..*grid };
-            Ok(basin_raster(one, |_| ControlFlow::Continue(()))?.labels)
-        })
-        .collect::<Result<_, Error>>()?;
+    let labels = basin_columns(grid, first..first + count)?;
     Ok(labels.iter().flatten().flat_map(|label| label.to_le_bytes()).collect())
 }
 
@@ -207,6 +199,8 @@ fn thinned(kept: &Checkpoint, grid: &Grid) -> Result<LabelImage, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hopper_basin::basin_raster;
+    use std::ops::ControlFlow;
 
     #[test]
     fn absurd_windows_are_refused_before_anything_is_written() {
