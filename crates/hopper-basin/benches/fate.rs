@@ -1,23 +1,42 @@
-//! Fates and traps of the hopper.
+//! Fates, traps and rasters of the hopper.
 
 #![allow(missing_docs)]
 
 use basin_of_attraction::{Grid, Interval};
 use criterion::{Criterion, criterion_group, criterion_main};
-use hopper_basin::{Fates, basin_raster};
+use hopper_basin::{Fates, basin_columns, basin_raster};
 use passive_hopper::{MassRatio, alpha_star};
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
-fn fates(criterion: &mut Criterion) {
-    criterion.bench_function("eight traps", |bencher| {
-        bencher.iter(|| MassRatio::new(black_box(0.3)).map(Fates::new));
-    });
+/// The window of Fig. 6 from M = 0.1 on.
+fn window(columns: usize, rows: usize) -> Grid {
     let x = Interval { left: 0.1, right: 1.0 };
     let y = Interval { left: alpha_star(1).high, right: alpha_star(6).high };
-    let grid = Grid { x, y, columns: 64, rows: 64 };
-    criterion.bench_function("raster 64 × 64 of Fig. 6's window", |bencher| {
-        bencher.iter(|| basin_raster(grid, |_| ControlFlow::Continue(())));
+    Grid { x, y, columns, rows }
+}
+
+fn fates(criterion: &mut Criterion) {
+    criterion.bench_function("traps of α*_0 … α*_7", |bencher| {
+        bencher.iter(|| {
+            let fates = Fates::new(MassRatio::new(black_box(0.3)).unwrap()).unwrap();
+            (0..8).map(|n| fates.trap(n).unwrap().right()).sum::<f64>()
+        });
+    });
+    let fates = Fates::new(MassRatio::new(0.3).unwrap()).unwrap();
+    let speeds: Vec<f64> = (0..1024).map(|row| window(1, 1024).y_at(row)).collect();
+    criterion.bench_function("fate of 1024 speeds at M = 0.3, one by one", |bencher| {
+        bencher
+            .iter(|| black_box(&speeds).iter().filter(|&&alpha| fates.fate(alpha).is_ok()).count());
+    });
+    criterion.bench_function("labels of 1024 speeds at M = 0.3", |bencher| {
+        bencher.iter(|| fates.labels(black_box(&speeds)));
+    });
+    criterion.bench_function("16 columns of 1024² of Fig. 6's window", |bencher| {
+        bencher.iter(|| basin_columns(&window(1024, 1024), 240..256));
+    });
+    criterion.bench_function("raster 256 × 256 of Fig. 6's window", |bencher| {
+        bencher.iter(|| basin_raster(window(256, 256), |_| ControlFlow::Continue(())));
     });
 }
 

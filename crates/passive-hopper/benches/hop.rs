@@ -32,6 +32,24 @@ fn hops(criterion: &mut Criterion) {
                 .sum::<f64>()
         });
     });
+    group.bench_function("stable form, at once, each its own M", |bencher| {
+        let maps: Vec<_> = inputs.iter().map(|&(m, _)| LiftOffMap::new(m)).collect();
+        bencher.iter(|| {
+            let speeds = inputs.iter().map(|&(_, alpha)| Some(black_box(alpha)));
+            let mut hops: Vec<_> = maps.iter().zip(speeds).collect();
+            LiftOffMap::images_of_each(&mut hops).map(|()| hops.len())
+        });
+    });
+    group.bench_function("stable form, at once, M = 0.3", |bencher| {
+        let map = MassRatio::new(0.3).map(LiftOffMap::new);
+        let mut speeds = vec![None; inputs.len()];
+        bencher.iter(|| {
+            for (speed, &(_, alpha)) in speeds.iter_mut().zip(&inputs) {
+                *speed = Some(black_box(alpha));
+            }
+            map.as_ref().map(|map| map.images(&mut speeds))
+        });
+    });
     group.bench_function("printed form", |bencher| {
         bencher.iter(|| {
             inputs

@@ -21,7 +21,7 @@ pub(crate) struct Measured {
 }
 
 /// Repeats of a raster, of which the median is taken.
-const REPEATS: usize = 5;
+const REPEATS: usize = 15;
 
 /// All figures, in one run.
 pub(crate) fn measure(progress: &Progress) -> Result<Vec<Measured>, Error> {
