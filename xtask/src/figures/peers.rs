@@ -12,7 +12,7 @@ const OURS: [Marker; 4] = [Marker::Ring, Marker::Cross, Marker::Disc, Marker::Sq
 
 /// The drawing: worst errors, with a line down to the median.
 pub(crate) fn peers_figure(peers: &[Peer]) -> String {
-    let mut svg = Svg::new(860.0, 420.0);
+    let mut svg = Svg::new(760.0, 420.0);
     let frame = Frame::linear(70.0, 24.0, 380.0, 340.0, TIMES, ERRORS).log_x().log_y();
     let mut legend = 60.0;
     let (mut theirs, mut ours) = (THEIRS.iter(), OURS.iter());

@@ -13,6 +13,7 @@ const TIMES: (f64, f64) = (1e-9, 1e-1);
 fn look(method: Method) -> (Marker, &'static str, &'static str) {
     match method {
         Method::Stable => (Marker::Disc, "#000000", "stable form"),
+        Method::AtOnce => (Marker::OpenSquare, "#000000", "stable form, at once"),
         Method::Local => (Marker::Square, "#0072b2", "($n$, $δ$) form"),
         Method::Asymptotics => (Marker::Triangle, "#e69f00", "asymptotics, inside their range"),
         Method::Printed => (Marker::Diamond, "#d55e00", "printed form, Brent’s method"),

@@ -19,6 +19,8 @@ pub enum Marker {
     Cross,
     /// A circle, not filled.
     Ring,
+    /// A square, not filled.
+    OpenSquare,
 }
 
 impl Svg {
@@ -53,6 +55,14 @@ impl Svg {
                 let pen = Pen::solid(color, 1.6);
                 self.line((x - r, y - r), (x + r, y + r), pen);
                 self.line((x - r, y + r), (x + r, y - r), pen);
+            }
+            Marker::OpenSquare => {
+                let (pen, r) = (Pen::solid(color, 1.1), 0.8 * r);
+                for (from, to) in
+                    [((-r, -r), (r, -r)), ((r, -r), (r, r)), ((r, r), (-r, r)), ((-r, r), (-r, -r))]
+                {
+                    self.line((x + from.0, y + from.1), (x + to.0, y + to.1), pen);
+                }
             }
             Marker::Ring => self.ring(x, y, 0.85 * r, Pen::solid(color, 1.1)),
         }

@@ -2,15 +2,19 @@
 
 use super::hybrid_hopper::{exact_landings, searched_landings};
 use super::ode_hopper::integrated_hop;
+use super::timing::median_time;
 use super::{Answer, Case};
 use hopper_asymptotics::{LEFT_RANGE, Left, RIGHT_RANGE, Right, SMALL_ALPHA_RANGE, small_hop_loss};
 use passive_hopper::{LiftOffMap, alpha_star, printed_image};
+use std::time::Duration;
 
 /// One of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Method {
     /// `LiftOffMap::hop`.
     Stable,
+    /// `LiftOffMap::images_of_each`, all hops of a class at once.
+    AtOnce,
     /// `LiftOffMap::hop_about`.
     Local,
     /// Expansions, inside their ranges.
@@ -28,6 +32,7 @@ pub(crate) enum Method {
 /// All of them, the cheapest first.
 pub(crate) const ALL: &[Method] = &[
     Method::Asymptotics,
+    Method::AtOnce,
     Method::Stable,
     Method::Local,
     Method::HybridExact,
@@ -50,6 +55,7 @@ impl Method {
     pub(crate) fn name(self) -> String {
         match self {
             Method::Stable => "stable form".into(),
+            Method::AtOnce => "stable form, at once".into(),
             Method::Local => "(n, δ) form".into(),
             Method::Asymptotics => "asymptotics, in range".into(),
             Method::Printed => "printed form, Brent".into(),
@@ -67,6 +73,12 @@ impl Method {
                 let hop = map.hop(case.alpha).ok().filter(|hop| hop.certain)?;
                 let (next, loss, sudden) = (hop.next, hop.loss, Some(hop.sudden));
                 Some(Answer { next, loss, offset: None, sudden })
+            }
+            Method::AtOnce => {
+                // Enough of them to be taken at once.
+                let mut hops = [(&map, Some(case.alpha)); 32];
+                LiftOffMap::images_of_each(&mut hops).ok()?;
+                Some(Answer { next: hops[0].1, ..Answer::default() })
             }
             Method::Local => {
                 let (n, delta) = case.local?;
@@ -87,11 +99,25 @@ impl Method {
         }
     }
 
+    /// The time of a hop.
+    pub(crate) fn time(self, cases: &[&Case]) -> Duration {
+        if self != Method::AtOnce {
+            return median_time(cases.len(), |k| self.hop(cases[k]).and_then(|a| a.next));
+        }
+        let maps: Vec<_> = cases.iter().map(|case| LiftOffMap::new(case.mass_ratio)).collect();
+        let all = || {
+            let mut hops: Vec<_> =
+                maps.iter().zip(cases).map(|(map, case)| (map, Some(case.alpha))).collect();
+            LiftOffMap::images_of_each(&mut hops).is_ok()
+        };
+        median_time(1, |_| all()) / cases.len() as u32
+    }
+
     /// A bound on its relative error on a plain hop, for the test that each does what it should.
     #[cfg(test)]
     pub(crate) fn expected_error(self) -> f64 {
         match self {
-            Method::Stable | Method::Local => 4e-16,
+            Method::Stable | Method::AtOnce | Method::Local => 4e-16,
             Method::Asymptotics => 2e-4,
             Method::Printed | Method::HybridExact => 1e-14,
             Method::HybridSearched => 1e-12,

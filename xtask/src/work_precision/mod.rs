@@ -170,8 +170,7 @@ fn score(class: &Class, method: Method) -> Score {
     }
     errors.sort_by(f64::total_cmp);
     let worst = errors.last().copied();
-    let time = (!answered.is_empty())
-        .then(|| median_time(answered.len(), |k| method.hop(answered[k]).and_then(|a| a.next)));
+    let time = (!answered.is_empty()).then(|| method.time(&answered));
     Score {
         class: class.name.clone(),
         method,

@@ -66,7 +66,9 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
         };
         let (time, units) = match score.time {
             Some(time) => {
-                (duration(time), format!("{:.0}", time.as_secs_f64() / unit.as_secs_f64()))
+                let units = time.as_secs_f64() / unit.as_secs_f64();
+                let digits = usize::from(units < 9.95);
+                (duration(time), format!("{units:.digits$}"))
             }
             None => ("–".into(), "–".into()),
         };
