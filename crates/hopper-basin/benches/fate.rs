@@ -4,7 +4,7 @@
 
 use basin_of_attraction::{Grid, Interval};
 use criterion::{Criterion, criterion_group, criterion_main};
-use hopper_basin::{Fates, basin_columns, basin_raster};
+use hopper_basin::{Error, Fates, basin_columns, basin_raster};
 use passive_hopper::{MassRatio, alpha_star};
 use std::hint::black_box;
 use std::ops::ControlFlow;
@@ -19,11 +19,11 @@ fn window(columns: usize, rows: usize) -> Grid {
 fn fates(criterion: &mut Criterion) {
     criterion.bench_function("traps of α*_0 … α*_7", |bencher| {
         bencher.iter(|| {
-            let fates = Fates::new(MassRatio::new(black_box(0.3)).unwrap()).unwrap();
-            (0..8).map(|n| fates.trap(n).unwrap().right()).sum::<f64>()
+            let fates = Fates::new(MassRatio::new(black_box(0.3))?)?;
+            (0..8).map(|n| Ok(fates.trap(n)?.right())).sum::<Result<f64, Error>>()
         });
     });
-    let fates = Fates::new(MassRatio::new(0.3).unwrap()).unwrap();
+    let Ok(fates) = MassRatio::new(0.3).map_err(Error::from).and_then(Fates::new) else { return };
     let speeds: Vec<f64> = (0..1024).map(|row| window(1, 1024).y_at(row)).collect();
     criterion.bench_function("fate of 1024 speeds at M = 0.3, one by one", |bencher| {
         bencher
