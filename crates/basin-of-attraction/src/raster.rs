@@ -18,7 +18,21 @@ pub struct Grid {
     pub rows: usize,
 }
 
+/// Pixels of a raster, at most: 32 GiB of labels.
+const MOST_PIXELS: u64 = 1 << 34;
+
 impl Grid {
+    /// The number of pixels.
+    ///
+    /// # Errors
+    /// [`Error::BadRaster`] for none, and for more than 2³⁴.
+    pub fn pixels(&self) -> Result<usize, Error> {
+        let Grid { columns, rows, .. } = *self;
+        let pixels = columns.checked_mul(rows).filter(|&pixels| pixels > 0);
+        let few = pixels.filter(|&pixels| pixels as u64 <= MOST_PIXELS);
+        few.ok_or(Error::BadRaster { columns, rows })
+    }
+
     /// x at the middle of a column.
     pub fn x_at(&self, column: usize) -> f64 {
         self.x.left + self.x.length() * ((column as f64 + 0.5) / self.columns as f64)
@@ -101,7 +115,7 @@ pub fn raster<C>(
         let shared = prepare(x);
         ys.iter().map(|&y| label(&shared, y)).collect()
     };
-    let strip = |xs: &[f64], ys: &[f64]| xs.iter().map(|x| column(x, ys)).collect();
+    let strip = |xs: &[f64], ys: &[f64]| Ok(xs.iter().map(|x| column(x, ys)).collect());
     raster_by_strips(grid, 1, strip, progress)
 }
 
@@ -114,28 +128,27 @@ const BAND: usize = 32;
 /// of every column: whoever can label many points faster together than one by one. The rest is as for [`raster`].
 ///
 /// ```
-/// use basin_of_attraction::{Grid, Interval, raster_by_strips};
+/// use basin_of_attraction::{Error, Grid, Interval, raster_by_strips};
 /// use std::ops::ControlFlow::Continue;
 /// let unit = Interval::new(0.0, 1.0)?;
 /// let grid = Grid { x: unit, y: unit, columns: 4, rows: 4 };
 /// let column = |x: f64, ys: &[f64]| ys.iter().map(|&y| u16::from(y > x)).collect();
-/// let strip = |xs: &[f64], ys: &[f64]| xs.iter().map(|&x| column(x, ys)).collect();
-/// let image = raster_by_strips(grid, 2, strip, |_| Continue(()))?;
+/// let strip = |xs: &[f64], ys: &[f64]| Ok(xs.iter().map(|&x| column(x, ys)).collect());
+/// let image = raster_by_strips::<Error>(grid, 2, strip, |_| Continue(()))?;
 /// assert_eq!(image.counts(), [(0, 10), (1, 6)]);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
 /// # Errors
-/// As [`raster`], and [`Error::BadStrip`] for a strip with another number of columns or labels.
-pub fn raster_by_strips(
+/// As [`raster`], [`Error::BadStrip`] for a strip with another number of columns or labels, and those of `strip`.
+pub fn raster_by_strips<E: From<Error> + Send>(
     grid: Grid,
     width: usize,
-    strip: impl Fn(&[f64], &[f64]) -> Vec<Vec<u16>> + Sync,
+    strip: impl Fn(&[f64], &[f64]) -> Result<Vec<Vec<u16>>, E> + Sync,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
-) -> Result<LabelImage, Error> {
+) -> Result<LabelImage, E> {
     let Grid { columns, rows, .. } = grid;
-    let pixels = columns.checked_mul(rows).filter(|&pixels| pixels > 0 && pixels <= 1 << 34);
-    let Some(pixels) = pixels else { return Err(Error::BadRaster { columns, rows }) };
+    let pixels = grid.pixels()?;
     let ys: Vec<f64> = (0..rows).map(|row| grid.y_at(row)).collect();
     let xs: Vec<f64> = (0..columns).map(|column| grid.x_at(column)).collect();
     let finished = AtomicUsize::new(0);
@@ -146,10 +159,10 @@ pub fn raster_by_strips(
             if interrupted.load(Ordering::Relaxed) {
                 return Ok(Vec::new());
             }
-            let labels = strip(xs, &ys);
+            let labels = strip(xs, &ys)?;
             if labels.len() != xs.len() || labels.iter().any(|column| column.len() != rows) {
                 let found = labels.iter().map(Vec::len).sum();
-                return Err(Error::BadStrip { found, columns: xs.len(), rows });
+                return Err(Error::BadStrip { found, columns: xs.len(), rows }.into());
             }
             let done = finished.fetch_add(xs.len(), Ordering::Relaxed) + xs.len();
             if progress(done).is_break() {
@@ -157,12 +170,12 @@ pub fn raster_by_strips(
             }
             Ok(labels)
         })
-        .collect::<Result<Vec<_>, Error>>()?
+        .collect::<Result<Vec<_>, E>>()?
         .into_iter()
         .flatten()
         .collect();
     if interrupted.into_inner() {
-        return Err(Error::Interrupted { finished: finished.into_inner(), columns });
+        return Err(Error::Interrupted { finished: finished.into_inner(), columns }.into());
     }
     let mut labels = vec![0; pixels];
     // In bands as high as a cache line is long: every line of a column is read once.

@@ -48,14 +48,14 @@ const ROUNDING: f64 = 1e-12;
 const LARGEST: f64 = 1.0;
 
 /// Rungs whose arcs have a number under 32.
-const RUNGS: u64 = 10;
+pub(crate) const RUNGS: u64 = 10;
 
 impl Arcs {
     /// The arcs below `alpha`; nothing where too little is proved to be of use.
     pub(crate) fn below(mass_ratio: MassRatio, alpha: f64) -> Result<Option<Self>, Error> {
         let proved = |n| rising_window(n).filter(|w| mass_ratio.value() <= w.largest_mass_ratio);
         let last = index_below(alpha)?;
-        if mass_ratio.value() > LARGEST || last >= RUNGS {
+        if mass_ratio.value() > LARGEST {
             return Ok(None);
         }
         let mu = mass_ratio.mu();
@@ -76,7 +76,8 @@ impl Arcs {
                 slopes: [first, hump_slope, window_slope],
             })
         };
-        Ok(Some(Arcs { rungs: (0..=last).map(rung).collect::<Result<_, Error>>()? }))
+        let rungs = (0..RUNGS.min(last + 1)).map(rung).collect::<Result<_, Error>>()?;
+        Ok(Some(Arcs { rungs }))
     }
 
     /// The arc that holds all within `pad` of `alpha`, if one does.

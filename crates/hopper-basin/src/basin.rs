@@ -68,20 +68,12 @@ pub fn basin_raster(
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, Error> {
     check_speeds(&grid)?;
-    // Every column has a valid mass ratio if the outermost have.
-    if grid.columns > 0 {
-        for column in [0, grid.columns - 1] {
-            Fates::new(MassRatio::new(grid.x_at(column))?)?;
-        }
-    }
-    let strip = |ms: &[f64], speeds: &[f64]| {
-        // Not reached: see above.
-        let undecided = |_| vec![vec![HopperFate::UNDECIDED_HOP; speeds.len()]; ms.len()];
-        strip(ms.iter().copied(), speeds).unwrap_or_else(undecided)
-    };
-    // As much as stays in a processor's cache, and work for many threads.
-    let width = (16_384 / grid.rows.max(1)).min(grid.columns / 16).clamp(1, 16);
-    Ok(raster_by_strips(grid, width, strip, progress)?)
+    raster_by_strips(grid, strip_width(&grid), strip, progress)
+}
+
+/// Columns whose orbits hop together: as much as stays in a processor's cache, and work for many threads.
+fn strip_width(grid: &Grid) -> usize {
+    (16_384 / grid.rows.max(1)).min(grid.columns / 16).clamp(1, 16)
 }
 
 /// The labels of some columns of a [`basin_raster`], from the lowest speed up: for rasters too large for memory.
@@ -100,22 +92,31 @@ pub fn basin_raster(
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```
 ///
+/// An empty range has no columns.
+///
 /// # Errors
 /// As [`basin_raster`]; [`basin_of_attraction::Error::BadRaster`] for columns that the grid has not.
 pub fn basin_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<u16>>, Error> {
     check_speeds(grid)?;
+    grid.pixels()?;
     if columns.end > grid.columns {
         let bad = basin_of_attraction::Error::BadRaster { columns: columns.end, rows: grid.rows };
         return Err(bad.into());
     }
     let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();
-    strip(columns.map(|column| grid.x_at(column)), &speeds)
+    let ratios: Vec<f64> = columns.map(|column| grid.x_at(column)).collect();
+    let mut found = Vec::with_capacity(ratios.len());
+    for some in ratios.chunks(strip_width(grid)) {
+        found.extend(strip(some, &speeds)?);
+    }
+    Ok(found)
 }
 
 /// The labels of `speeds` at every mass ratio.
-fn strip(ms: impl Iterator<Item = f64>, speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
-    let fates = ms.map(|m| Fates::new(MassRatio::new(m)?)).collect::<Result<Vec<_>, Error>>()?;
-    Ok(labels_of_all(&fates.iter().collect::<Vec<_>>(), speeds))
+fn strip(ratios: &[f64], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
+    let fates = |&m: &f64| Fates::new(MassRatio::new(m)?);
+    let fates = ratios.iter().map(fates).collect::<Result<Vec<_>, Error>>()?;
+    labels_of_all(&fates.iter().collect::<Vec<_>>(), speeds)
 }
 
 /// Whether the speeds of `grid` have labels.

@@ -20,8 +20,8 @@ pub enum Error {
         /// What the root finder said.
         source: hybrid_system::Error,
     },
-    /// A window whose fixed points do not fit the labels, or that is not positive.
-    #[error("a window of lift-off speeds must lie in (0, {largest}], not [{bottom}, {top}]")]
+    /// A window whose fixed points do not fit the labels, or that goes below zero.
+    #[error("a window of lift-off speeds must lie in [0, {largest}], not [{bottom}, {top}]")]
     Window {
         /// Lowest speed.
         bottom: f64,

@@ -11,6 +11,7 @@
 //!
 //! Several columns, because the hops of one are too few to fill the vectors of a processor.
 
+use crate::arcs::RUNGS;
 use crate::column::Column;
 use crate::itinerary::Itinerary;
 use crate::known::{Intervals, Known, NOWHERE};
@@ -23,9 +24,6 @@ const COARSEST: usize = 16;
 
 /// Below a column's speeds there are so many times fewer others, for orbits that come down.
 const LOWER: usize = 2;
-
-/// After so many hops all traps are looked for.
-const LOOK_FOR_TRAPS: usize = 8;
 
 /// A speed that is followed.
 #[derive(Debug, Clone, Copy)]
@@ -60,6 +58,7 @@ struct Strip<'a> {
     speeds: Vec<f64>,
     intervals: Intervals,
     orbits: Orbits<'a>,
+    failed: Result<(), Error>,
 }
 
 /// The labels of `speeds` > 0, in increasing order, at every mass ratio.
@@ -73,8 +72,10 @@ pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Er
             intervals.add_anywhere(at, &speeds, trap, between);
         }
     }
-    let mut strip = Strip { columns, speeds, intervals, orbits: Orbits::default() };
+    let orbits = Orbits::default();
+    let mut strip = Strip { columns, speeds, intervals, orbits, failed: Ok(()) };
     strip.label()?;
+    strip.failed?;
     Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
 }
 
@@ -88,29 +89,26 @@ fn from_zero(speeds: &[f64]) -> (Vec<f64>, usize) {
 
 impl Strip<'_> {
     fn label(&mut self) -> Result<(), Error> {
-        let count = self.speeds.len();
         let last = self.speeds.last().map_or(Ok(0), |&speed| index_below(speed))?;
         let with_arcs = self.columns.iter().any(|column| column.arcs.is_some());
         let mut first = 0;
         // Without arcs there are no intervals to wait for.
-        for n in 0..=if with_arcs { last } else { 0 } {
+        for n in 0..if with_arcs { RUNGS.min(last + 1) } else { 0 } {
             let star = alpha_star(n + 1).high;
-            let end = if n == last || !with_arcs {
-                count
-            } else {
-                first + self.speeds[first..].partition_point(|&speed| speed < star)
-            };
-            self.label_hump(first..end);
+            let end = first + self.speeds[first..].partition_point(|&speed| speed < star);
+            self.label_hump(first..end, true);
             first = end;
         }
+        self.label_hump(first..self.speeds.len(), false);
         Ok(())
     }
 
-    fn label_hump(&mut self, hump: Range<usize>) {
+    /// Labels the speeds of a hump, with arcs or without.
+    fn label_hump(&mut self, hump: Range<usize>, with_arcs: bool) {
         self.orbits.count = 0;
         self.orbits.all.clear();
         for column in 0..self.columns.len() {
-            self.add_first(column, &hump);
+            self.add_first(column, &hump, with_arcs);
         }
         self.sort_out(0);
         loop {
@@ -129,12 +127,12 @@ impl Strip<'_> {
     }
 
     /// The first speeds of a column that are followed: all of them where no arcs are known.
-    fn add_first(&mut self, column: usize, hump: &Range<usize>) {
+    fn add_first(&mut self, column: usize, hump: &Range<usize>, with_arcs: bool) {
         if hump.is_empty() {
             return;
         }
         let (first, last) = (hump.start as u32, hump.end as u32 - 1);
-        if self.columns[column].arcs.is_none() {
+        if !with_arcs || self.columns[column].arcs.is_none() {
             for at in first..=last {
                 self.add(column, at, (at, at));
             }
@@ -221,12 +219,8 @@ impl Strip<'_> {
             labels[*start as usize] = HopperFate::GROUNDED;
             return true;
         };
-        let count = self.orbits.count;
-        if alpha != before && alpha > 0.0 && count <= HOP_BUDGET {
-            // Now and then, because the intervals do not show all that is in a trap.
-            if !count.is_multiple_of(LOOK_FOR_TRAPS) {
-                return false;
-            }
+        if alpha != before && alpha > 0.0 && self.orbits.count <= HOP_BUDGET {
+            // The intervals do not show all that is in a trap.
             match ladder.trap(alpha, fates) {
                 None => return false,
                 Some(trap) if u64::from(trap.0.label) != HopperFate::LARGEST_LABEL => {
@@ -238,7 +232,10 @@ impl Strip<'_> {
             }
         }
         itinerary.give_up();
-        labels[*start as usize] = fates.label_of(self.speeds[*start as usize]);
+        match fates.fate(self.speeds[*start as usize]) {
+            Ok(fate) => labels[*start as usize] = fate.label(),
+            Err(error) => self.failed = Err(error),
+        }
         true
     }
 

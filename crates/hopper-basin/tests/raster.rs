@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::{Grid, Interval};
-use hopper_basin::{Fates, HopperFate, basin_raster};
+use hopper_basin::{Fates, HopperFate, basin_columns, basin_raster};
 use passive_hopper::{MassRatio, alpha_star};
 use std::ops::ControlFlow::Continue;
 
@@ -26,8 +26,8 @@ fn check(x: (f64, f64), y: (f64, f64), columns: usize, rows: usize) {
 #[test]
 fn of_the_papers_windows() {
     let (low, high) = (alpha_star(1).high, alpha_star(6).high);
-    check((0.1, 1.0), (low, high), 64, 1024);
-    check((0.17, 0.18), (17.0, 17.8), 64, 1024);
+    check((0.1, 1.0), (low, high), 1024, 1024);
+    check((0.17, 0.18), (17.0, 17.8), 1024, 1024);
     check((1.0, 10.0), (low, high), 64, 256);
 }
 
@@ -39,20 +39,60 @@ fn of_windows_nobody_would_choose() {
     check((0.5, 0.6), (alpha_star(2).high - 1e-6, alpha_star(2).high + 1e-6), 4, 200);
 }
 
-/// Speeds in any order, twice, wrong, beyond all tables, and next to where fates part.
+/// Every label against the fate of its speed.
+fn check_speeds(m: f64, speeds: &[f64]) {
+    let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
+    let labels = fates.labels(speeds).unwrap();
+    for (&alpha, label) in speeds.iter().zip(labels) {
+        assert_eq!(label, fates.fate(alpha).unwrap().label(), "M = {m}, α = {alpha}");
+    }
+}
+
+/// Speeds in any order, twice, beyond all tables, and next to where fates part.
 #[test]
 fn of_speeds_in_no_order() {
     let star = alpha_star(2).high;
     let near = (0..60).map(|k| star + (f64::from(k) - 30.0) * star * f64::EPSILON);
-    let far = (0..400).map(|k| 40.0 * (f64::from(k) * 0.618_033_988_75).fract());
-    let wrong = [0.0, -1.0, f64::NAN, f64::INFINITY, 1e14, 300.0, 7.0, 7.0, f64::MIN_POSITIVE];
-    let speeds: Vec<f64> = far.chain(near).chain(wrong).collect();
+    let far = (1..400).map(|k| 40.0 * (f64::from(k) * 0.618_033_988_75).fract());
+    let odd = [1e12, 300.0, 7.0, 7.0, 1e-300, 5e-324];
+    let speeds: Vec<f64> = far.chain(near).chain(odd).collect();
     for m in [0.05, 0.2, 0.7, 1.0, 30.0] {
-        let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
-        let labels = fates.labels(&speeds);
-        for (&alpha, label) in speeds.iter().zip(labels) {
-            let single = fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label);
-            assert_eq!(label, single, "M = {m}, α = {alpha}");
+        check_speeds(m, &speeds);
+    }
+}
+
+/// Orbits that come into the last ulps of a trap, which the map as computed leaves again.
+#[test]
+fn of_orbits_to_the_last_ulps_of_a_trap() {
+    for (m, alpha) in [
+        (0.330_499_999_999_999_96, 3.398_198_266_583_449),
+        (0.3326, 3.384_241_188_234_909_7),
+        (0.3389, 3.358_787_720_946_075_3),
+        (0.3452, 3.343_558_012_500_218),
+    ] {
+        let above = (0..100).map(|k| 30.0 + 0.01 * f64::from(k));
+        check_speeds(m, &[0.5, alpha].into_iter().chain(above).collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn of_what_can_not_be_labelled() {
+    let fates = Fates::new(MassRatio::new(0.2).unwrap()).unwrap();
+    assert!(fates.labels(&[]).unwrap().is_empty());
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e14] {
+        for count in [1, 100] {
+            let mut speeds = vec![5.0; count];
+            speeds[count / 2] = wrong;
+            assert!(fates.labels(&speeds).is_err(), "{wrong}");
         }
+    }
+    let (x, y) = (Interval::new(0.1, 1.0).unwrap(), Interval::new(4.0, 9.0).unwrap());
+    let grid = Grid { x, y, columns: 10, rows: 40 };
+    assert!(basin_columns(&grid, 3..3).unwrap().is_empty());
+    assert!(basin_columns(&grid, 3..11).is_err());
+    for (columns, rows) in [(10, usize::MAX), (10, 0), (0, 10), (1 << 20, 1 << 20)] {
+        let grid = Grid { columns, rows, ..grid };
+        assert!(basin_columns(&grid, 0..0).is_err(), "{columns} {rows}");
+        assert!(basin_raster(grid, |_| Continue(())).is_err(), "{columns} {rows}");
     }
 }

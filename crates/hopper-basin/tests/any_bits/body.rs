@@ -6,8 +6,8 @@ use hopper_asymptotics::{
     Coefficients, Decay, Form, Left, Right, interval_length, ladder, small_hop_loss,
 };
 use hopper_basin::{
-    Fates, HopperFate, Trap, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, reach,
-    recovery, shares,
+    Fates, HopperFate, Trap, basin_columns, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, reach,
+    recovery, rising_window, shares,
 };
 use hybrid_system::{Execution, Limits};
 use passive_hopper::{
@@ -60,6 +60,7 @@ pub fn try_all(words: [u64; 6]) {
 fn functions_of_numbers(n: u64, values: [f64; 5]) {
     let star = alpha_star(n);
     assert!(star.high.is_finite());
+    let _ = (rising_window(n), rising_window(n % 10));
     let _ = (crisis(n), grounding(n), crisis(n % 1000), grounding(n % 1000));
     for value in values {
         let _ = (star.compare(value), star.offset_of(value));
@@ -99,11 +100,14 @@ fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
         && x.right < 1e3
     {
         let grid = Grid { x, y, columns: few % 5, rows: few % 7 };
+        let _ = basin_columns(&grid, few % 3..few % 4);
         let _ = basin_raster(grid, |_| std::ops::ControlFlow::Continue(()));
     }
     let Ok(fates) = Fates::new(ratio) else { return };
     let some: Vec<f64> = [b, c, d, e].into_iter().cycle().zip(0..few).map(|(x, k)| x + k as f64).collect();
-    assert_eq!(fates.labels(&some).len(), few);
+    if let Ok(labels) = fates.labels(&some) {
+        assert_eq!(labels.len(), few);
+    }
     let _ = branches(&fates, from, to, few);
     let _ = basin_levels(&fates, from, to, 2, few);
     let refinement = Refinement { shortest: b.abs().max(1e-2), undecided: c, levels: few, intervals: 1000 };
@@ -118,6 +122,7 @@ fn hops(ratio: MassRatio, alpha: f64, n: u64, delta: f64) {
     let map = LiftOffMap::new(ratio);
     let mut many: Vec<_> = (0..20).map(|k| Some(alpha + delta * f64::from(k))).collect();
     let _ = map.images(&mut many);
+    let _ = LiftOffMap::images_of_each(&mut [(&map, Some(delta)); 17]);
     if let Ok(hop) = map.hop(alpha) {
         assert!(hop.radicand <= alpha * alpha, "{hop:?}");
         assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");
