@@ -54,11 +54,9 @@ impl Spacing {
     /// An index, whatever `alpha` is.
     #[inline]
     fn below(&self, alpha: f64) -> usize {
-        // Adding it rounds to a whole number, which stands in the last bits of the sum.
-        const ROUNDER: f64 = 4_503_599_627_370_496.0; // 2⁵²
         let (factor, constant) = if alpha < self.split { self.lower } else { self.upper };
-        let floor = (alpha * factor + constant - 0.5).max(0.0).min(self.last);
-        (floor + ROUNDER).to_bits() as u32 as usize
+        // Not a number is 0.
+        (alpha * factor + constant).min(self.last) as u32 as usize
     }
 }
 

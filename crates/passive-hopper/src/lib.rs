@@ -45,10 +45,10 @@
 //! ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³ (`cargo xtask check-reference`). Verdicts
 //! (sudden or not, grounded or not) that 53 bits cannot give are computed with 106 to 1024; a hop that
 //! needs more says so ([`Hop::certain`]). Near a fixed point [`LiftOffMap::hop_about`] keeps 8 ulps of δ
-//! itself. Sines and cosines are correctly rounded, or our own to 1.2 ulps: the same bits on every machine.
+//! itself. Sines and cosines are correctly rounded, or our own to 1.2 ulps: the same bits on every x86-64 machine.
 //!
 //! # Speed
-//! A hop of the paper's window takes as long as eight `f64::sin_cos`, or a fifth of that among many; `cargo xtask speed`
+//! A hop of the paper's window takes as long as eight `f64::sin_cos`, or a quarter of that among many; `cargo xtask speed`
 //! measures it. The first hop in a cell (nπ, (n+1)π) takes some milliseconds more: it makes the cell's table.
 //!
 //! # Not here

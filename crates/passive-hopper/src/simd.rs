@@ -6,7 +6,9 @@
 
 use crate::kernel::bulk::{self, Hops};
 use crate::kernel::landings::{self, Flights, Landings};
-use crate::kernel::table::{CELLS, Cell, Eight, OneByOne, Piece, Stars};
+use crate::kernel::table::{CELLS, Cell, OneByOne, Stars};
+#[cfg(target_arch = "x86_64")]
+use crate::kernel::table::{Eight, Piece};
 
 #[cfg(target_arch = "x86_64")]
 fn has_avx512() -> bool {

@@ -13,9 +13,9 @@
 use super::flight::{Ground, flight};
 use super::hop::{FLIGHTS, Masses, Sum, ground_after};
 use super::landings::{Flights, Landings};
-use super::table::{CELLS, Cell, Eight, First, Place, Stars, stars};
+use super::table::{CELLS, Cell as Tables, Eight, First, Place, Stars, stars};
 use crate::simd;
-use std::cell::RefCell;
+use std::cell::Cell;
 
 /// Speeds that go through the steps together: their arrays stay in the cache.
 pub(crate) const BLOCK: usize = 512;
@@ -71,16 +71,12 @@ impl Block {
         landings: Landings::EMPTY,
     };
 
-    /// Arrays that a thread makes once; anew where they are in use.
+    /// Arrays that a thread makes once, when it first needs them.
     pub(crate) fn of_this_thread(work: impl FnOnce(&mut Block)) {
-        thread_local!(static KEPT: RefCell<Block> = const { RefCell::new(Block::EMPTY) });
-        KEPT.with(|kept| match kept.try_borrow_mut() {
-            Ok(mut block) => work(&mut block),
-            Err(_) => {
-                let mut block = Block::EMPTY;
-                work(&mut block);
-            }
-        });
+        thread_local!(static KEPT: Cell<Option<Box<Block>>> = const { Cell::new(None) });
+        let mut block = KEPT.take().unwrap_or_else(|| Box::new(Block::EMPTY));
+        work(&mut block);
+        KEPT.set(Some(block));
     }
 
     /// The hops of `entries`, at most BLOCK, `from` their speeds and with their masses; `to` takes the next speed,
@@ -113,14 +109,14 @@ impl Block {
     /// All first flights, and the list of flights that follow at once.
     fn first_flights(&mut self, count: usize) {
         let Block { hops, lists: [list, _], .. } = self;
-        let mut cells = Cell::all();
+        let mut cells = Tables::all();
         let mut used = 0u64;
         for (&cell, &piece) in hops.cell.iter().zip(&hops.piece).take(count) {
             used |= u64::from(piece != Place::NOWHERE.piece) << (cell % CELLS as u64);
         }
         for (n, cell) in cells.iter_mut().enumerate() {
             if used >> n & 1 == 1 {
-                *cell = Cell::get(n as u64);
+                *cell = Tables::get(n as u64);
             }
         }
         list.clear();
@@ -197,7 +193,7 @@ pub(crate) fn places(hops: &mut Hops, stars: &Stars, count: usize) {
 #[inline(always)]
 pub(crate) fn first<E: Eight>(
     hops: &mut Hops,
-    cells: &[&Cell; CELLS],
+    cells: &[&Tables; CELLS],
     list: &mut Flights,
     count: usize,
 ) {
