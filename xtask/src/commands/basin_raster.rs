@@ -35,8 +35,8 @@ pub struct Options {
 /// Columns of a tile.
 const TILE: usize = 16;
 
-/// Pixels of a raster, at most: 8 GiB of labels.
-const MOST_PIXELS: usize = 1 << 32;
+/// Pixels of a raster along each axis, at most: a tile of so many rows is some hundred megabytes of work.
+const MOST_ALONG: usize = 1 << 20;
 
 /// Pixels of the picture, at most, along each axis; a larger raster is thinned for it.
 const PICTURE: usize = 1200;
@@ -102,8 +102,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
     let [columns, rows] = options.pixels[..] else {
         return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
     };
-    let pixels = columns.checked_mul(rows).filter(|pixels| (1..=MOST_PIXELS).contains(pixels));
-    if pixels.is_none() {
+    if columns.max(rows) > MOST_ALONG {
         return Err(basin_of_attraction::Error::BadRaster { columns, rows }.into());
     }
     let speed = options.speed.as_deref().unwrap_or(&default);
@@ -118,7 +117,10 @@ fn grid(options: &Options) -> Result<Grid, Error> {
     for &m in &options.mass_ratio {
         MassRatio::new(m)?;
     }
-    Ok(Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows })
+    let grid = Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows };
+    // No column at all: whether there can be any.
+    basin_columns(&grid, 0..0)?;
+    Ok(grid)
 }
 
 /// The labels of one tile, column by column from the lowest speed up, in little-endian order.
@@ -212,13 +214,16 @@ mod tests {
         };
         let (m, alpha) = ([0.1, 1.0], [4.5, 20.0]);
         assert!(grid(&options(m, alpha, [10, 20])).is_ok());
-        for pixels in [[0, 10], [10, 0], [usize::MAX, 2], [1 << 33, 1]] {
+        for pixels in [[0, 10], [10, 0], [usize::MAX, 2], [1, 1 << 21], [1 << 20, 1 << 20]] {
             assert!(grid(&options(m, alpha, pixels)).is_err(), "{pixels:?}");
         }
         for window in
             [[1.0, 1.0], [2.0, 1.0], [1.0, 1.0f64.next_up()], [f64::NAN, 1.0], [0.0, f64::INFINITY]]
         {
             assert!(grid(&options(window, alpha, [10, 10])).is_err(), "{window:?}");
+            assert!(grid(&options(m, window, [10, 10])).is_err(), "{window:?}");
+        }
+        for window in [[0.0, 1e6], [-1.0, 5.0]] {
             assert!(grid(&options(m, window, [10, 10])).is_err(), "{window:?}");
         }
     }

@@ -10,8 +10,7 @@ use crate::Error;
 use crate::output::repository;
 use crate::progress::Progress;
 use crate::reference::{Hop, Line, parse};
-use crate::speed::bulk_time;
-use crate::work_precision::{Case, Method, median_seconds};
+use crate::work_precision::{Case, Method};
 use std::path::Path;
 
 const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
@@ -46,16 +45,14 @@ pub(crate) fn measure(
     folder: &Path,
     progress: &Progress,
 ) -> Result<Vec<Peer>, Error> {
-    let bar = progress.bar("peers", 3);
+    let bar = progress.bar("peers", 2);
     let hops = hops()?;
     let found = theirs(python, folder, &hops)?;
     bar.set(1);
     let mut peers: Vec<Peer> = found.into_iter().map(|found| peer(found, false, &hops)).collect();
-    for method in [Method::HybridSearched, Method::HybridExact, Method::Stable] {
+    for method in [Method::HybridSearched, Method::HybridExact, Method::Stable, Method::AtOnce] {
         peers.push(peer(ours(method, &hops), true, &hops));
     }
-    bar.set(2);
-    peers.push(peer(at_once(&hops)?, true, &hops));
     bar.finish();
     Ok(peers)
 }
@@ -81,7 +78,7 @@ fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Er
     serde_json::from_str(&crate::output::read(&output)?).map_err(understood)
 }
 
-/// One of our ways, hop by hop.
+/// One of our ways.
 fn ours(method: Method, hops: &[Hop]) -> Found {
     let cases: Vec<Case> = hops
         .iter()
@@ -96,21 +93,9 @@ fn ours(method: Method, hops: &[Hop]) -> Found {
     let next = |case: &Case| method.hop(case).and_then(|answer| answer.next);
     Found {
         name: format!("ours: {}", method.name()),
-        seconds: median_seconds(cases.len(), |k| next(&cases[k])),
+        seconds: method.time(&cases.iter().collect::<Vec<_>>()).as_secs_f64(),
         next: cases.iter().map(next).collect(),
     }
-}
-
-/// Many at once: every mass ratio is a map of its own, so the time is that of the window's hops with 1024
-/// speeds a map.
-fn at_once(hops: &[Hop]) -> Result<Found, Error> {
-    let mut next = Vec::with_capacity(hops.len());
-    for hop in hops {
-        let mut speeds = [Some(hop.alpha); 32];
-        passive_hopper::LiftOffMap::new(hop.mass_ratio).images(&mut speeds)?;
-        next.push(speeds[17]);
-    }
-    Ok(Found { name: "ours: stable form, at once".into(), seconds: bulk_time(), next })
 }
 
 fn peer(found: Found, ours: bool, hops: &[Hop]) -> Peer {
@@ -146,8 +131,8 @@ mod tests {
     #[test]
     fn our_ways_are_right() {
         let hops = hops().unwrap();
-        for found in [ours(Method::Stable, &hops), at_once(&hops).unwrap()] {
-            let peer = peer(found, true, &hops);
+        for method in [Method::Stable, Method::AtOnce] {
+            let peer = peer(ours(method, &hops), true, &hops);
             assert!(peer.wrong == 0 && peer.errors.unwrap().0 < 4e-16, "{peer:?}");
         }
     }

@@ -1,6 +1,7 @@
 //! A Python with the peers' packages, in a virtual environment of its own.
 
 use crate::Error;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -22,7 +23,9 @@ impl Python {
         if std::fs::read_to_string(&note).is_ok_and(|text| text == wanted) {
             return Ok(Python(inside));
         }
-        let make = ["-m", "venv", &environment.to_string_lossy()].map(str::to_owned);
+        // Some 300 MB come down the line.
+        let _ = writeln!(std::io::stderr(), "installing {wanted} in {}", environment.display());
+        let make = ["-m", "venv", "--clear", &environment.to_string_lossy()].map(str::to_owned);
         call(
             Path::new(python),
             &make,
@@ -55,9 +58,13 @@ fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
     if output.status.success() {
         return Ok(());
     }
-    let complaint = String::from_utf8_lossy(&output.stderr);
+    // Some complain where others print.
+    let silent = output.stderr.trim_ascii().is_empty();
+    let complaint = if silent { &output.stdout } else { &output.stderr };
+    let complaint = String::from_utf8_lossy(complaint.trim_ascii());
     let last: Vec<_> = complaint.lines().rev().take(3).collect();
-    Err(reason(last.into_iter().rev().collect::<Vec<_>>().join(" / ")))
+    let last = last.into_iter().rev().collect::<Vec<_>>().join(" / ");
+    Err(reason(format!("{}: {}, {last}", program.display(), output.status)))
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 /// The slowest first; ratios to the last, the fastest of ours.
 pub(crate) fn markdown(peers: &[Peer]) -> String {
-    let fastest = peers.iter().map(|peer| peer.seconds).fold(f64::INFINITY, f64::min);
+    let fastest = fastest(peers);
     let mut out = String::from(
         "| | time a hop | times the fastest | median error | worst error | wrong | of |\n\
          |---|---:|---:|---:|---:|---:|---:|\n",
@@ -32,6 +32,11 @@ pub(crate) fn markdown(peers: &[Peer]) -> String {
     out
 }
 
+/// Seconds for a hop by the fastest.
+fn fastest(peers: &[Peer]) -> f64 {
+    peers.iter().map(|peer| peer.seconds).fold(f64::INFINITY, f64::min)
+}
+
 fn sorted(peers: &[Peer]) -> Vec<&Peer> {
     let mut sorted: Vec<_> = peers.iter().collect();
     sorted.sort_by(|a, b| b.seconds.total_cmp(&a.seconds));
@@ -40,12 +45,14 @@ fn sorted(peers: &[Peer]) -> Vec<&Peer> {
 
 /// One line a peer.
 pub(crate) fn csv(peers: &[Peer]) -> Result<Vec<u8>, Error> {
+    let fastest = fastest(peers);
     let fail = |e: String| Error::Render { what: "peers.csv".to_owned(), reason: e };
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer
         .write_record([
             "name",
             "seconds_per_hop",
+            "times_the_fastest",
             "compared",
             "wrong",
             "median_error",
@@ -57,6 +64,7 @@ pub(crate) fn csv(peers: &[Peer]) -> Result<Vec<u8>, Error> {
         let record = [
             peer.name.clone(),
             format!("{:e}", peer.seconds),
+            format!("{}", peer.seconds / fastest),
             peer.compared.to_string(),
             peer.wrong.to_string(),
             error(peer.errors.map(|e| e.0)),

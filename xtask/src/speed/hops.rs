@@ -64,6 +64,32 @@ pub(super) fn check() -> Result<String, Error> {
     Ok(format!("{lines} reference hops; {} at once bit for bit", MAPS * SPEEDS))
 }
 
+/// The sum of what the landings of a hop take, and their number, against the reference.
+pub(super) fn check_landings() -> Result<String, Error> {
+    let mut count = 0;
+    for (at, line) in parse(&repository().join(WINDOW))? {
+        let Line::Hop(hop) = line else { continue };
+        let map = LiftOffMap::new(hop.mass_ratio);
+        let landings: Vec<_> = map.landings(hop.alpha)?.collect::<Result<_, _>>()?;
+        let squares: f64 = landings.iter().map(|l| l.closing_speed * l.closing_speed).sum();
+        let radicand = hop.alpha * hop.alpha - hop.mass_ratio.mu() * squares;
+        let right = landings.len() == 1 + hop.sudden
+            && match hop.next {
+                // An error of α′ is half of one of α′², over α′.
+                Some(next) => {
+                    let limit = LIMIT * (1 + hop.sudden) as f64 * hop.unit();
+                    (radicand - next * next).abs() <= 2.0 * next * limit
+                }
+                None => radicand < 0.0,
+            };
+        if !right {
+            return Err(Error::CheckFailed(format!("{WINDOW}, line {at}: {landings:?}")));
+        }
+        count += landings.len();
+    }
+    Ok(format!("{count} landings of the reference's hops"))
+}
+
 /// A hop by `LiftOffMap::image`.
 pub(super) fn scalar_time() -> f64 {
     let maps = window_maps();
@@ -75,7 +101,7 @@ pub(super) fn scalar_time() -> f64 {
 }
 
 /// A hop by `LiftOffMap::images`, on one core.
-pub(crate) fn bulk_time() -> f64 {
+pub(super) fn bulk_time() -> f64 {
     let maps = window_maps();
     let mut buffer = vec![None; SPEEDS];
     let cell = std::cell::RefCell::new(&mut buffer);

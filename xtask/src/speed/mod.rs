@@ -3,8 +3,6 @@
 mod hops;
 mod rasters;
 
-pub(crate) use hops::bulk_time;
-
 use crate::Error;
 use crate::progress::Progress;
 use crate::work_precision::sin_cos_seconds;
@@ -26,7 +24,7 @@ const REPEATS: usize = 15;
 /// All figures, in one run.
 pub(crate) fn measure(progress: &Progress) -> Result<Vec<Measured>, Error> {
     let bar = progress.bar("speed", 4);
-    let checked = hops::check()?;
+    let (checked, landings) = (hops::check()?, hops::check_landings()?);
     bar.set(1);
     // A processor that has just woken up is slower: the unit is taken around what it is compared with.
     let before = sin_cos_seconds();
@@ -38,7 +36,7 @@ pub(crate) fn measure(progress: &Progress) -> Result<Vec<Measured>, Error> {
         figure("sin_cos", unit * 1e9, "ns"),
         figure("hop_scalar_per_sin_cos", scalar / unit, "sin_cos"),
         figure("hop_bulk_per_sin_cos", bulk / unit, "sin_cos"),
-        figure("landing_per_sin_cos", landing / unit, "sin_cos"),
+        Measured { checked: landings, ..figure("landing_per_sin_cos", landing / unit, "sin_cos") },
         figure("hops_per_second_per_core", 1.0 / bulk, "1/s"),
     ];
     figures.extend(rasters::measure(&bar)?);

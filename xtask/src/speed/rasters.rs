@@ -26,8 +26,8 @@ fn raster(grid: Grid) -> Result<LabelImage, Error> {
     Ok(basin_raster(grid, |_| ControlFlow::Continue(()))?)
 }
 
-/// The median time of a raster, all of whose pixels are the fates of their middles.
-fn checked_time(figure: u8, side: usize) -> Result<Duration, Error> {
+/// The median time of a raster, all of whose pixels are the fates of their middles, and the raster.
+fn checked_time(figure: u8, side: usize) -> Result<(Duration, LabelImage), Error> {
     let grid = grid(figure, side)?;
     let image = raster(grid)?;
     (0..grid.columns).into_par_iter().try_for_each(|column| {
@@ -42,9 +42,9 @@ fn checked_time(figure: u8, side: usize) -> Result<Duration, Error> {
                 )));
             }
         }
-        Ok(())
+        Ok::<(), Error>(())
     })?;
-    time(grid)
+    Ok((time(grid)?, image))
 }
 
 fn time(grid: Grid) -> Result<Duration, Error> {
@@ -64,14 +64,20 @@ pub(super) fn measure(bar: &Bar) -> Result<Vec<Measured>, Error> {
         checked: checked.to_owned(),
     };
     let pixels = "every pixel against its fate";
-    let (six, nine) = (checked_time(6, SIDE)?, checked_time(9, SIDE)?);
+    let ((six, image), (nine, _)) = (checked_time(6, SIDE)?, checked_time(9, SIDE)?);
     bar.set(3);
-    let four_times = checked_time(6, 2 * SIDE)?;
+    let (four_times, _) = checked_time(6, 2 * SIDE)?;
     let one = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .map_err(|e| Error::CheckFailed(format!("no thread: {e}")))?;
-    let alone = one.install(|| grid(6, SIDE).and_then(time))?;
+    let (alone, same) = one.install(|| {
+        let grid = grid(6, SIDE)?;
+        Ok::<_, Error>((time(grid)?, raster(grid)? == image))
+    })?;
+    if !same {
+        return Err(Error::CheckFailed("one thread gives another image".into()));
+    }
     bar.set(4);
     let milliseconds = |time: Duration| time.as_secs_f64() * 1e3;
     let threads = rayon::current_num_threads();
@@ -88,7 +94,7 @@ pub(super) fn measure(bar: &Bar) -> Result<Vec<Measured>, Error> {
             "threads_speedup",
             alone.as_secs_f64() / six.as_secs_f64(),
             "",
-            &format!("one thread against {threads}"),
+            &format!("one thread against {threads}, the same image"),
         ),
     ])
 }

@@ -260,10 +260,10 @@ fn raster() -> Result<Scene, Error> {
     let time = median_time(1, |_| image()).div_f64((SIDE * SIDE) as f64);
     Ok(Scene {
         question: "the basins over (M, α), as in Fig. 6",
-        model: "traps once a column, the map per pixel, all cores",
+        model: "traps once a column, orbits only where fates may part, all cores",
         call: "`basin_raster`",
         time,
-        per: "a pixel",
+        per: "a pixel of 256²",
         error: format!("fates as above, {undecided} undecided"),
     })
 }
