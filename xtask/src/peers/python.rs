@@ -23,7 +23,7 @@ impl Python {
         if std::fs::read_to_string(&note).is_ok_and(|text| text == wanted) {
             return Ok(Python(inside));
         }
-        // Some 300 MB come down the line.
+        // It takes a while: 700 MB.
         let _ = writeln!(std::io::stderr(), "installing {wanted} in {}", environment.display());
         let make = ["-m", "venv", "--clear", &environment.to_string_lossy()].map(str::to_owned);
         call(
