@@ -51,11 +51,10 @@ impl Spacing {
         Spacing { split, lower: (below, -0.5), upper: (above, count as f64 - above * split), last }
     }
 
-    /// An index, whatever `alpha` is.
+    /// An index, whatever `alpha` is; no guess at all for no number.
     #[inline]
     fn below(&self, alpha: f64) -> usize {
         let (factor, constant) = if alpha < self.split { self.lower } else { self.upper };
-        // Not a number is 0.
         (alpha * factor + constant).min(self.last) as u32 as usize
     }
 }

@@ -84,7 +84,11 @@ fn from_zero(speeds: &[f64]) -> (Vec<f64>, usize) {
     let first = speeds.first().copied().unwrap_or(0.0);
     let count = speeds.len() / LOWER;
     let lower = (0..count).map(|k| first * (k as f64 + 0.5) / count as f64);
-    (lower.chain(speeds.iter().copied()).collect(), count)
+    // Half of the smallest number is none.
+    let mut all: Vec<f64> = lower.filter(|&speed| speed > 0.0).collect();
+    let count = all.len();
+    all.extend_from_slice(speeds);
+    (all, count)
 }
 
 impl Strip<'_> {
