@@ -5,6 +5,7 @@
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{Fates, HopperFate, basin_columns, basin_raster};
 use passive_hopper::{MassRatio, alpha_star};
+use proptest::prelude::*;
 use std::ops::ControlFlow::Continue;
 
 /// Every pixel against the fate of its middle.
@@ -94,5 +95,23 @@ fn of_what_can_not_be_labelled() {
         let grid = Grid { columns, rows, ..grid };
         assert!(basin_columns(&grid, 0..0).is_err(), "{columns} {rows}");
         assert!(basin_raster(grid, |_| Continue(())).is_err(), "{columns} {rows}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 150, ..ProptestConfig::default() })]
+
+    /// Windows anywhere, and deep zooms to where the map breaks or fates part.
+    #[test]
+    fn of_any_window(
+        exponent in -2.0..1.2f64,
+        narrow in -4.0..-1.0f64,
+        (n, place, away) in (1..10u64, 0..3usize, -9.0..0.0f64),
+        (width, rows) in (-8.0..0.5f64, 33..150usize),
+    ) {
+        let near = [alpha_star(n).high, n as f64 * std::f64::consts::PI, 3.3 * n as f64][place];
+        let (m, bottom) = (10f64.powf(exponent), near - 10f64.powf(away).min(0.5 * near));
+        let right = m * (1.0 + 10f64.powf(narrow));
+        check((m, right), (bottom, bottom + 10f64.powf(width)), 3, rows);
     }
 }
