@@ -87,7 +87,7 @@ pub struct LegendEntry {
     pub pixels: usize,
 }
 
-/// Labels every pixel of `grid` by its middle, one after the other.
+/// Labels every pixel of `grid` by its middle, columns in parallel, pixel by pixel.
 ///
 /// `prepare` does the work that a column shares; `label` labels a point of it. `progress` hears
 /// how many columns are finished and may break off. The image does not depend on the number of

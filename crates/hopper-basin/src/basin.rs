@@ -61,7 +61,7 @@ pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Resul
 /// A pixel is judged by its middle. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// [`Error::Window`] unless the speeds are positive and their fixed points have labels, errors of
+/// [`Error::Window`] unless the speeds are not negative and their fixed points have labels, errors of
 /// [`MassRatio::new`] and of [`raster_by_strips`].
 pub fn basin_raster(
     grid: Grid,

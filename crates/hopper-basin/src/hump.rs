@@ -120,27 +120,6 @@ impl Hump {
         self.root(above, left, touch.t).map(Some)
     }
 
-    /// The same to some digits, from one sine and cosine a step.
-    fn plain_newton(&self, mu: f64, start: f64) -> Option<f64> {
-        let square = self.star.high * self.star.high;
-        let mut h = self.star.high + 0.5 * start;
-        for _ in 0..NEWTON_STEPS {
-            let half = HalfFlight::at(h);
-            let (alpha, closing) = (half.start_speed(0.0), half.closing_speed(0.0));
-            let above = alpha * alpha - square - mu * closing * closing;
-            let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d;
-            let step = above / slope;
-            h -= step;
-            if !(slope < 0.0 && h > self.star.high) {
-                return None;
-            }
-            if step.abs() < 1e-6 * (h - self.star.high) {
-                break;
-            }
-        }
-        Some(2.0 * (h - self.star.high))
-    }
-
     /// The ends of the falling part of the hump as speeds, to some ulps; nothing if it rises throughout.
     ///
     /// There 4μW = 1, with W' = SC − h cos 2h and W″ = 2h sin 2h, about −2h at the maximum.
@@ -184,7 +163,7 @@ impl Hump {
         Ok(slot.map_or(touch, |slot| *slot.get_or_init(|| touch)))
     }
 
-    /// Newton's method on `above`, with d(α'²)/dt = 2α (1 − 4μW) Γ/(2D), from a parabola through 0 and the
+    /// The first fall by Newton's method on `above`, with d(α'²)/dt = 2α (1 − 4μW) Γ/(2D), from a parabola through 0 and the
     /// touch; nothing if it leaves (0, `right`), or where it falls no more.
     fn newton(&self, mu: f64, start: f64, above: impl Fn(f64) -> f64, right: f64) -> Option<f64> {
         let mut t = self.plain_newton(mu, start)?;
@@ -203,6 +182,27 @@ impl Hump {
             }
         }
         None
+    }
+
+    /// The same to some digits, from one sine and cosine a step: α − α*_n need not be exact.
+    fn plain_newton(&self, mu: f64, start: f64) -> Option<f64> {
+        let square = self.star.high * self.star.high;
+        let mut h = self.star.high + 0.5 * start;
+        for _ in 0..NEWTON_STEPS {
+            let half = HalfFlight::at(h);
+            let (alpha, closing) = (half.start_speed(0.0), half.closing_speed(0.0));
+            let above = alpha * alpha - square - mu * closing * closing;
+            let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d;
+            let step = above / slope;
+            h -= step;
+            if !(slope < 0.0 && h > self.star.high) {
+                return None;
+            }
+            if step.abs() < 1e-6 * (h - self.star.high) {
+                break;
+            }
+        }
+        Some(2.0 * (h - self.star.high))
     }
 
     /// The minimum of the map touches α*_n, or zero: there α'² = target² and dα'/dα = 0, so that

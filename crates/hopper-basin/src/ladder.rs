@@ -9,9 +9,6 @@ use std::f64::consts::FRAC_1_PI;
 /// Traps in a ladder; those of larger n are asked one by one.
 const RUNGS: u64 = 64;
 
-/// Traps that are asked one by one share this: it says nothing of others.
-const NOT_ONE: u32 = u32::MAX;
-
 /// The traps as closed intervals of `f64`, from 0 = α*_0 up.
 pub(crate) struct Ladder {
     traps: Vec<(f64, f64)>,
@@ -61,7 +58,8 @@ fn trap(n: u32) -> Known {
 fn not_one(alpha: f64, fates: &Fates) -> Option<(Known, (f64, f64))> {
     use basin_of_attraction::Traps;
     let label = fates.label(alpha)?;
-    Some((Known { itinerary: Itinerary::in_trap(NOT_ONE), label }, (f64::NAN, f64::NAN)))
+    // No ends, so that nobody takes it for the trap of others.
+    Some((Known { itinerary: Itinerary::START, label }, (f64::NAN, f64::NAN)))
 }
 
 /// The smallest `f64` from `star` on.

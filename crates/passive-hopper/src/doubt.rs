@@ -6,7 +6,7 @@ use crate::{Landing, TakeOff};
 use std::f64::consts::PI;
 
 /// Roundings of one landing, in ulps of the largest quantity in it.
-const LANDING_ULPS: f64 = 16.0;
+pub(crate) const LANDING_ULPS: f64 = 16.0;
 
 /// A running bound on the errors of the state on the ground.
 ///

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   places      where the speeds lie in the tables             vectors
-//!   first       Γ from the tables; lists of sudden landings    one by one: tables are no work for vectors
+//!   first       Γ from the tables, row by row                  vectors, of rows turned into columns
+//!               lists of sudden landings                       one by one
 //!   later       flights of the lists, by branch                vectors: start, two steps, landing
 //!               sums, and the lists of flights that follow     one by one
 //!   end         α′ and whether it is beyond doubt              vectors
@@ -38,7 +39,7 @@ pub(crate) struct Hops {
     squares: Row,
     errors: Row,
     flights: Row,
-    /// α′; zero for grounded, no number where the careful path must decide.
+    /// α′; negative for grounded, zero where the careful path must decide. Until then Γ.
     next: Row,
 }
 
@@ -47,7 +48,7 @@ pub(crate) struct Block {
     hops: Hops,
     /// The flights of this round and of the next.
     lists: [Flights; 2],
-    pub(crate) landings: Landings,
+    landings: Landings,
 }
 
 pub(crate) const ZERO: Row = [0.0; BLOCK];
@@ -215,7 +216,6 @@ pub(crate) fn first<E: Eight>(
         for k in 0..LANES {
             squares[group][k] = closing_speed[k] * closing_speed[k];
         }
-        // For a sudden landing Γ is asked for once more.
         nexts[group] = closing_speed;
         for (k, &is_sudden) in suddens[group].iter().enumerate() {
             sudden[length % BLOCK] = (group * LANES + k) as u16;

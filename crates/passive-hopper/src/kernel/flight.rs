@@ -2,10 +2,8 @@
 
 use super::start;
 use super::turn::{Turn, nearest, turned};
+use crate::doubt::LANDING_ULPS;
 use std::f64::consts::{FRAC_1_PI, PI};
-
-/// Roundings of one landing, in ulps of the largest quantity in it; as in the careful path.
-pub(crate) const LANDING_ULPS: f64 = 16.0;
 
 /// Steps of order four that a search may take; two suffice for nearly all.
 const STEPS: usize = 8;
@@ -104,30 +102,32 @@ impl Branch {
     }
 }
 
-/// The step of order four (Householder's third) of F(h) = h² − YS² − VD = D (V(h) − V).
+/// F(h) = h² − YS² − VD = D (V(h) − V), and F′/2, F″/2, F‴/4.
 #[inline(always)]
-pub(crate) fn step(turn: &Turn, ground: &Ground) -> f64 {
+fn function(turn: &Turn, ground: &Ground) -> [f64; 4] {
     let Turn { h, sin, cos, d, .. } = *turn;
     let (y, v) = (1.0 + ground.excess, ground.velocity);
     let (square, product) = (sin * sin, sin * cos);
     let double = 1.0 - 2.0 * square; // cos 2h
     let f = (h * h - y * square) - v * d;
-    let first = 2.0 * (h - y * product - v * square);
-    let second = 2.0 - 2.0 * y * double - 4.0 * v * product;
-    let third = 8.0 * y * product - 4.0 * v * double;
+    let half_first = h - y * product - v * square;
+    let half_second = 1.0 - y * double - 2.0 * (v * product);
+    [f, half_first, half_second, 2.0 * (y * product) - v * double]
+}
+
+/// The step of order four, Householder's third.
+#[inline(always)]
+pub(crate) fn step(turn: &Turn, ground: &Ground) -> f64 {
+    let [f, half_first, half_second, quarter_third] = function(turn, ground);
+    let (first, second, third) = (2.0 * half_first, 2.0 * half_second, 4.0 * quarter_third);
     let slope = first * first;
     -f * (slope - 0.5 * f * second) / (first * (slope - f * second) + f * f * third * (1.0 / 6.0))
 }
 
-/// The step of order three (Halley's) on the same function: enough for the last one.
+/// The step of order three, Halley's: enough for the last one.
 #[inline(always)]
 pub(crate) fn last_step(turn: &Turn, ground: &Ground) -> f64 {
-    let Turn { h, sin, cos, d, .. } = *turn;
-    let (y, v) = (1.0 + ground.excess, ground.velocity);
-    let (square, product) = (sin * sin, sin * cos);
-    let f = (h * h - y * square) - v * d;
-    let half_first = h - y * product - v * square;
-    let half_second = 1.0 - y * (1.0 - 2.0 * square) - 2.0 * (v * product);
+    let [f, half_first, half_second, _] = function(turn, ground);
     -f * half_first / (2.0 * (half_first * half_first) - 0.5 * (f * half_second))
 }
 
@@ -185,9 +185,9 @@ pub(crate) fn land(turn: &Turn, step: f64, ground: &Ground, branch: &Branch, kap
 fn turn_by(turn: &Turn, e: f64) -> Turn {
     let Turn { h, sin, cos, d, u } = *turn;
     let half = 0.5 * e * e;
-    let sine = e - half * e * (1.0 / 3.0);
-    let (square, product) = (sin * sin, sin * cos);
     let cubed = half * e * (1.0 / 3.0);
+    let sine = e - cubed;
+    let (square, product) = (sin * sin, sin * cos);
     Turn {
         h: h + e,
         sin: sin + (cos * sine - sin * half),

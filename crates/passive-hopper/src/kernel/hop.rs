@@ -1,7 +1,8 @@
 //! One hop.
 
-use super::flight::{Ground, LANDING_ULPS, Landed, flight};
+use super::flight::{Ground, Landed, flight};
 use super::table::{First, Place, stars};
+use crate::doubt::LANDING_ULPS;
 
 /// Flights of a hop here; longer chains are left to the careful path.
 pub(crate) const FLIGHTS: f64 = 64.0;

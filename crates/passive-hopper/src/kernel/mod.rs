@@ -4,7 +4,7 @@
 //!
 //! ```text
 //!   first flight    one parameter, δ = α − α*_n: tables of α − h and Γ                       table.rs
-//!   later flights   two parameters, (x, V): a start by a polynomial, then steps of order 4   start.rs, flight.rs
+//!   later flights   two parameters, (x, V): a start by a polynomial, two steps, a landing    start.rs, flight.rs
 //!   verdicts        by a bound on the errors handed from flight to flight                    flight.rs, hop.rs
 //! ```
 //!
