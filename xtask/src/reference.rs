@@ -1,7 +1,7 @@
 //! Files of reference values: one JSON object a line, or an array of objects.
 
 use crate::Error;
-use crate::output::read;
+use crate::output::{read, repository};
 use hopper_basin::HopperFate;
 use passive_hopper::MassRatio;
 use serde_json::Value;
@@ -52,13 +52,33 @@ impl Hop {
         });
         0.5 * f64::EPSILON * scale
     }
+
+    /// The error of α′ that is allowed: `limit` units for each landing.
+    pub(crate) fn allowed(&self, limit: f64) -> f64 {
+        limit * (1 + self.sudden) as f64 * self.unit()
+    }
 }
+
+/// Units of error that are allowed for each landing, unless something else is asked for.
+pub(crate) const LIMIT: f64 = 4.0;
 
 /// The loss of a small hop.
 pub(crate) struct Loss {
     pub(crate) mass_ratio: MassRatio,
     pub(crate) alpha: f64,
     pub(crate) loss: f64,
+}
+
+/// The hops of the paper's window, in the repository.
+pub(crate) const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
+
+/// Those hops.
+pub(crate) fn window_hops() -> Result<Vec<Hop>, Error> {
+    let hops = parse(&repository().join(WINDOW))?.into_iter().filter_map(|(_, line)| match line {
+        Line::Hop(hop) => Some(hop),
+        _ => None,
+    });
+    Ok(hops.collect())
 }
 
 /// All lines of a file, each with its number.

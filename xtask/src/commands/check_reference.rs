@@ -1,7 +1,7 @@
 //! `check-reference`: the map and the fates against files of reference values.
 
 use crate::Error;
-use crate::reference::{Edge, Hop, Line, Loss, parse};
+use crate::reference::{Edge, Hop, LIMIT, Line, Loss, parse};
 use hopper_basin::{Fates, ReachEdge, crisis, reach};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use std::collections::BTreeMap;
@@ -15,7 +15,7 @@ pub struct Options {
     /// fixed point, given as n and offset, the unit is two ulps of the next offset, whatever the
     /// flights; for a loss it is what half an ulp in the inputs causes; for α*_n half an ulp; for
     /// intervals of attraction a quarter of the bound stated; for crises two ulps
-    #[arg(long, value_name = "K", default_value_t = 4.0)]
+    #[arg(long, value_name = "K", default_value_t = LIMIT)]
     limit: f64,
     /// Files with one JSON object a line, or an array of them: hops, losses, hops near a fixed point,
     /// fates, fixed points, intervals of attraction, crises

@@ -7,13 +7,10 @@ pub(crate) use python::Python;
 pub(crate) use table::{csv, markdown};
 
 use crate::Error;
-use crate::output::repository;
 use crate::progress::Progress;
-use crate::reference::{Hop, Line, parse};
+use crate::reference::{Hop, window_hops};
 use crate::work_precision::{Case, Method};
 use std::path::Path;
-
-const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
 
 /// How one of them did.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,7 +43,7 @@ pub(crate) fn measure(
     progress: &Progress,
 ) -> Result<Vec<Peer>, Error> {
     let bar = progress.bar("peers", 2);
-    let hops = hops()?;
+    let hops = window_hops()?;
     let found = theirs(python, folder, &hops)?;
     bar.set(1);
     let mut peers: Vec<Peer> = found.into_iter().map(|found| peer(found, false, &hops)).collect();
@@ -55,16 +52,6 @@ pub(crate) fn measure(
     }
     bar.finish();
     Ok(peers)
-}
-
-fn hops() -> Result<Vec<Hop>, Error> {
-    let lines = parse(&repository().join(WINDOW))?.into_iter();
-    Ok(lines
-        .filter_map(|(_, line)| match line {
-            Line::Hop(hop) => Some(hop),
-            _ => None,
-        })
-        .collect())
 }
 
 /// The peers' own measurements, in their own process.
@@ -80,16 +67,7 @@ fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Er
 
 /// One of our ways.
 fn ours(method: Method, hops: &[Hop]) -> Found {
-    let cases: Vec<Case> = hops
-        .iter()
-        .map(|hop| Case {
-            mass_ratio: hop.mass_ratio,
-            alpha: hop.alpha,
-            local: None,
-            sudden: Some(hop.sudden),
-            exact: hop.next,
-        })
-        .collect();
+    let cases: Vec<Case> = hops.iter().map(Case::of).collect();
     let next = |case: &Case| method.hop(case).and_then(|answer| answer.next);
     Found {
         name: format!("ours: {}", method.name()),
@@ -119,7 +97,7 @@ mod tests {
 
     #[test]
     fn errors_and_wrong_verdicts_are_told_apart() {
-        let hops = hops().unwrap();
+        let hops = window_hops().unwrap();
         let mut next: Vec<_> = hops.iter().map(|hop| hop.next).collect();
         let grounded = hops.iter().position(|hop| hop.next.is_none()).unwrap();
         next[grounded] = Some(1.0);
@@ -130,7 +108,7 @@ mod tests {
 
     #[test]
     fn our_ways_are_right() {
-        let hops = hops().unwrap();
+        let hops = window_hops().unwrap();
         for method in [Method::Stable, Method::AtOnce] {
             let peer = peer(ours(method, &hops), true, &hops);
             assert!(peer.wrong == 0 && peer.errors.unwrap().0 < 4e-16, "{peer:?}");

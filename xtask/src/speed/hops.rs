@@ -1,15 +1,9 @@
 //! Hops of the paper's window, one by one and many at once.
 
 use crate::Error;
-use crate::output::repository;
-use crate::reference::{Line, parse};
+use crate::reference::{Hop, LIMIT, window_hops};
 use crate::work_precision::median_seconds;
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
-
-const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
-
-/// Errors allowed, as `check-reference` does: so many units of the reference, per flight.
-const LIMIT: f64 = 4.0;
 
 /// Mass ratios, and speeds for each, of the set that is timed.
 const MAPS: usize = 64;
@@ -31,25 +25,21 @@ fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
 
 /// Single hops against the reference, and hops at once against single ones.
 pub(super) fn check() -> Result<String, Error> {
-    let mut lines = 0;
-    for (at, line) in parse(&repository().join(WINDOW))? {
-        let Line::Hop(hop) = line else { continue };
+    let hops = window_hops()?;
+    for hop in &hops {
         let map = LiftOffMap::new(hop.mass_ratio);
         let mut many = vec![Some(hop.alpha); 32];
         map.images(&mut many)?;
         let found = map.image(hop.alpha)?;
         let right = many.iter().all(|image| *image == found)
             && match (found, hop.next) {
-                (Some(found), Some(exact)) => {
-                    (found - exact).abs() <= LIMIT * (1 + hop.sudden) as f64 * hop.unit()
-                }
+                (Some(found), Some(exact)) => (found - exact).abs() <= hop.allowed(LIMIT),
                 (None, None) => true,
                 _ => false,
             };
         if !right {
-            return Err(Error::CheckFailed(format!("{WINDOW}, line {at}: {found:?}")));
+            return Err(wrong(hop, &found));
         }
-        lines += 1;
     }
     for (map, speeds) in window_maps() {
         let mut many: Vec<_> = speeds.iter().copied().map(Some).collect();
@@ -61,14 +51,13 @@ pub(super) fn check() -> Result<String, Error> {
             }
         }
     }
-    Ok(format!("{lines} reference hops; {} at once bit for bit", MAPS * SPEEDS))
+    Ok(format!("{} reference hops; {} at once bit for bit", hops.len(), MAPS * SPEEDS))
 }
 
 /// The sum of what the landings of a hop take, and their number, against the reference.
 pub(super) fn check_landings() -> Result<String, Error> {
     let mut count = 0;
-    for (at, line) in parse(&repository().join(WINDOW))? {
-        let Line::Hop(hop) = line else { continue };
+    for hop in &window_hops()? {
         let map = LiftOffMap::new(hop.mass_ratio);
         let landings: Vec<_> = map.landings(hop.alpha)?.collect::<Result<_, _>>()?;
         let squares: f64 = landings.iter().map(|l| l.closing_speed * l.closing_speed).sum();
@@ -76,18 +65,20 @@ pub(super) fn check_landings() -> Result<String, Error> {
         let right = landings.len() == 1 + hop.sudden
             && match hop.next {
                 // An error of α′ is half of one of α′², over α′.
-                Some(next) => {
-                    let limit = LIMIT * (1 + hop.sudden) as f64 * hop.unit();
-                    (radicand - next * next).abs() <= 2.0 * next * limit
-                }
+                Some(next) => (radicand - next * next).abs() <= 2.0 * next * hop.allowed(LIMIT),
                 None => radicand < 0.0,
             };
         if !right {
-            return Err(Error::CheckFailed(format!("{WINDOW}, line {at}: {landings:?}")));
+            return Err(wrong(hop, &landings));
         }
         count += landings.len();
     }
     Ok(format!("{count} landings of the reference's hops"))
+}
+
+fn wrong(hop: &Hop, found: &impl std::fmt::Debug) -> Error {
+    let (m, alpha) = (hop.mass_ratio.value(), hop.alpha);
+    Error::CheckFailed(format!("M = {m}, α = {alpha}: {found:?}"))
 }
 
 /// A hop by `LiftOffMap::image`.
@@ -103,11 +94,10 @@ pub(super) fn scalar_time() -> f64 {
 /// A hop by `LiftOffMap::images`, on one core.
 pub(super) fn bulk_time() -> f64 {
     let maps = window_maps();
-    let mut buffer = vec![None; SPEEDS];
-    let cell = std::cell::RefCell::new(&mut buffer);
+    let buffer = std::cell::RefCell::new(vec![None; SPEEDS]);
     median_seconds(MAPS, |k| {
         let (map, speeds) = &maps[k];
-        let mut buffer = cell.borrow_mut();
+        let mut buffer = buffer.borrow_mut();
         for (slot, &speed) in buffer.iter_mut().zip(speeds) {
             *slot = Some(speed);
         }

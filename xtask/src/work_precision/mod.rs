@@ -13,7 +13,7 @@ pub(crate) use timing::{median_seconds, median_time, sin_cos_seconds, sin_cos_ti
 use crate::Error;
 use crate::output::repository;
 use crate::progress::Progress;
-use crate::reference::{Line, parse};
+use crate::reference::{Hop, Line, parse};
 use passive_hopper::{MassRatio, alpha_star, index_below};
 use std::time::Duration;
 
@@ -42,6 +42,15 @@ pub(crate) struct Case {
     pub(crate) sudden: Option<usize>,
     /// The exact quantity; nothing if the hopper is grounded.
     pub(crate) exact: Option<f64>,
+}
+
+impl Case {
+    /// Of a reference hop.
+    pub(crate) fn of(hop: &Hop) -> Self {
+        let (mass_ratio, alpha) = (hop.mass_ratio, hop.alpha);
+        let (sudden, exact) = (Some(hop.sudden), hop.next);
+        Case { mass_ratio, alpha, local: cell(alpha), sudden, exact }
+    }
 }
 
 /// Inputs of a kind.
@@ -116,9 +125,7 @@ fn case(line: Line) -> Option<(String, Quantity, Case)> {
         // Its α′ rounds to α: the losses are judged instead.
         Line::Hop(hop) if hop.class == "tiny_alpha" => None,
         Line::Hop(hop) => {
-            let (mass_ratio, alpha) = (hop.mass_ratio, hop.alpha);
-            let sudden = Some(hop.sudden);
-            let case = Case { mass_ratio, alpha, local: cell(alpha), sudden, exact: hop.next };
+            let case = Case::of(&hop);
             Some((hop.class, Quantity::Speed, case))
         }
         Line::Local { mass_ratio, n, offset, sudden, next } => {

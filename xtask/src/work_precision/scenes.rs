@@ -3,7 +3,7 @@
 use super::{Method, Score, median_time, table};
 use crate::Error;
 use crate::output::{read, repository};
-use crate::reference::{number, parse_rows};
+use crate::reference::{WINDOW, number, parse_rows};
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Decay;
 use hopper_basin::{Fates, HopperFate, Trap, basin_raster};
@@ -34,7 +34,6 @@ pub(crate) fn scenes(scores: &[Score]) -> Result<Vec<Scene>, Error> {
     .concat())
 }
 
-const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
 const ORBITS: &str = "crates/passive-hopper/tests/data/orbits.jsonl";
 const FATES: &str = "crates/hopper-basin/tests/data/fates.jsonl";
 const TRAPS: &str = "crates/hopper-basin/tests/data/local_basin.json";
