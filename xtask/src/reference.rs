@@ -15,7 +15,7 @@ pub(crate) enum Line {
     Fate { mass_ratio: MassRatio, alpha: f64, fate: HopperFate },
     FixedPoint { n: u64, alpha_star: f64 },
     Crisis { n: u64, mu: f64, mass_ratio: f64, alpha: f64 },
-    Reach { n: u64, mass_ratio: MassRatio, edge: Edge, delta: Option<f64> },
+    ImmediateBasin { n: u64, mass_ratio: MassRatio, edge: Edge, delta: Option<f64> },
 }
 
 /// How sure the reference is of the edge of an interval of attraction.
@@ -143,7 +143,7 @@ pub(crate) fn line(value: &Value) -> Result<Line, String> {
             _ => return Err(format!("'edge' is {edge}, which is none of the known kinds")),
         };
         let (n, delta) = (whole(value, "n")?, next(value, "delta_exact")?);
-        return Ok(Line::Reach { n, mass_ratio, edge, delta });
+        return Ok(Line::ImmediateBasin { n, mass_ratio, edge, delta });
     }
     if value.get("offset").is_some() {
         return Ok(Line::Local {

@@ -65,7 +65,8 @@ impl IntervalBasins {
         let boxes = ((window.length() / size) * (1.0 - 1e-12)).ceil().max(1.0);
         let index = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
         // Boxes in which a part ends; those inside an undecided gap are counted below.
-        let ends = self.parts().iter().flat_map(|part| [part.interval.left, part.interval.right]);
+        let ends =
+            self.intervals().iter().flat_map(|part| [part.interval.left, part.interval.right]);
         let mut candidates: Vec<f64> = ends.chain([window.left, window.right]).map(index).collect();
         candidates.sort_by(f64::total_cmp);
         candidates.dedup();
@@ -74,11 +75,11 @@ impl IntervalBasins {
         for k in candidates {
             let left = window.left + k * size;
             let right = (left + size).min(window.right);
-            while self.parts().get(first).is_some_and(|part| part.interval.right <= left) {
+            while self.intervals().get(first).is_some_and(|part| part.interval.right <= left) {
                 first += 1;
             }
             let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();
-            for part in self.parts()[first..].iter().take_while(|p| p.interval.left < right) {
+            for part in self.intervals()[first..].iter().take_while(|p| p.interval.left < right) {
                 let inside = part.interval.right.min(right) - part.interval.left.max(left);
                 *lengths.entry(part.label).or_insert(0.0) += inside.max(0.0);
             }
@@ -99,8 +100,8 @@ impl IntervalBasins {
     /// Boxes that lie inside undecided gaps, with no end of a part or of the window in them.
     fn boxes_in_gaps(&self, size: f64, resolution: f64, boxes: f64) -> u64 {
         let window = self.window();
-        let starts = self.parts().iter().map(|part| part.interval.left).chain([window.right]);
-        let ends = self.parts().iter().map(|part| part.interval.right);
+        let starts = self.intervals().iter().map(|part| part.interval.left).chain([window.right]);
+        let ends = self.intervals().iter().map(|part| part.interval.right);
         let place = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
         std::iter::once(window.left)
             .chain(ends)
@@ -116,7 +117,7 @@ impl LabelImage {
     ///
     /// The slope of ln `mixed` against ln 1/`size` estimates the dimension of the boundary, and
     /// 2 − slope is what some tools call the uncertainty exponent; for the exponent by pairs of points
-    /// see [`uncertain_share`](crate::uncertain_share).
+    /// see [`uncertain_fraction`](crate::uncertain_fraction).
     ///
     /// # Errors
     /// [`Error::BadBoxSize`] if no box fits.

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// An interval of a basin.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
+pub struct LabelledInterval {
     /// Where.
     pub interval: Interval,
     /// The label of the trap that it enters.
@@ -30,7 +30,7 @@ pub struct Refinement {
 
 /// Why refining stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
+pub enum StopReason {
     /// Less is undecided than was asked for, or nothing is left to be followed.
     Resolved,
     /// Only intervals shorter than asked for were left.
@@ -52,8 +52,8 @@ impl Default for Refinement {
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntervalBasins {
     window: Interval,
-    parts: Vec<Part>,
-    ended: Ended,
+    parts: Vec<LabelledInterval>,
+    ended: StopReason,
 }
 
 /// The basins of labelled intervals in `window`, level by level of preimages.
@@ -90,24 +90,28 @@ pub fn interval_basins(
     crate::TrapSet::new(traps.to_vec())?;
     let known = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
     // Orbits may leave the window and come back: whole intervals are followed, their parts inside kept.
-    let inside = |part: &Part| {
-        part.interval.intersection(&window).map(|interval| Part { interval, ..*part })
+    let inside = |part: &LabelledInterval| {
+        part.interval.intersection(&window).map(|interval| LabelledInterval { interval, ..*part })
     };
-    let mut pending: Vec<Part> =
-        traps.iter().map(|&(interval, label)| Part { interval, label, level: 0 }).collect();
-    let mut parts: Vec<Part> = pending.iter().filter_map(inside).collect();
+    let mut pending: Vec<LabelledInterval> = traps
+        .iter()
+        .map(|&(interval, label)| LabelledInterval { interval, label, level: 0 })
+        .collect();
+    let mut parts: Vec<LabelledInterval> = pending.iter().filter_map(inside).collect();
     let mut left = window.length() - length(&parts);
     let mut threshold = refinement.shortest.max(0.01 * window.length());
     let ended = loop {
         if left <= refinement.undecided || pending.is_empty() {
-            break Ended::Resolved;
+            break StopReason::Resolved;
         }
         if parts.len() >= refinement.intervals {
-            break Ended::Intervals;
+            break StopReason::Intervals;
         }
-        let follow =
-            |part: &Part| part.level < refinement.levels && part.interval.length() >= threshold;
-        let (mut now, mut later): (Vec<Part>, Vec<Part>) = pending.drain(..).partition(follow);
+        let follow = |part: &LabelledInterval| {
+            part.level < refinement.levels && part.interval.length() >= threshold
+        };
+        let (mut now, mut later): (Vec<LabelledInterval>, Vec<LabelledInterval>) =
+            pending.drain(..).partition(follow);
         if now.is_empty() {
             pending = later;
             if threshold > refinement.shortest {
@@ -115,12 +119,12 @@ pub fn interval_basins(
                 continue;
             }
             let last = pending.iter().all(|part| part.level >= refinement.levels);
-            break if last { Ended::Levels } else { Ended::Shortest };
+            break if last { StopReason::Levels } else { StopReason::Shortest };
         }
         later.extend(now.split_off(now.len().min(TOGETHER)));
-        let found: Vec<Part> =
+        let found: Vec<LabelledInterval> =
             now.par_iter().flat_map_iter(|part| preimages(map, branches, part, &known)).collect();
-        let kept: Vec<Part> = found.iter().filter_map(inside).collect();
+        let kept: Vec<LabelledInterval> = found.iter().filter_map(inside).collect();
         left -= length(&kept);
         parts.extend(kept);
         pending = later;
@@ -130,7 +134,7 @@ pub fn interval_basins(
 }
 
 /// Sorted, with the ulp or two cut off that neighbours share where the map has equal values.
-fn apart(mut parts: Vec<Part>) -> Vec<Part> {
+fn apart(mut parts: Vec<LabelledInterval>) -> Vec<LabelledInterval> {
     parts.sort_by(|a, b| a.interval.left.total_cmp(&b.interval.left));
     let mut end = f64::NEG_INFINITY;
     for part in &mut parts {
@@ -141,7 +145,7 @@ fn apart(mut parts: Vec<Part>) -> Vec<Part> {
     parts
 }
 
-fn length(parts: &[Part]) -> f64 {
+fn length(parts: &[LabelledInterval]) -> f64 {
     parts.iter().map(|part| part.interval.length()).sum()
 }
 
@@ -149,13 +153,13 @@ fn length(parts: &[Part]) -> f64 {
 fn preimages(
     map: &impl ScalarMap,
     branches: &[Branch],
-    part: &Part,
+    part: &LabelledInterval,
     known: &IntervalSet,
-) -> Vec<Part> {
+) -> Vec<LabelledInterval> {
     let found = branches.iter().filter_map(|branch| branch.preimage(map, &part.interval)).collect();
     let fresh = IntervalSet::union(found).minus(known);
     let (label, level) = (part.label, part.level + 1);
-    fresh.intervals().iter().map(|&interval| Part { interval, label, level }).collect()
+    fresh.intervals().iter().map(|&interval| LabelledInterval { interval, label, level }).collect()
 }
 
 impl IntervalBasins {
@@ -167,20 +171,22 @@ impl IntervalBasins {
     /// The same basins, seen in a smaller window.
     #[must_use]
     pub fn within(&self, window: Interval) -> IntervalBasins {
-        let cut = |part: &Part| {
-            part.interval.intersection(&window).map(|interval| Part { interval, ..*part })
+        let cut = |part: &LabelledInterval| {
+            part.interval
+                .intersection(&window)
+                .map(|interval| LabelledInterval { interval, ..*part })
         };
         let parts = self.parts.iter().filter_map(cut).collect();
         IntervalBasins { window, parts, ended: self.ended }
     }
 
     /// Why refining stopped.
-    pub fn ended(&self) -> Ended {
+    pub fn stop_reason(&self) -> StopReason {
         self.ended
     }
 
     /// All parts, from left to right.
-    pub fn parts(&self) -> &[Part] {
+    pub fn intervals(&self) -> &[LabelledInterval] {
         &self.parts
     }
 
@@ -297,12 +303,12 @@ mod tests {
         let window = Interval { left: -1.0, right: 1.0 };
         let basins =
             interval_basins(&map, &traps, &branches, window, Refinement::default()).unwrap();
-        assert_eq!(basins.ended(), Ended::Resolved);
+        assert_eq!(basins.stop_reason(), StopReason::Resolved);
         let all = basins.measure_of(|_| true);
         assert!(all.value <= 2.0 && all.covers(2.0) && basins.undecided() < 1e-6, "{all:?}");
         assert!(
             basins
-                .parts()
+                .intervals()
                 .iter()
                 .all(|part| part.interval.left >= -1.0 && part.interval.right <= 1.0)
         );
@@ -323,14 +329,14 @@ mod tests {
             |refinement| interval_basins(&cubic, &traps, &branches, window, refinement).unwrap();
         let fine = Refinement { undecided: 1e-9, ..Refinement::default() };
         let resolved = found(fine);
-        assert!(resolved.ended() == Ended::Resolved && resolved.undecided() <= 1e-9);
+        assert!(resolved.stop_reason() == StopReason::Resolved && resolved.undecided() <= 1e-9);
         for (refinement, ended) in [
-            (Refinement { shortest: 1e-2, ..fine }, Ended::Shortest),
-            (Refinement { levels: 3, ..fine }, Ended::Levels),
-            (Refinement { intervals: 8, ..fine }, Ended::Intervals),
+            (Refinement { shortest: 1e-2, ..fine }, StopReason::Shortest),
+            (Refinement { levels: 3, ..fine }, StopReason::Levels),
+            (Refinement { intervals: 8, ..fine }, StopReason::Intervals),
         ] {
             let basins = found(refinement);
-            assert_eq!(basins.ended(), ended);
+            assert_eq!(basins.stop_reason(), ended);
             assert!(basins.undecided() > 1e-9);
             assert!(basins.measure(1).covers(resolved.measure(1).value));
         }
@@ -342,7 +348,7 @@ mod tests {
         let window = Interval { left: -2.2, right: 2.2 };
         let basins =
             interval_basins(&cubic, &traps, &branches, window, Refinement::default()).unwrap();
-        for pair in basins.parts().windows(2) {
+        for pair in basins.intervals().windows(2) {
             assert!(pair[0].interval.right <= pair[1].interval.left);
         }
         assert!((basins.measure(1).value - basins.measure(2).value).abs() < 1e-12);
@@ -351,7 +357,7 @@ mod tests {
         for k in 0..1000 {
             let x = -2.19 + 4.38 * (f64::from(k) + 0.37) / 1000.0;
             let (fate, steps) = classify(&cubic, &set, x, 1000);
-            let part = basins.parts().iter().find(|part| part.interval.contains(x));
+            let part = basins.intervals().iter().find(|part| part.interval.contains(x));
             assert_eq!(part.map(|p| (Fate::Trapped(p.label), p.level)), Some((fate, steps)));
         }
     }

@@ -13,11 +13,11 @@
 //! | [`monotone_branches`], [`Branch`] | where a map is monotone, and preimages on a branch to 1 ulp |
 //! | [`preimage_levels`] | the basin of a trap, level by level |
 //! | [`interval_basins`], [`IntervalBasins`] | all basins in a window as intervals, with what is left undecided |
-//! | [`PreimageTree`], [`Remainder`], [`geometric_limit`] | which branch leads where; a Cantor set left over, or a countable one |
-//! | [`equally_spaced_shares`], [`random_shares`], [`low_discrepancy_shares`] | measures by points, each with an interval |
-//! | [`Estimate`], [`wilson`], [`student`] | a value with its interval |
+//! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; a Cantor set left over, or a countable one |
+//! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | measures by points, each with an interval |
+//! | [`Estimate`], [`wilson_interval`], [`student_interval`] | a value with its interval |
 //! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, dimensions with local slopes and warnings |
-//! | [`uncertain_share`], [`IntervalBasins::uncertain_share`] | final-state uncertainty, by pairs of points or exactly |
+//! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, by pairs of points or exactly |
 //! | [`LabelImage::wada`] | do all basins share one boundary? |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //!
@@ -70,15 +70,17 @@ pub use entropy::entropy;
 pub use error::Error;
 pub use fate::{Fate, Reason, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
-pub use interval_basins::{Ended, IntervalBasins, Part, Refinement, interval_basins};
+pub use interval_basins::{
+    IntervalBasins, LabelledInterval, Refinement, StopReason, interval_basins,
+};
 pub use power_law::{PowerLaw, Warning, power_law};
 pub use preimage::preimage_levels;
-pub use preimage_tree::{Node, PreimageTree, Remainder, geometric_limit};
+pub use preimage_tree::{Node, PreimageTree, ResidualSet, geometric_limit};
 pub use raster::{Grid, LabelImage, LegendEntry, raster, raster_by_strips};
 pub use sampling::{
-    equally_spaced_counts, equally_spaced_shares, low_discrepancy_shares, random_shares,
+    equally_spaced_counts, equally_spaced_fractions, low_discrepancy_fractions, random_fractions,
 };
 pub use scalar_map::{Image, ScalarMap};
-pub use statistics::{Estimate, student, wilson};
-pub use uncertainty::uncertain_share;
+pub use statistics::{Estimate, student_interval, wilson_interval};
+pub use uncertainty::uncertain_fraction;
 pub use wada::WadaTest;

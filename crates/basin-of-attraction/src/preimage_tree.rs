@@ -32,7 +32,7 @@ const NARROW: f64 = 64.0;
 
 /// What remains of the window outside all levels, as far as the growth of the counts tells.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Remainder {
+pub enum ResidualSet {
     /// Counts grow exponentially, by this logarithm a level: orbits that never enter form a Cantor set.
     Cantor {
         /// ln of the factor from level to level.
@@ -53,14 +53,14 @@ impl PreimageTree {
     /// `branches` must be all monotone branches of the map there.
     ///
     /// ```
-    /// use basin_of_attraction::{Branch, Interval, PreimageTree, Remainder};
+    /// use basin_of_attraction::{Branch, Interval, PreimageTree, ResidualSet};
     /// // The tent map of slope 3: what never leaves [0, 1] is Cantor's set.
     /// let tent = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * (1.0 - x) });
     /// let left = Branch { domain: Interval::new(0.0, 0.5)?, at_left: 0.0, at_right: 1.5 };
     /// let right = Branch { domain: Interval::new(0.5, 1.0)?, at_left: 1.5, at_right: 0.0 };
     /// let (window, hole) = (Interval::new(0.0, 1.0)?, Interval::new(1.0 + 1e-12, 1.5)?);
     /// let tree = PreimageTree::grow(&tent, &[left, right], hole, window, 12);
-    /// let Remainder::Cantor { growth } = tree.remainder() else { panic!() };
+    /// let ResidualSet::Cantor { growth } = tree.residual_set() else { panic!() };
     /// assert!((growth - 2f64.ln()).abs() < 1e-12);
     /// # Ok::<(), basin_of_attraction::Error>(())
     /// ```
@@ -156,7 +156,7 @@ impl PreimageTree {
 
     /// How the counts grow over the later half of the complete levels: exponentially, which leaves a
     /// Cantor set, or like a power of the level, which leaves a countable one.
-    pub fn remainder(&self) -> Remainder {
+    pub fn residual_set(&self) -> ResidualSet {
         let mut counts = self.counts();
         counts.truncate(self.complete_levels());
         let late: Vec<(f64, f64)> = counts
@@ -167,10 +167,10 @@ impl PreimageTree {
             .map(|(level, &count)| (level as f64, pxfm::f_log(count as f64)))
             .collect();
         if late.len() < 4 {
-            return Remainder::Undecided;
+            return ResidualSet::Undecided;
         }
         if late.iter().all(|point| point.1 == late[0].1) {
-            return Remainder::Countable { power: 0.0 };
+            return ResidualSet::Countable { power: 0.0 };
         }
         let exponential = line(&late);
         let logarithmic: Vec<_> = late.iter().map(|&(k, n)| (pxfm::f_log(k), n)).collect();
@@ -178,11 +178,11 @@ impl PreimageTree {
         // An exact fit may have no residual at all.
         let tiny = 1e-12;
         if exponential.residual + tiny < 0.25 * power.residual {
-            Remainder::Cantor { growth: exponential.slope }
+            ResidualSet::Cantor { growth: exponential.slope }
         } else if power.residual + tiny < 0.25 * exponential.residual {
-            Remainder::Countable { power: power.slope }
+            ResidualSet::Countable { power: power.slope }
         } else {
-            Remainder::Undecided
+            ResidualSet::Undecided
         }
     }
 }
@@ -251,7 +251,7 @@ mod tests {
             let mut sorted: Vec<Interval> = tree.nodes().iter().map(|node| node.interval).collect();
             sorted.sort_by(|a, b| a.left.total_cmp(&b.left));
             prop_assert!(sorted.windows(2).all(|pair| pair[0].right <= pair[1].left + 1e-15));
-            let cantor = matches!(tree.remainder(), Remainder::Cantor { .. });
+            let cantor = matches!(tree.residual_set(), ResidualSet::Cantor { .. });
             prop_assert!(cantor);
         }
     }

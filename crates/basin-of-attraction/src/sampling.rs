@@ -1,6 +1,6 @@
 //! Measures of basins from points, each with an interval.
 
-use crate::statistics::{Estimate, student, wilson};
+use crate::statistics::{Estimate, student_interval, wilson_interval};
 use crate::{Error, Interval};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -31,7 +31,7 @@ pub fn equally_spaced_counts(
 ///
 /// # Errors
 /// [`Error::BadTrials`] without points.
-pub fn equally_spaced_shares(
+pub fn equally_spaced_fractions(
     window: Interval,
     count: usize,
     label: impl Fn(f64) -> u16 + Sync,
@@ -61,11 +61,11 @@ pub fn equally_spaced_shares(
 /// The shares of the labels among independent uniform points, with Wilson's 95 % intervals.
 ///
 /// The same seed gives the same points, with any number of threads. A label that no point has is not in the
-/// result: its share is [`wilson`]`(0, count)`.
+/// result: its share is [`wilson_interval`]`(0, count)`.
 ///
 /// # Errors
 /// [`Error::BadTrials`] without points.
-pub fn random_shares(
+pub fn random_fractions(
     window: Interval,
     count: usize,
     seed: u64,
@@ -73,7 +73,7 @@ pub fn random_shares(
 ) -> Result<BTreeMap<u16, Estimate>, Error> {
     let at = |k| window.left + window.length() * uniform(seed, k as u64);
     let counts = tally(&labels(count, at, label));
-    counts.into_iter().map(|(label, found)| Ok((label, wilson(found, count)?))).collect()
+    counts.into_iter().map(|(label, found)| Ok((label, wilson_interval(found, count)?))).collect()
 }
 
 /// The shares of the labels among `replicates` low-discrepancy sets of `count` points each: golden
@@ -81,11 +81,11 @@ pub fn random_shares(
 ///
 /// For basins of few intervals the error falls like 1/`count` instead of its square root. Labels with few
 /// points are given Wilson's interval if that is wider; one that no point has is not in the result: its share
-/// is [`wilson`]`(0, count * replicates)`.
+/// is [`wilson_interval`]`(0, count * replicates)`.
 ///
 /// # Errors
 /// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] without points.
-pub fn low_discrepancy_shares(
+pub fn low_discrepancy_fractions(
     window: Interval,
     count: usize,
     replicates: usize,
@@ -114,7 +114,7 @@ pub fn low_discrepancy_shares(
         let share = |tally: &BTreeMap<u16, usize>| {
             tally.get(label).map_or(0.0, |&n| n as f64 / count as f64)
         };
-        let estimate = student(&tallies.iter().map(share).collect::<Vec<_>>())?;
+        let estimate = student_interval(&tallies.iter().map(share).collect::<Vec<_>>())?;
         let found: usize = tallies.iter().filter_map(|tally| tally.get(label)).sum();
         shares.insert(*label, with_few(estimate, found, count * replicates)?);
     }
@@ -129,7 +129,7 @@ const ENOUGH: usize = 100;
 fn with_few(estimate: Estimate, found: usize, all: usize) -> Result<Estimate, Error> {
     let Estimate { value, mut lower, mut upper } = estimate;
     if found.min(all - found) < ENOUGH {
-        let few = wilson(found, all)?;
+        let few = wilson_interval(found, all)?;
         (lower, upper) = (lower.min(few.lower), upper.max(few.upper));
     }
     Ok(Estimate { value, lower: lower.max(0.0), upper: upper.min(1.0) })

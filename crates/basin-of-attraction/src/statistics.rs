@@ -32,14 +32,14 @@ const NORMAL: f64 = 1.959_963_984_540_054;
 /// [0, 1] and keeps its coverage for shares near the ends.
 ///
 /// ```
-/// let share = basin_of_attraction::wilson(0, 100)?;
+/// let share = basin_of_attraction::wilson_interval(0, 100)?;
 /// assert!(share.lower == 0.0 && (share.upper - 0.03699).abs() < 1e-5);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
 /// # Errors
 /// [`Error::BadTrials`] without trials, or with more successes than trials.
-pub fn wilson(successes: usize, trials: usize) -> Result<Estimate, Error> {
+pub fn wilson_interval(successes: usize, trials: usize) -> Result<Estimate, Error> {
     if trials == 0 || successes > trials {
         return Err(Error::BadTrials { successes, trials });
     }
@@ -58,7 +58,7 @@ pub fn wilson(successes: usize, trials: usize) -> Result<Estimate, Error> {
 ///
 /// # Errors
 /// [`Error::TooFewReplicates`] for fewer than two.
-pub fn student(replicates: &[f64]) -> Result<Estimate, Error> {
+pub fn student_interval(replicates: &[f64]) -> Result<Estimate, Error> {
     let count = replicates.len();
     if count < 2 {
         return Err(Error::TooFewReplicates { replicates: count });
@@ -105,10 +105,14 @@ mod tests {
     #[test]
     fn wilson_stays_inside() {
         for (k, n) in [(0, 1), (1, 1), (3, 7), (1000, 1000)] {
-            let share = wilson(k, n).unwrap();
+            let share = wilson_interval(k, n).unwrap();
             assert!(0.0 <= share.lower && share.lower <= share.value);
             assert!(share.value <= share.upper && share.upper <= 1.0);
         }
-        assert!(wilson(1, 0).is_err() && wilson(2, 1).is_err() && student(&[1.0]).is_err());
+        assert!(
+            wilson_interval(1, 0).is_err()
+                && wilson_interval(2, 1).is_err()
+                && student_interval(&[1.0]).is_err()
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! How often an error of ε in the start changes the fate.
 
 use crate::sampling::uniform;
-use crate::statistics::wilson;
+use crate::statistics::wilson_interval;
 use crate::{Error, Estimate, Interval, IntervalBasins, IntervalSet};
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// [`Error::BadTrials`] without points, [`Error::BadBoxSize`] unless `epsilon` is positive.
-pub fn uncertain_share(
+pub fn uncertain_fraction(
     window: Interval,
     epsilon: f64,
     count: usize,
@@ -27,7 +27,7 @@ pub fn uncertain_share(
         let here = label(x);
         label(x + epsilon) != here || label(x - epsilon) != here
     };
-    wilson((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
+    wilson_interval((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
 }
 
 impl IntervalBasins {
@@ -38,13 +38,13 @@ impl IntervalBasins {
     ///
     /// # Errors
     /// [`Error::BadBoxSize`] unless `epsilon` is positive and finite.
-    pub fn uncertain_share(&self, epsilon: f64, resolution: f64) -> Result<Estimate, Error> {
+    pub fn uncertain_fraction(&self, epsilon: f64, resolution: f64) -> Result<Estimate, Error> {
         if !(epsilon > 0.0 && epsilon.is_finite()) {
             return Err(Error::BadBoxSize { size: epsilon });
         }
         let window = self.window();
         let (mut sure, mut possible) = (Vec::new(), Vec::new());
-        for pair in self.parts().windows(2) {
+        for pair in self.intervals().windows(2) {
             let (before, after) = (pair[0].interval.right, pair[1].interval.left);
             let ball = Interval { left: before - epsilon, right: after + epsilon };
             let differ = pair[0].label != pair[1].label;

@@ -4,8 +4,8 @@
 
 use basin_of_attraction::{
     BoxCount, Branch, Fate, Grid, Interval, IntervalBasins, LabelImage, PreimageTree, Refinement,
-    Remainder, TrapSet, classify, entropy, equally_spaced_shares, geometric_limit, interval_basins,
-    occupied_boxes, power_law, raster, uncertain_share,
+    ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
+    interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -92,7 +92,7 @@ fn b1_leaves_a_cantor_set() {
         assert_eq!(gaps.intervals().len(), 2 << level);
         assert!((gaps.measure() - (2.0f64 / 3.0).powi(level as i32 + 1)).abs() < 1e-12);
     }
-    let Remainder::Cantor { growth } = tree.remainder() else { panic!() };
+    let ResidualSet::Cantor { growth } = tree.residual_set() else { panic!() };
     assert!((growth - 2f64.ln()).abs() < 1e-12);
     assert_eq!(tree.complete_levels(), 13);
     // Told by its dimension too: ends fill boxes a little off the triadic grid like 2ⁿ.
@@ -116,7 +116,7 @@ fn b4_leaves_a_countable_set() {
     ];
     let trap = interval(-0.01, 0.0);
     let tree = PreimageTree::grow(&map, &branches, trap, interval(-1.0, 0.0), 60);
-    assert_eq!(tree.remainder(), Remainder::Countable { power: 0.0 });
+    assert_eq!(tree.residual_set(), ResidualSet::Countable { power: 0.0 });
     // A tree that holds together: every node maps into its parent.
     for node in tree.nodes().iter().skip(1) {
         let parent = tree.nodes()[node.parent.unwrap()];
@@ -129,8 +129,11 @@ fn b4_leaves_a_countable_set() {
 
 /// The levels as `colours` basins.
 fn coloured(levels: &IntervalBasins, colours: usize) -> IntervalBasins {
-    let traps: Vec<_> =
-        levels.parts().iter().map(|part| (part.interval, (part.level % colours) as u16)).collect();
+    let traps: Vec<_> = levels
+        .intervals()
+        .iter()
+        .map(|part| (part.interval, (part.level % colours) as u16))
+        .collect();
     let nothing = |_: f64| None;
     interval_basins(&nothing, &traps, &[], levels.window(), Refinement::default()).unwrap()
 }
@@ -170,7 +173,7 @@ fn b4_one_way_fixed_point() {
     assert_eq!(label(-1.0 + 1e-12), 1);
     assert_eq!(label(-1.0 - 1e-12), 0);
     assert_eq!((label(0.0), label(1e-4)), (1, 0));
-    let shares = equally_spaced_shares(window, 1000, label).unwrap();
+    let shares = equally_spaced_fractions(window, 1000, label).unwrap();
     assert!(shares[&1].covers(0.5) && shares[&1].half_width() < 2e-3);
     // From −½ the distance to 0 falls under these after so many steps.
     let mut x = -0.5;
@@ -268,7 +271,7 @@ fn b8_grebogi_mcdonald_ott_yorke() {
     let points: Vec<(f64, f64)> = (2..=7)
         .map(|k| {
             let epsilon = 10f64.powi(-k);
-            let share = uncertain_share(window, epsilon, 20_000, 7, label).unwrap();
+            let share = uncertain_fraction(window, epsilon, 20_000, 7, label).unwrap();
             (epsilon, share.value)
         })
         .collect();
@@ -323,7 +326,7 @@ fn b9_newtons_method_for_three_roots() {
         .map(|k| {
             let epsilon = 10f64.powi(k);
             // On the line y = 0.3 the boundary has one dimension less.
-            let share = uncertain_share(window, epsilon, 100_000, 3, |x| label(x, 0.3)).unwrap();
+            let share = uncertain_fraction(window, epsilon, 100_000, 3, |x| label(x, 0.3)).unwrap();
             (epsilon, share.value)
         })
         .collect();
@@ -354,10 +357,10 @@ fn exact_uncertain_shares() {
     let window = interval(-1.5, 0.5);
     let basins = interval_basins(&nothing, &traps, &[], window, Refinement::default()).unwrap();
     for epsilon in [1e-1, 1e-3, 1e-6] {
-        let share = basins.uncertain_share(epsilon, 1e-12).unwrap();
+        let share = basins.uncertain_fraction(epsilon, 1e-12).unwrap();
         assert!((share.value - 2.0 * epsilon).abs() < 1e-12);
         let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
-        let sampled = uncertain_share(window, epsilon, 100_000, 5, label).unwrap();
+        let sampled = uncertain_fraction(window, epsilon, 100_000, 5, label).unwrap();
         assert!(sampled.lower < share.value && share.value < sampled.upper, "{sampled:?}");
     }
 }

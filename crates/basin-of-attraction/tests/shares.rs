@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use basin_of_attraction::{Interval, low_discrepancy_shares, random_shares};
+use basin_of_attraction::{Interval, low_discrepancy_fractions, random_fractions};
 
 fn interval(left: f64, right: f64) -> Interval {
     Interval::new(left, right).unwrap()
@@ -35,10 +35,11 @@ fn intervals_cover_as_often_as_they_say() {
         let covered = |shares: &dyn Fn(u64) -> basin_of_attraction::Estimate| {
             (0..1000).filter(|&seed| shares(seed).covers(truth)).count()
         };
-        let random = covered(&|seed| random_shares(window, 400, seed, label).unwrap()[&basin]);
+        let random = covered(&|seed| random_fractions(window, 400, seed, label).unwrap()[&basin]);
         assert!((930..=970).contains(&random), "{name}, random: {random}");
-        let low =
-            covered(&|seed| low_discrepancy_shares(window, 100, 20, seed, label).unwrap()[&basin]);
+        let low = covered(&|seed| {
+            low_discrepancy_fractions(window, 100, 20, seed, label).unwrap()[&basin]
+        });
         assert!((930..=970).contains(&low), "{name}, low discrepancy: {low}");
     }
 }
@@ -51,8 +52,8 @@ fn rare_labels_are_covered_too() {
     let covered = (0..300u64)
         .filter(|&seed| {
             let label = |x: f64| u16::from(x > 0.3 && x < 0.3 + truth);
-            let shares = low_discrepancy_shares(unit, 1000, 16, seed, label).unwrap();
-            let none = basin_of_attraction::wilson(0, 16_000).unwrap();
+            let shares = low_discrepancy_fractions(unit, 1000, 16, seed, label).unwrap();
+            let none = basin_of_attraction::wilson_interval(0, 16_000).unwrap();
             shares.get(&1).copied().unwrap_or(none).covers(truth)
         })
         .count();
@@ -63,7 +64,7 @@ fn rare_labels_are_covered_too() {
 fn low_discrepancy_is_sharper_than_chance() {
     let window = interval(-1.5, 0.5);
     let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
-    let random = random_shares(window, 20_000, 1, label).unwrap()[&1];
-    let low = low_discrepancy_shares(window, 1000, 20, 1, label).unwrap()[&1];
+    let random = random_fractions(window, 20_000, 1, label).unwrap()[&1];
+    let low = low_discrepancy_fractions(window, 1000, 20, 1, label).unwrap()[&1];
     assert!(low.half_width() < 0.1 * random.half_width());
 }

@@ -40,7 +40,7 @@ impl Coefficients {
         if n == 0 {
             return Err(Error::Index { n });
         }
-        let alpha_star = alpha_star(n).high;
+        let alpha_star = alpha_star(n);
         let square = alpha_star * alpha_star;
         let gap = 2.0 * alpha_star * (square / (1.0 + square));
         let beta = pxfm::f_cbrt(12.0 * (square / (1.0 + square)));

@@ -1,6 +1,6 @@
 //! The algebraic approach to a fixed point from the right.
 
-use crate::{Error, Expansion, RIGHT_RANGE, Right};
+use crate::{Error, ExpansionValue, RIGHT_RANGE, RightExpansion};
 use passive_hopper::MassRatio;
 
 /// δ_k^{−1/3} = λk/3 + (β/α* + 2λ/3) ln k + C + o(1).
@@ -37,7 +37,7 @@ impl Decay {
     /// overflow.
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
         const SMALLEST: f64 = 1e-150;
-        let right = Right::new(n, mass_ratio)?;
+        let right = RightExpansion::new(n, mass_ratio)?;
         let (lambda, [l5, l6, ..]) = (right.lambda, right.l);
         if !(lambda >= SMALLEST) {
             let (left, right) = (SMALLEST, f64::INFINITY);
@@ -66,7 +66,7 @@ impl Decay {
     /// let map = LiftOffMap::new(MassRatio::ONE);
     /// let mut delta = 1e-5;
     /// for _ in 0..1000 {
-    ///     delta = map.hop_about(1, delta)?.next.expect("in the trap");
+    ///     delta = map.hop_near_fixed_point(1, delta)?.next.expect("in the trap");
     /// }
     /// let hops = law.hops(1e-5, delta)?;
     /// assert!((hops.value - 1000.0).abs() <= hops.error && hops.error < 0.01);
@@ -75,7 +75,7 @@ impl Decay {
     ///
     /// # Errors
     /// [`Error::OutsideRange`] unless 0 < `end` ≤ `start` ≤ [`range`](Self::range).
-    pub fn hops(&self, start: f64, end: f64) -> Result<Expansion, Error> {
+    pub fn hops(&self, start: f64, end: f64) -> Result<ExpansionValue, Error> {
         self.check(start)?;
         if !(end > 0.0 && end <= start) {
             return Err(Error::OutsideRange { value: end, left: 0.0, right: start });
@@ -91,7 +91,7 @@ impl Decay {
     /// # Errors
     /// [`Error::OutsideRange`] unless 0 < `start` ≤ [`range`](Self::range) and `hops` is finite and not
     /// negative.
-    pub fn offset_after(&self, start: f64, hops: f64) -> Result<Expansion, Error> {
+    pub fn offset_after(&self, start: f64, hops: f64) -> Result<ExpansionValue, Error> {
         self.check(start)?;
         if !(hops >= 0.0 && hops.is_finite()) {
             return Err(Error::OutsideRange { value: hops, left: 0.0, right: f64::INFINITY });
@@ -113,19 +113,19 @@ impl Decay {
         // One hop takes λδ^{4/3} = 3 r δ/u.
         let hops = self.with_error(hops, start, u);
         let error = (hops.error * 3.0 * self.rate / u + 8.0 * f64::EPSILON) * value;
-        Ok(Expansion { value, error, neglected_exponent: Self::NEGLECTED_EXPONENT })
+        Ok(ExpansionValue { value, error, neglected_exponent: Self::NEGLECTED_EXPONENT })
     }
 
     /// C of the law, for the orbit from `start`.
     ///
     /// # Errors
     /// [`Error::OutsideRange`] unless 0 < `start` ≤ [`range`](Self::range).
-    pub fn constant(&self, start: f64) -> Result<Expansion, Error> {
+    pub fn constant(&self, start: f64) -> Result<ExpansionValue, Error> {
         self.check(start)?;
         let u0 = 1.0 / pxfm::f_cbrt(start);
         let value = u0 - self.logarithm * pxfm::f_log(u0 / self.rate) + self.inverse / u0;
         let hops = self.with_error(value / self.rate, start, u0);
-        Ok(Expansion { value, error: self.rate * hops.error, ..hops })
+        Ok(ExpansionValue { value, error: self.rate * hops.error, ..hops })
     }
 
     fn check(&self, start: f64) -> Result<(), Error> {
@@ -137,12 +137,12 @@ impl Decay {
     }
 
     /// A number of hops, with what the law neglects from `start` on and the roundings of u.
-    fn with_error(&self, value: f64, start: f64, largest: f64) -> Expansion {
+    fn with_error(&self, value: f64, start: f64, largest: f64) -> ExpansionValue {
         let root = pxfm::f_cbrt(start);
         let size = 1.0 + 3.0 * self.rate;
         let neglected = NEGLECTED * size * size * size * root * root / self.rate;
         let rounding = 16.0 * f64::EPSILON * (largest + self.logarithm.abs() * 700.0) / self.rate;
-        Expansion {
+        ExpansionValue {
             value,
             error: neglected + rounding,
             neglected_exponent: Self::NEGLECTED_EXPONENT,

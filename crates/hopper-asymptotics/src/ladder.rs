@@ -1,6 +1,6 @@
 //! The ladder of fixed points for large n.
 
-use crate::{Error, Expansion, Right};
+use crate::{Error, ExpansionValue, RightExpansion};
 use passive_hopper::MassRatio;
 
 /// α*_n = q − q⁻¹ − ⅔q⁻³ − (13/15)q⁻⁵ − (146/105)q⁻⁷ − (781/315)q⁻⁹ + O(q⁻¹¹), q = (n+½)π.
@@ -9,7 +9,7 @@ use passive_hopper::MassRatio;
 ///
 /// # Errors
 /// [`Error::Index`] for n = 0.
-pub fn ladder(n: u64) -> Result<Expansion, Error> {
+pub fn fixed_point_series(n: u64) -> Result<ExpansionValue, Error> {
     if n == 0 {
         return Err(Error::Index { n });
     }
@@ -20,10 +20,10 @@ pub fn ladder(n: u64) -> Result<Expansion, Error> {
     // The next coefficient is 16328/3465; all have the same sign.
     let neglected = 6.0 * square * square * square * square * square / q;
     let error = neglected + f64::EPSILON * q;
-    Ok(Expansion { value: q - sum / q, error, neglected_exponent: -11.0 })
+    Ok(ExpansionValue { value: q - sum / q, error, neglected_exponent: -11.0 })
 }
 
-/// Smallest λ for which [`interval_length`] answers.
+/// Smallest λ for which [`trap_length_series`] answers.
 pub const SMALLEST_LAMBDA: f64 = 3.0;
 
 /// |c₃| and what follows in 1 + c₁/λ + c₂/λ² + c₃/λ³ + …, for λ from the smallest on.
@@ -36,8 +36,8 @@ const NEGLECTED: f64 = 6.0;
 ///
 /// # Errors
 /// [`Error::Index`] for n = 0; [`Error::OutsideRange`] with λ, if it is under [`SMALLEST_LAMBDA`].
-pub fn interval_length(n: u64, mass_ratio: MassRatio) -> Result<Expansion, Error> {
-    let right = Right::new(n, mass_ratio)?;
+pub fn trap_length_series(n: u64, mass_ratio: MassRatio) -> Result<ExpansionValue, Error> {
+    let right = RightExpansion::new(n, mass_ratio)?;
     let lambda = right.lambda;
     if !(lambda >= SMALLEST_LAMBDA) {
         let (left, right) = (SMALLEST_LAMBDA, f64::INFINITY);
@@ -47,5 +47,5 @@ pub fn interval_length(n: u64, mass_ratio: MassRatio) -> Result<Expansion, Error
     let leading = 1.0 / (lambda * lambda * lambda);
     let series = 1.0 - 3.0 * l5 / lambda + (9.0 * l5 * l5 - 3.0 * l6) / (lambda * lambda);
     let error = leading * (NEGLECTED * leading + 16.0 * f64::EPSILON);
-    Ok(Expansion { value: leading * series, error, neglected_exponent: -6.0 })
+    Ok(ExpansionValue { value: leading * series, error, neglected_exponent: -6.0 })
 }

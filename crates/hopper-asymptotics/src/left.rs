@@ -1,6 +1,6 @@
 //! The left side of a fixed point, to three orders.
 
-use crate::{Coefficients, Error, Expansion, Form, LEFT_FACTOR};
+use crate::{Coefficients, Error, ExpansionValue, Form, LEFT_FACTOR};
 use passive_hopper::MassRatio;
 
 /// δ′ = δ − 10λ|δ|^{4/3} [1 + c₁|δ|^{1/3} + c₂|δ|^{2/3}] + O(|δ|^{7/3}), δ < 0.
@@ -23,7 +23,7 @@ use passive_hopper::MassRatio;
 ///   t = −s [1 − s/(4a) + (4a² + 25) s²/(240a²) − …],   s = β|δ|^{1/3}
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Left {
+pub struct LeftExpansion {
     /// λ, corrected; the leading coefficient is ten times it.
     pub lambda: f64,
     /// c₁, c₂.
@@ -36,7 +36,7 @@ pub const LEFT_RANGE: f64 = 1e-3;
 /// |c₃| and what follows, for n = 1…100, M = 10⁻³…10³.
 const NEGLECTED: f64 = 12.0;
 
-impl Left {
+impl LeftExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 7.0 / 3.0;
 
@@ -48,7 +48,7 @@ impl Left {
         let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
         let (a, b, kappa) = (local.alpha_star, local.beta, mass_ratio.kappa());
         let second = -b * b * (34.0 / 25.0 + 31.0 / (80.0 * a * a) - 0.9 * kappa);
-        Ok(Left { lambda: local.lambda, c: [-b / a, second] })
+        Ok(LeftExpansion { lambda: local.lambda, c: [-b / a, second] })
     }
 
     /// The largest |δ| that is answered: [`LEFT_RANGE`]/(1 + λ³).
@@ -60,17 +60,17 @@ impl Left {
     ///
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
-    pub fn displacement(&self, delta: f64) -> Result<Expansion, Error> {
+    pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let loss = self.loss(delta)?;
         let error = loss.error + f64::EPSILON * delta.abs();
-        Ok(Expansion { value: delta - loss.value, error, ..loss })
+        Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
     }
 
     /// The loss δ − δ′ for −[`range`](Self::range) ≤ δ ≤ 0, without cancellation.
     ///
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
-    pub fn loss(&self, delta: f64) -> Result<Expansion, Error> {
+    pub fn loss(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let range = self.range();
         if !(-range..=0.0).contains(&delta) {
             return Err(Error::OutsideRange { value: delta, left: -range, right: 0.0 });
@@ -81,7 +81,7 @@ impl Left {
         let series = (self.c[0] + self.c[1] * root) * root;
         let rounding = 8.0 * f64::EPSILON * leading;
         let neglected = NEGLECTED * (1.0 + self.lambda) * leading * size;
-        Ok(Expansion {
+        Ok(ExpansionValue {
             value: leading * (1.0 + series),
             error: neglected + rounding,
             neglected_exponent: Self::NEGLECTED_EXPONENT,

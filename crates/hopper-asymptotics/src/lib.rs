@@ -11,9 +11,9 @@
 //! | [`Coefficients`] | β, λ, Δ and the approximate map of a fixed point at a mass ratio |
 //! | [`Form`] | the paper's λ, or the corrected one |
 //! | [`LEFT_FACTOR`] | the 10 |
-//! | [`Right`], [`Left`], [`Expansion`] | the map to higher orders on either side, with its error |
+//! | [`RightExpansion`], [`LeftExpansion`], [`ExpansionValue`] | the map to higher orders on either side, with its error |
 //! | [`Decay`] | the law of the algebraic approach, and the number of hops it takes |
-//! | [`ladder`], [`interval_length`] | α*_n and Δ_n for large n |
+//! | [`fixed_point_series`], [`trap_length_series`] | α*_n and Δ_n for large n |
 //! | [`small_hop_loss`] | the map about α*_0 = 0 |
 //!
 //! ```
@@ -28,7 +28,7 @@
 //! ```
 //!
 //! # Accuracy
-//! The coefficients are right to a few ulps. [`Right`] and [`Left`] give every value with a bound on its
+//! The coefficients are right to a few ulps. [`RightExpansion`] and [`LeftExpansion`] give every value with a bound on its
 //! error, measured against the exact map in (n, δ), and refuse what lies outside the range of that
 //! measurement; the leading-order map of [`Coefficients`] errs by the next term, which it states.
 //!
@@ -51,8 +51,8 @@ mod small_alpha;
 pub use coefficients::{Coefficients, Form};
 pub use decay::Decay;
 pub use error::Error;
-pub use ladder::{SMALLEST_LAMBDA, interval_length, ladder};
-pub use left::{LEFT_RANGE, Left};
+pub use ladder::{SMALLEST_LAMBDA, fixed_point_series, trap_length_series};
+pub use left::{LEFT_RANGE, LeftExpansion};
 pub use local_map::LEFT_FACTOR;
-pub use right::{Expansion, RIGHT_RANGE, Right};
+pub use right::{ExpansionValue, RIGHT_RANGE, RightExpansion};
 pub use small_alpha::{SMALL_ALPHA_RANGE, small_hop_loss};

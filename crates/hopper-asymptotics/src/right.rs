@@ -5,7 +5,7 @@ use passive_hopper::MassRatio;
 
 /// A value of an expansion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Expansion {
+pub struct ExpansionValue {
     /// The truncated sum.
     pub value: f64,
     /// Bound on its distance from the exact map: the first neglected term, with its coefficient
@@ -25,15 +25,15 @@ pub struct Expansion {
 /// ```
 ///
 /// ```
-/// use hopper_asymptotics::Right;
+/// use hopper_asymptotics::RightExpansion;
 /// use passive_hopper::{LiftOffMap, MassRatio};
-/// let series = Right::new(1, MassRatio::ONE)?.displacement(1e-3)?;
-/// let exact = LiftOffMap::new(MassRatio::ONE).hop_about(1, 1e-3)?.next.expect("it hops again");
+/// let series = RightExpansion::new(1, MassRatio::ONE)?.displacement(1e-3)?;
+/// let exact = LiftOffMap::new(MassRatio::ONE).hop_near_fixed_point(1, 1e-3)?.next.expect("it hops again");
 /// assert!((series.value - exact).abs() <= series.error && series.error < 2e-9);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Right {
+pub struct RightExpansion {
     /// λ, corrected.
     pub lambda: f64,
     /// ℓ₅, ℓ₆, ℓ₇, ℓ₈.
@@ -46,7 +46,7 @@ pub const RIGHT_RANGE: f64 = 0.1;
 /// |ℓ₉| and what follows: at most 0.44 for n = 1…100, M = 10⁻³…10³, δ up to the range.
 const NEGLECTED: f64 = 0.5;
 
-impl Right {
+impl RightExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 3.0;
 
@@ -64,24 +64,24 @@ impl Right {
         let l7 = -(24.0 - 43.0 / square) / (12.0 * a * (1.0 + 1.0 / square));
         let bracket = cube * (25_200.0 * mu + 144.0) - (29_400.0 * cube + 403_200.0) / square
             + 83_825.0 * cube / (square * square);
-        Ok(Right { lambda: local.lambda, l: [l5, l6, l7, b * bracket / 403_200.0] })
+        Ok(RightExpansion { lambda: local.lambda, l: [l5, l6, l7, b * bracket / 403_200.0] })
     }
 
     /// δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`].
     ///
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
-    pub fn displacement(&self, delta: f64) -> Result<Expansion, Error> {
+    pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let loss = self.loss(delta)?;
         let error = loss.error + f64::EPSILON * delta;
-        Ok(Expansion { value: delta - loss.value, error, ..loss })
+        Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
     }
 
     /// The loss δ − δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`], without cancellation.
     ///
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
-    pub fn loss(&self, delta: f64) -> Result<Expansion, Error> {
+    pub fn loss(&self, delta: f64) -> Result<ExpansionValue, Error> {
         if !(0.0..=RIGHT_RANGE).contains(&delta) {
             return Err(Error::OutsideRange { value: delta, left: 0.0, right: RIGHT_RANGE });
         }
@@ -91,6 +91,6 @@ impl Right {
         let rounding = 8.0 * f64::EPSILON * leading;
         let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
         let neglected_exponent = Self::NEGLECTED_EXPONENT;
-        Ok(Expansion { value: leading * (1.0 + series), error, neglected_exponent })
+        Ok(ExpansionValue { value: leading * (1.0 + series), error, neglected_exponent })
     }
 }

@@ -1,6 +1,6 @@
 //! Small hops: the map about α*_0 = 0.
 
-use crate::{Error, Expansion};
+use crate::{Error, ExpansionValue};
 use passive_hopper::MassRatio;
 
 /// Largest α at which the error was measured.
@@ -25,12 +25,12 @@ const NEGLECTED: f64 = 5.0;
 ///
 /// # Errors
 /// [`Error::OutsideRange`] unless 0 ≤ α ≤ [`SMALL_ALPHA_RANGE`].
-pub fn small_hop_loss(mass_ratio: MassRatio, alpha: f64) -> Result<Expansion, Error> {
+pub fn small_hop_loss(mass_ratio: MassRatio, alpha: f64) -> Result<ExpansionValue, Error> {
     if !(0.0..=SMALL_ALPHA_RANGE).contains(&alpha) {
         return Err(Error::OutsideRange { value: alpha, left: 0.0, right: SMALL_ALPHA_RANGE });
     }
     let square = alpha * alpha;
     let leading = 32.0 / 9.0 * mass_ratio.mu() * alpha * square * square;
     let error = leading * (NEGLECTED * square * square + 16.0 * f64::EPSILON);
-    Ok(Expansion { value: leading * (1.0 - 1.6 * square), error, neglected_exponent: 9.0 })
+    Ok(ExpansionValue { value: leading * (1.0 - 1.6 * square), error, neglected_exponent: 9.0 })
 }

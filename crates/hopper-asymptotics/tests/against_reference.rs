@@ -5,10 +5,10 @@
 
 use approx::assert_relative_eq;
 use hopper_asymptotics::{
-    Coefficients, Decay, Error, Form, Left, RIGHT_RANGE, Right, SMALL_ALPHA_RANGE, interval_length,
-    ladder, small_hop_loss,
+    Coefficients, Decay, Error, Form, LeftExpansion, RIGHT_RANGE, RightExpansion,
+    SMALL_ALPHA_RANGE, fixed_point_series, small_hop_loss, trap_length_series,
 };
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, alpha_star};
 
 /// Computed with 50 to 130 digits (mpmath), independently of this project.
 const REFERENCE: &str = include_str!("data/local_basin.json");
@@ -51,10 +51,10 @@ fn leading_terms_have_the_stated_error() {
             let ratio = MassRatio::new(m).unwrap();
             let map = LiftOffMap::new(ratio);
             let local = Coefficients::new(n, ratio, Form::Corrected).unwrap();
-            let star = alpha_star(n);
+            let star = FixedPointSpeed::new(n);
             for exponent in 5..8 {
                 for side in [1.0, -1.0] {
-                    let alpha = star.high + side * 10f64.powi(-exponent);
+                    let alpha = star.value() + side * 10f64.powi(-exponent);
                     let delta = star.offset_of(alpha);
                     let loss = map.hop(alpha).unwrap().loss.unwrap();
                     let leading = delta - local.displacement(delta);
@@ -80,12 +80,12 @@ fn expansions_keep_their_bounds() {
         for m in RATIOS {
             let ratio = MassRatio::new(m).unwrap();
             let map = LiftOffMap::new(ratio);
-            let right = Right::new(n, ratio).unwrap();
-            let left = Left::new(n, ratio).unwrap();
+            let right = RightExpansion::new(n, ratio).unwrap();
+            let left = LeftExpansion::new(n, ratio).unwrap();
             for k in 0..60 {
                 let part = 10f64.powf(-0.2 * f64::from(k));
                 let delta = RIGHT_RANGE * part;
-                if let Some(exact) = map.hop_about(n, delta).unwrap().next {
+                if let Some(exact) = map.hop_near_fixed_point(n, delta).unwrap().next {
                     let series = right.displacement(delta).unwrap();
                     assert!(
                         (series.value - exact).abs() <= series.error,
@@ -93,7 +93,7 @@ fn expansions_keep_their_bounds() {
                     );
                 }
                 let delta = -left.range() * part;
-                let exact = map.hop_about(n, delta).unwrap().next.unwrap();
+                let exact = map.hop_near_fixed_point(n, delta).unwrap().next.unwrap();
                 let series = left.displacement(delta).unwrap();
                 assert!(
                     (series.value - exact).abs() <= series.error,
@@ -110,17 +110,20 @@ fn remainders_have_the_stated_exponents() {
     for n in [1, 2] {
         let ratio = MassRatio::new(0.5).unwrap();
         let map = LiftOffMap::new(ratio);
-        let (right, left) = (Right::new(n, ratio).unwrap(), Left::new(n, ratio).unwrap());
+        let (right, left) =
+            (RightExpansion::new(n, ratio).unwrap(), LeftExpansion::new(n, ratio).unwrap());
         let right_rest = |d: f64| {
-            right.displacement(d).unwrap().value - map.hop_about(n, d).unwrap().next.unwrap()
+            right.displacement(d).unwrap().value
+                - map.hop_near_fixed_point(n, d).unwrap().next.unwrap()
         };
         let left_rest = |d: f64| {
-            left.displacement(d).unwrap().value - map.hop_about(n, d).unwrap().next.unwrap()
+            left.displacement(d).unwrap().value
+                - map.hop_near_fixed_point(n, d).unwrap().next.unwrap()
         };
         let slope = (right_rest(1e-3) / right_rest(1e-4)).abs().log10();
-        assert!((slope - Right::NEGLECTED_EXPONENT).abs() < 0.06, "n={n} right: {slope}");
+        assert!((slope - RightExpansion::NEGLECTED_EXPONENT).abs() < 0.06, "n={n} right: {slope}");
         let slope = (left_rest(-1e-7) / left_rest(-1e-9)).abs().log10() / 2.0;
-        assert!((slope - Left::NEGLECTED_EXPONENT).abs() < 0.06, "n={n} left: {slope}");
+        assert!((slope - LeftExpansion::NEGLECTED_EXPONENT).abs() < 0.06, "n={n} left: {slope}");
     }
 }
 
@@ -132,14 +135,14 @@ fn lengths_ladder_and_small_hops_keep_their_bounds() {
     for row in &rows {
         let number = |key: &str| row[key].as_str().unwrap().parse::<f64>().unwrap();
         let ratio = MassRatio::new(number("mass_ratio")).unwrap();
-        let Ok(length) = interval_length(row["n"].as_u64().unwrap(), ratio) else { continue };
+        let Ok(length) = trap_length_series(row["n"].as_u64().unwrap(), ratio) else { continue };
         assert!((length.value - number("delta_exact")).abs() <= length.error, "{row} {length:?}");
         compared += 1;
     }
     assert!(compared > 50, "{compared}");
     for n in [1, 2, 5, 20, 1000, 1_000_000] {
-        let series = ladder(n).unwrap();
-        assert!((series.value - alpha_star(n).high).abs() <= series.error, "{n} {series:?}");
+        let series = fixed_point_series(n).unwrap();
+        assert!((series.value - alpha_star(n)).abs() <= series.error, "{n} {series:?}");
     }
     for m in RATIOS {
         let map = LiftOffMap::new(MassRatio::new(m).unwrap());
@@ -153,21 +156,24 @@ fn lengths_ladder_and_small_hops_keep_their_bounds() {
             );
         }
     }
-    assert!(small_hop_loss(MassRatio::ONE, 0.5).is_err() && ladder(0).is_err());
-    assert!(interval_length(1, MassRatio::new(0.1).unwrap()).is_err());
+    assert!(small_hop_loss(MassRatio::ONE, 0.5).is_err() && fixed_point_series(0).is_err());
+    assert!(trap_length_series(1, MassRatio::new(0.1).unwrap()).is_err());
 }
 
 #[test]
 fn outside_is_an_error() {
-    let right = Right::new(1, MassRatio::ONE).unwrap();
-    let left = Left::new(1, MassRatio::ONE).unwrap();
+    let right = RightExpansion::new(1, MassRatio::ONE).unwrap();
+    let left = LeftExpansion::new(1, MassRatio::ONE).unwrap();
     for delta in [-1e-9, 0.2, f64::NAN, f64::INFINITY] {
         assert!(matches!(right.displacement(delta), Err(Error::OutsideRange { .. })));
     }
     for delta in [1e-9, -0.2, f64::NAN] {
         assert!(matches!(left.displacement(delta), Err(Error::OutsideRange { .. })));
     }
-    assert!(Right::new(0, MassRatio::ONE).is_err() && Left::new(0, MassRatio::ONE).is_err());
+    assert!(
+        RightExpansion::new(0, MassRatio::ONE).is_err()
+            && LeftExpansion::new(0, MassRatio::ONE).is_err()
+    );
 }
 
 /// The number of hops, the offset after them and C, against the exact map, within their bounds.
@@ -181,7 +187,7 @@ fn the_law_of_approach_keeps_its_bounds() {
                 let start = part * law.range();
                 let mut delta = start;
                 for k in 1..=1000u32 {
-                    delta = map.hop_about(n, delta).unwrap().next.unwrap();
+                    delta = map.hop_near_fixed_point(n, delta).unwrap().next.unwrap();
                     if ![1, 10, 100, 1000].contains(&k) {
                         continue;
                     }
@@ -232,17 +238,17 @@ fn all_stated_exponents_are_those_of_the_remainders() {
     let slope = (rest(0.1) / rest(0.02)).ln() / 5f64.ln();
     let stated = small_hop_loss(ratio, 0.1).unwrap().neglected_exponent;
     assert!((slope - stated).abs() < 0.1, "{slope}");
-    // The ladder, in q.
-    let rest = |n: u64| (ladder(n).unwrap().value - alpha_star(n).high).abs();
+    // The fixed_point_series, in q.
+    let rest = |n: u64| (fixed_point_series(n).unwrap().value - alpha_star(n)).abs();
     let slope = (rest(2) / rest(1)).ln() / (2.5f64 / 1.5).ln();
-    assert!((slope - ladder(1).unwrap().neglected_exponent).abs() < 1.0, "{slope}");
+    assert!((slope - fixed_point_series(1).unwrap().neglected_exponent).abs() < 1.0, "{slope}");
     // A number of hops, in the start's offset: the whole tail from it.
     let law = Decay::new(1, MassRatio::ONE).unwrap();
     let map = LiftOffMap::new(MassRatio::ONE);
     let rest = |start: f64| {
         let mut delta = start;
         for _ in 0..200_000 {
-            delta = map.hop_about(1, delta).unwrap().next.unwrap();
+            delta = map.hop_near_fixed_point(1, delta).unwrap().next.unwrap();
         }
         (law.hops(start, delta).unwrap().value - 200_000.0).abs()
     };
@@ -254,7 +260,7 @@ fn all_stated_exponents_are_those_of_the_remainders() {
         let row = rows.iter().find(|row| row["n"] == 10 && row["mass_ratio"] == m).unwrap();
         let exact: f64 = row["delta_exact"].as_str().unwrap().parse().unwrap();
         let ratio = MassRatio::new(m.parse().unwrap()).unwrap();
-        let found = interval_length(10, ratio).unwrap();
+        let found = trap_length_series(10, ratio).unwrap();
         let lambda = Coefficients::new(10, ratio, Form::Corrected).unwrap().lambda;
         (lambda, (found.value - exact).abs(), found.neglected_exponent)
     };

@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 /// The window of Fig. 6 from M = 0.1 on.
 fn window(columns: usize, rows: usize) -> Grid {
     let x = Interval { left: 0.1, right: 1.0 };
-    let y = Interval { left: alpha_star(1).high, right: alpha_star(6).high };
+    let y = Interval { left: alpha_star(1), right: alpha_star(6) };
     Grid { x, y, columns, rows }
 }
 

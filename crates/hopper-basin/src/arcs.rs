@@ -70,7 +70,7 @@ impl Arcs {
             let hump_slope = (4.0 * mu * hump.largest_w() - 1.0).max(1.0);
             let first = if falling.is_some() { hump_slope } else { window_slope };
             Ok(Rung {
-                star: hump.star.high,
+                star: hump.star.value(),
                 falling: falling.unwrap_or((f64::INFINITY, f64::INFINITY)),
                 end,
                 slopes: [first, hump_slope, window_slope],

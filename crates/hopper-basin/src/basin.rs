@@ -13,14 +13,14 @@ use std::ops::{ControlFlow, Range};
 
 /// Points counted by their fate.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Shares {
+pub struct BasinFractions {
     /// Points by [label](HopperFate::label).
     pub counts: BTreeMap<u16, usize>,
     /// All points.
     pub points: usize,
 }
 
-impl Shares {
+impl BasinFractions {
     /// The share of one label.
     pub fn of(&self, label: u16) -> f64 {
         self.counts.get(&label).copied().unwrap_or(0) as f64 / self.points as f64
@@ -39,19 +39,24 @@ impl Shares {
 ///
 /// # Errors
 /// As [`Fates::new`], and [`Error::NoPoints`] if there are none.
-pub fn shares(mass_ratio: MassRatio, from: u64, to: u64, points: usize) -> Result<Shares, Error> {
+pub fn basin_fractions(
+    mass_ratio: MassRatio,
+    from: u64,
+    to: u64,
+    points: usize,
+) -> Result<BasinFractions, Error> {
     let fates = Fates::new(mass_ratio)?;
     let label = |alpha: f64| fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label);
     let mut counts = BTreeMap::new();
     for n in from..to {
-        let hump = Interval::new(alpha_star(n).high, alpha_star(n + 1).high)?;
+        let hump = Interval::new(alpha_star(n), alpha_star(n + 1))?;
         for (label, count) in equally_spaced_counts(hump, points, label) {
             *counts.entry(label).or_insert(0) += count;
         }
     }
     match counts.values().sum() {
         0 => Err(Error::NoPoints { from, to, points }),
-        points => Ok(Shares { counts, points }),
+        points => Ok(BasinFractions { counts, points }),
     }
 }
 
@@ -121,7 +126,7 @@ fn strip(ratios: &[f64], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
 
 /// Whether the speeds of `grid` have labels.
 fn check_speeds(grid: &Grid) -> Result<(), Error> {
-    let largest = alpha_star(HopperFate::LARGEST_LABEL).high;
+    let largest = alpha_star(HopperFate::LARGEST_LABEL);
     if grid.y.left >= 0.0 && grid.y.right <= largest {
         return Ok(());
     }
@@ -141,11 +146,11 @@ pub fn branches(fates: &Fates, from: u64, to: u64, samples: usize) -> Result<Vec
     let mut branches = Vec::new();
     for n in from..to {
         let hump = crate::hump::Hump::new(n)?;
-        let (left, end) = (hump.star.high.next_up(), (n + 1) as f64 * PI);
-        let right = alpha_star(n + 1).high.next_down();
+        let (left, end) = (hump.star.value().next_up(), (n + 1) as f64 * PI);
+        let right = alpha_star(n + 1).next_down();
         let mut cuts = vec![left];
         if let Some((maximum, minimum)) = hump.critical(mu)? {
-            cuts.extend([maximum, minimum].map(|t| hump.star.high + hump.delta(t)));
+            cuts.extend([maximum, minimum].map(|t| hump.star.value() + hump.delta(t)));
         }
         cuts.push(end);
         for pair in cuts.windows(2) {
@@ -171,7 +176,7 @@ pub fn basin_levels(
 ) -> Result<Vec<IntervalSet>, Error> {
     let trap = fates.trap(n)?;
     let branches = branches(fates, n, top, samples)?;
-    let mut level = Interval::new(trap.star.high, trap.right())?;
+    let mut level = Interval::new(trap.fixed_point.value(), trap.right())?;
     if trap.edge == TrapEdge::Crossing {
         // The edge is where f falls to α*_n: taken as the map computes it, to the last bit, so that
         // no sliver between two roundings of it counts as a level of its own.

@@ -7,7 +7,9 @@
 
 use crate::Error;
 use hybrid_system::bracketed_root;
-use passive_hopper::{DoubleDouble, HalfFlight, LARGEST_LIFT_OFF_SPEED, LocalFlight, alpha_star};
+use passive_hopper::{
+    FixedPointSpeed, HalfFlight, LARGEST_LIFT_OFF_SPEED, LocalFlight, alpha_star,
+};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
@@ -21,7 +23,7 @@ const NEWTON_STEPS: usize = 12;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Hump {
     pub(crate) n: u64,
-    pub(crate) star: DoubleDouble,
+    pub(crate) star: FixedPointSpeed,
     flight: LocalFlight,
     /// t at which W is largest.
     steepest: f64,
@@ -43,9 +45,9 @@ impl Hump {
         if n > LARGEST {
             return Err(Error::Index { n, smallest: 0, largest: LARGEST });
         }
-        let star = alpha_star(n);
+        let star = FixedPointSpeed::new(n);
         // Twice the offset of half of it: the difference is formed from 100 bits.
-        let steepest = 2.0 * star.offset_of(0.5 * alpha_star(2 * n + 1).high);
+        let steepest = 2.0 * star.offset_of(0.5 * alpha_star(2 * n + 1));
         let end = 2.0 * star.offset_of((n + 1) as f64 * PI);
         Ok(Hump { n, star, flight: LocalFlight::new(n), steepest, end })
     }
@@ -75,8 +77,8 @@ impl Hump {
     /// α² − α*_n², or α² if the target is zero.
     fn squares(&self, t: f64, target_is_zero: bool) -> f64 {
         let delta = self.delta(t);
-        let alpha = self.star.high + delta;
-        if target_is_zero { alpha * alpha } else { delta * (alpha + self.star.high) }
+        let alpha = self.star.value() + delta;
+        if target_is_zero { alpha * alpha } else { delta * (alpha + self.star.value()) }
     }
 
     /// The two critical points, maximum and minimum of the map, in t; nothing if it is monotone.
@@ -124,7 +126,7 @@ impl Hump {
     ///
     /// There 4μW = 1, with W' = SC − h cos 2h and W″ = 2h sin 2h, about −2h at the maximum.
     pub(crate) fn falling(&self, mu: f64) -> Result<Option<(f64, f64)>, Error> {
-        let middle = self.star.high + 0.5 * self.steepest;
+        let middle = self.star.value() + 0.5 * self.steepest;
         let level = 0.25 / mu;
         let rest = self.largest_w() - level;
         if rest <= 0.0 {
@@ -138,7 +140,7 @@ impl Hump {
                 let slope = half.sin * half.cos - h * (1.0 - 2.0 * half.sin * half.sin);
                 let step = (half.w() - level) / slope;
                 h -= step;
-                let inside = h > self.star.high && sign * (h - middle) > 0.0;
+                let inside = h > self.star.value() && sign * (h - middle) > 0.0;
                 if !inside || step.abs() < 4.0 * f64::EPSILON * h {
                     return inside.then(|| HalfFlight::at(h).start_speed(0.0));
                 }
@@ -148,7 +150,7 @@ impl Hump {
         if let (Some(top), Some(foot)) = (end(-1.0), end(1.0)) {
             return Ok(Some((top, foot)));
         }
-        let place = |t: f64| self.star.high + self.delta(t);
+        let place = |t: f64| self.star.value() + self.delta(t);
         Ok(self.critical(mu)?.map(|(top, foot)| (place(top), place(foot))))
     }
 
@@ -168,9 +170,9 @@ impl Hump {
     fn newton(&self, mu: f64, start: f64, above: impl Fn(f64) -> f64, right: f64) -> Option<f64> {
         let mut t = self.plain_newton(mu, start)?;
         for _ in 0..NEWTON_STEPS {
-            let h = self.star.high + 0.5 * t;
+            let h = self.star.value() + 0.5 * t;
             let half = HalfFlight::at(h);
-            let alpha = self.star.high + self.delta(t);
+            let alpha = self.star.value() + self.delta(t);
             let slope = alpha * (1.0 - 4.0 * mu * self.w(t)) * self.closing_speed(t) / half.d;
             let step = above(t) / slope;
             t -= step;
@@ -186,8 +188,8 @@ impl Hump {
 
     /// The same to some digits, from one sine and cosine a step: α − α*_n need not be exact.
     fn plain_newton(&self, mu: f64, start: f64) -> Option<f64> {
-        let square = self.star.high * self.star.high;
-        let mut h = self.star.high + 0.5 * start;
+        let square = self.star.value() * self.star.value();
+        let mut h = self.star.value() + 0.5 * start;
         for _ in 0..NEWTON_STEPS {
             let half = HalfFlight::at(h);
             let (alpha, closing) = (half.start_speed(0.0), half.closing_speed(0.0));
@@ -195,14 +197,14 @@ impl Hump {
             let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d;
             let step = above / slope;
             h -= step;
-            if !(slope < 0.0 && h > self.star.high) {
+            if !(slope < 0.0 && h > self.star.value()) {
                 return None;
             }
-            if step.abs() < 1e-6 * (h - self.star.high) {
+            if step.abs() < 1e-6 * (h - self.star.value()) {
                 break;
             }
         }
-        Some(2.0 * (h - self.star.high))
+        Some(2.0 * (h - self.star.value()))
     }
 
     /// The minimum of the map touches α*_n, or zero: there α'² = target² and dα'/dα = 0, so that
@@ -213,7 +215,7 @@ impl Hump {
             closing * closing - 4.0 * self.w(t) * self.squares(t, target_is_zero)
         };
         let t = self.root(condition, self.steepest, self.end)?;
-        Ok(Touch { mu: 0.25 / self.w(t), t, alpha: self.star.high + self.delta(t) })
+        Ok(Touch { mu: 0.25 / self.w(t), t, alpha: self.star.value() + self.delta(t) })
     }
 
     fn root(&self, f: impl FnMut(f64) -> f64, left: f64, right: f64) -> Result<f64, Error> {

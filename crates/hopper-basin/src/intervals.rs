@@ -43,9 +43,9 @@ pub fn hopper_basins(
     samples: usize,
     refinement: Refinement,
 ) -> Result<HopperBasins, Error> {
-    let window = Interval::new(alpha_star(from).high, alpha_star(to).high);
-    let largest = alpha_star(HopperFate::LARGEST_LABEL).high;
-    let (bottom, top) = (alpha_star(from).high, alpha_star(to).high);
+    let window = Interval::new(alpha_star(from), alpha_star(to));
+    let largest = alpha_star(HopperFate::LARGEST_LABEL);
+    let (bottom, top) = (alpha_star(from), alpha_star(to));
     let window = match window {
         Ok(window) if from < to && to <= HopperFate::LARGEST_LABEL => window,
         _ => return Err(Error::Window { bottom, top, largest }),
@@ -55,17 +55,17 @@ pub fn hopper_basins(
     let mut traps = grounded(fates, &branches, top);
     for n in 0..to {
         let trap = fates.trap(n)?;
-        let right = trap.right().min(alpha_star(n + 1).high.next_down());
+        let right = trap.right().min(alpha_star(n + 1).next_down());
         // Where the map ends at the trap's edge, the two roundings of that edge meet.
         for (gap, _) in traps.iter_mut().filter(|(gap, _)| gap.contains(right)) {
             gap.left = right.next_up();
         }
-        traps.push((Interval::new(trap.star.high, right)?, n as u16));
+        traps.push((Interval::new(trap.fixed_point.value(), right)?, n as u16));
     }
     let whole = Interval::new(0.0, top)?;
     let basins = interval_basins(fates, &traps, &branches, whole, refinement)?.within(window);
     let spacing = (0..to)
-        .map(|n| alpha_star(n + 1).high - (n + 1) as f64 * std::f64::consts::PI)
+        .map(|n| alpha_star(n + 1) - (n + 1) as f64 * std::f64::consts::PI)
         .fold(0.0, f64::max)
         / (samples - 1) as f64;
     Ok(HopperBasins { basins, spacing })

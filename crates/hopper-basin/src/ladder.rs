@@ -3,7 +3,7 @@
 use crate::itinerary::Itinerary;
 use crate::known::Known;
 use crate::{Error, Fates, TrapEdge};
-use passive_hopper::{DoubleDouble, alpha_star, index_below};
+use passive_hopper::{FixedPointSpeed, index_below};
 use std::f64::consts::FRAC_1_PI;
 
 /// Traps in a ladder; those of larger n are asked one by one.
@@ -21,10 +21,10 @@ impl Ladder {
         let trap = |n: u64| {
             let trap = fates.trap(n)?;
             let right = match trap.edge {
-                TrapEdge::NextFixedPoint => last_below(alpha_star(n + 1)),
+                TrapEdge::NextFixedPoint => FixedPointSpeed::new(n + 1).largest_below(),
                 TrapEdge::Crossing | TrapEdge::ContactEnd => trap.right(),
             };
-            Ok((first_from(trap.star), right))
+            Ok((trap.fixed_point.smallest_not_below(), right))
         };
         let mut traps = (0..=last).map(trap).collect::<Result<Vec<_>, Error>>()?;
         if last + 1 < RUNGS {
@@ -60,14 +60,4 @@ fn not_one(alpha: f64, fates: &Fates) -> Option<(Known, (f64, f64))> {
     let label = fates.label(alpha)?;
     // No ends, so that nobody takes it for the trap of others.
     Some((Known { itinerary: Itinerary::START, label }, (f64::NAN, f64::NAN)))
-}
-
-/// The smallest `f64` from `star` on.
-fn first_from(star: DoubleDouble) -> f64 {
-    if star.low > 0.0 { star.high.next_up() } else { star.high }
-}
-
-/// The largest `f64` below `star`.
-fn last_below(star: DoubleDouble) -> f64 {
-    if star.low > 0.0 { star.high } else { star.high.next_down() }
 }

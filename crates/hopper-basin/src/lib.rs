@@ -10,9 +10,9 @@
 //! | [`Trap`] | Δ_n, and why the trap ends there |
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
 //! | [`crisis`], [`grounding`] | mass ratios at which a hump falls through its fixed point, or to the ground |
-//! | [`reach`], [`Reach`], [`recovery`] | how far a basin reaches into the sudden windows, down to a stated width; mass ratios from which none falls through |
+//! | [`immediate_basin`], [`ImmediateBasin`], [`recovery`] | how far a basin reaches into the sudden windows, down to a stated width; mass ratios from which none falls through |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at fixed M as intervals, with what is undecided |
-//! | [`shares`], [`Shares`] | measures by the paper's protocol |
+//! | [`basin_fractions`], [`BasinFractions`] | measures by the paper's protocol |
 //! | [`basin_raster`], [`basin_columns`] | basins over (M, α), whole or some columns at a time |
 //! | [`Fates::labels`] | the fates of many speeds, hopping together |
 //! | [`basin_levels`], [`branches`] | a basin as intervals, level by level, from the map itself |
@@ -21,7 +21,7 @@
 //! use hopper_basin::shares;
 //! use passive_hopper::MassRatio;
 //! // The paper's 0.037 at M = 0.2.
-//! let share = shares(MassRatio::new(0.2)?, 1, 6, 10_000)?.incessant();
+//! let share = basin_fractions(MassRatio::new(0.2)?, 1, 6, 10_000)?.incessant();
 //! assert!((share - 0.037).abs() < 0.0005);
 //! # Ok::<(), hopper_basin::Error>(())
 //! ```
@@ -56,11 +56,13 @@ mod strip;
 mod trap;
 mod window;
 
-pub use basin::{Shares, basin_columns, basin_levels, basin_raster, branches, shares};
+pub use basin::{
+    BasinFractions, basin_columns, basin_fractions, basin_levels, basin_raster, branches,
+};
 pub use crisis::{Crisis, crisis, grounding};
 pub use error::Error;
 pub use fate::{Fates, HOP_BUDGET, HopperFate};
 pub use intervals::{HopperBasins, hopper_basins};
-pub use reach::{Reach, ReachEdge, reach, recovery};
+pub use reach::{ImmediateBasin, ImmediateBasinEdge, immediate_basin, recovery};
 pub use trap::{Trap, TrapEdge};
 pub use window::{RisingWindow, rising_window};

@@ -3,22 +3,22 @@
 use crate::hump::Hump;
 use crate::{Error, Fates, Trap, TrapEdge, crisis};
 use basin_of_attraction::{Image, ScalarMap};
-use passive_hopper::{MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, MassRatio};
 
 /// The largest interval [α*_n, α*_n + Δ) on which f ≥ α*_n, up to the next fixed point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach {
+pub struct ImmediateBasin {
     /// Δ, with the bound on its error beside it.
     pub delta: f64,
     /// Bound on the error of Δ, given that its edge is the one found.
     pub error: f64,
     /// Where it ends.
-    pub edge: ReachEdge,
+    pub edge: ImmediateBasinEdge,
 }
 
 /// Where a reach ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ReachEdge {
+pub enum ImmediateBasinEdge {
     /// On the contact part of the hump: the only crossing there, proved.
     Contact,
     /// In the sudden window: the first place where f < α*_n was found on a scan. An earlier fall,
@@ -43,37 +43,37 @@ pub enum ReachEdge {
 /// that width.
 ///
 /// ```
-/// use hopper_basin::{Fates, ReachEdge, reach};
+/// use hopper_basin::{Fates, ImmediateBasinEdge, immediate_basin};
 /// use passive_hopper::MassRatio;
-/// let reach = reach(&Fates::new(MassRatio::new(10.0)?)?, 1, 1e-3)?;
+/// let reach = immediate_basin(&Fates::new(MassRatio::new(10.0)?)?, 1, 1e-3)?;
 /// assert!((reach.delta - 2.57746178999).abs() < 1e-10);
-/// assert!(matches!(reach.edge, ReachEdge::Sudden { .. }));
+/// assert!(matches!(reach.edge, ImmediateBasinEdge::Sudden { .. }));
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```
 ///
 /// # Errors
 /// As [`Trap::new`]; [`Error::Width`] unless the width is positive and leaves at most ten million
 /// places; [`Error::Hopper`] where the map cannot be evaluated.
-pub fn reach(fates: &Fates, n: u64, width: f64) -> Result<Reach, Error> {
+pub fn immediate_basin(fates: &Fates, n: u64, width: f64) -> Result<ImmediateBasin, Error> {
     let trap = fates.trap(n)?;
     let edge = match trap.edge {
-        TrapEdge::Crossing => ReachEdge::Contact,
-        TrapEdge::NextFixedPoint => ReachEdge::NextFixedPoint,
+        TrapEdge::Crossing => ImmediateBasinEdge::Contact,
+        TrapEdge::NextFixedPoint => ImmediateBasinEdge::NextFixedPoint,
         TrapEdge::ContactEnd => return scan(fates, &trap, width),
     };
-    Ok(Reach { delta: trap.delta, error: trap.error, edge })
+    Ok(ImmediateBasin { delta: trap.delta, error: trap.error, edge })
 }
 
-fn scan(fates: &Fates, trap: &Trap, width: f64) -> Result<Reach, Error> {
-    let next = alpha_star(trap.n + 1);
-    let (left, right) = (trap.right(), next.high.next_down());
+fn scan(fates: &Fates, trap: &Trap, width: f64) -> Result<ImmediateBasin, Error> {
+    let next = FixedPointSpeed::new(trap.n + 1);
+    let (left, right) = (trap.right(), next.value().next_down());
     let places = ((right - left) / width).ceil();
     if !(width > 0.0 && (1.0..=1e7).contains(&places)) {
         return Err(Error::Width { width, length: right - left });
     }
     // The star itself maps to itself: "below" is below its f64.
     let falls = |alpha: f64| match fates.image(alpha) {
-        Image::Point(image) => Ok(image < trap.star.high),
+        Image::Point(image) => Ok(image < trap.fixed_point.value()),
         Image::Stops => Ok(true),
         Image::Undecided => {
             fates.map().image(alpha).map(|image| image.is_none()).map_err(Error::from)
@@ -89,14 +89,18 @@ fn scan(fates: &Fates, trap: &Trap, width: f64) -> Result<Reach, Error> {
                 let middle = above + 0.5 * (below - above);
                 if falls(middle)? { below = middle } else { above = middle }
             }
-            let delta = trap.star.offset_of(below);
+            let delta = trap.fixed_point.offset_of(below);
             let error = place_error(fates, below)?;
-            return Ok(Reach { delta, error, edge: ReachEdge::Sudden { width } });
+            return Ok(ImmediateBasin { delta, error, edge: ImmediateBasinEdge::Sudden { width } });
         }
         above = at;
     }
-    let delta = trap.star.offset_of(next.high);
-    Ok(Reach { delta, error: f64::EPSILON * delta, edge: ReachEdge::NotFound { width } })
+    let delta = trap.fixed_point.offset_of(next.value());
+    Ok(ImmediateBasin {
+        delta,
+        error: f64::EPSILON * delta,
+        edge: ImmediateBasinEdge::NotFound { width },
+    })
 }
 
 /// How far off a place may be at which the map was compared with a number: an ulp, and the map's own
@@ -119,13 +123,16 @@ fn place_error(fates: &Fates, alpha: f64) -> Result<f64, Error> {
 /// for mass ratios up to `largest`, 32 of them, and at no others.
 ///
 /// # Errors
-/// As [`reach`] and [`crisis`]; [`Error::Width`] too if falls are found up to `largest`.
+/// As [`immediate_basin`] and [`crisis`]; [`Error::Width`] too if falls are found up to `largest`.
 pub fn recovery(n: u64, width: f64, largest: f64) -> Result<(f64, f64), Error> {
     const SCAN: u32 = 32;
     let contact = 1.0 / crisis(n)?.mass_ratio;
     let falls = |m: f64| -> Result<bool, Error> {
-        let found = reach(&Fates::new(MassRatio::new(m)?)?, n, width)?;
-        Ok(!matches!(found.edge, ReachEdge::NotFound { .. } | ReachEdge::NextFixedPoint))
+        let found = immediate_basin(&Fates::new(MassRatio::new(m)?)?, n, width)?;
+        Ok(!matches!(
+            found.edge,
+            ImmediateBasinEdge::NotFound { .. } | ImmediateBasinEdge::NextFixedPoint
+        ))
     };
     // Geometric steps from the largest down to where the contact part takes over.
     let at = |k: u32| {
@@ -157,8 +164,8 @@ pub fn recovery(n: u64, width: f64, largest: f64) -> Result<(f64, f64), Error> {
 pub(crate) fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
     const ULPS: f64 = 16.0;
     let (delta, w) = (hump.delta(t), hump.w(t));
-    let alpha = hump.star.high + delta;
-    let sides = delta * (alpha + hump.star.high);
+    let alpha = hump.star.value() + delta;
+    let sides = delta * (alpha + hump.star.value());
     let slope = 2.0 * alpha * (4.0 * mu * w - 1.0).abs();
     f64::EPSILON * (ULPS * sides / slope + 2.0 * delta)
 }

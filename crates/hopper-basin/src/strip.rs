@@ -98,7 +98,7 @@ impl Strip<'_> {
         let mut first = 0;
         // Without arcs there are no intervals to wait for.
         for n in 0..if with_arcs { RUNGS.min(last + 1) } else { 0 } {
-            let star = alpha_star(n + 1).high;
+            let star = alpha_star(n + 1);
             let end = first + self.speeds[first..].partition_point(|&speed| speed < star);
             self.label_hump(first..end, true);
             first = end;
@@ -170,7 +170,7 @@ impl Strip<'_> {
         before.clear();
         before.extend(hops.iter().map(|hop| hop.1.unwrap_or(f64::NAN)));
         // Those with an error keep their speeds, and are sorted out one by one.
-        let _ = LiftOffMap::images_of_each(hops);
+        let _ = LiftOffMap::images_of_pairs(hops);
         for ((&at, hop), &alpha) in index.iter().zip(hops.iter()).zip(before.iter()) {
             let Followed { column, itinerary, .. } = &mut all[at as usize];
             match &self.columns[*column as usize].arcs {

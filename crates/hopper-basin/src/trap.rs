@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::hump::Hump;
 use crate::reach::crossing_error;
-use passive_hopper::{DoubleDouble, MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
@@ -32,7 +32,7 @@ fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
     if mass_ratio.value() > ONE_SUDDEN {
         return false;
     }
-    let (mut y, mut v) = (1.0f64, alpha_star(n + 1).high);
+    let (mut y, mut v) = (1.0f64, alpha_star(n + 1));
     let mut loss = 0.0;
     for _ in 0..2 {
         let r = (y * y + v * v).sqrt();
@@ -40,7 +40,7 @@ fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
         loss += (r + b) * (r + b);
         (y, v) = (r, r.max(b));
     }
-    let (low, high) = (alpha_star(n).high, (n + 1) as f64 * PI);
+    let (low, high) = (alpha_star(n), (n + 1) as f64 * PI);
     // A thousandth to spare for the roundings of the bound itself.
     1.001 * mass_ratio.mu() * loss < (high - low) * (high + low)
 }
@@ -53,8 +53,8 @@ fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
 pub struct Trap {
     /// Index of the fixed point.
     pub n: u64,
-    /// α*_n.
-    pub star: DoubleDouble,
+    /// α*_n, to 100 bits.
+    pub fixed_point: FixedPointSpeed,
     /// Δ_n, the length of the trap.
     pub delta: f64,
     /// Bound on the error of `delta`: some ulps, times the condition of the edge, which is bad next to
@@ -88,7 +88,7 @@ impl Trap {
         let mu = mass_ratio.mu();
         let trap = |delta: f64, edge| Trap {
             n,
-            star: hump.star,
+            fixed_point: hump.star,
             delta,
             error: f64::EPSILON * delta,
             edge,
@@ -99,7 +99,7 @@ impl Trap {
                 ..trap(hump.delta(t), TrapEdge::Crossing)
             },
             None if cannot_fall(n, mass_ratio) => {
-                trap(hump.star.offset_of(alpha_star(n + 1).high), TrapEdge::NextFixedPoint)
+                trap(hump.star.offset_of(alpha_star(n + 1)), TrapEdge::NextFixedPoint)
             }
             None => trap(hump.star.offset_of((n + 1) as f64 * PI), TrapEdge::ContactEnd),
         })
@@ -109,14 +109,16 @@ impl Trap {
     /// the upper one.
     pub fn contains(&self, alpha: f64) -> bool {
         let before_end = match self.edge {
-            TrapEdge::NextFixedPoint => alpha_star(self.n + 1).compare(alpha) == Ordering::Less,
+            TrapEdge::NextFixedPoint => {
+                FixedPointSpeed::new(self.n + 1).compare(alpha) == Ordering::Less
+            }
             TrapEdge::Crossing | TrapEdge::ContactEnd => alpha <= self.right(),
         };
-        before_end && self.star.compare(alpha) != Ordering::Less
+        before_end && self.fixed_point.compare(alpha) != Ordering::Less
     }
 
     /// The upper end, α*_n + Δ_n.
     pub fn right(&self) -> f64 {
-        self.star.high + self.delta
+        self.fixed_point.value() + self.delta
     }
 }

@@ -42,6 +42,6 @@ pub struct RisingWindow {
 pub fn rising_window(n: u64) -> Option<RisingWindow> {
     let at = usize::try_from(n).ok()?.checked_sub(1)?;
     let &(largest_mass_ratio, steepest) = PROVED.get(at)?;
-    let part = Interval { left: n as f64 * PI, right: alpha_star(n).high - NEAR };
+    let part = Interval { left: n as f64 * PI, right: alpha_star(n) - NEAR };
     Some(RisingWindow { part, largest_mass_ratio, steepest })
 }

@@ -4,10 +4,10 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use basin_of_attraction::{Interval, PreimageTree, Refinement, Remainder};
+use basin_of_attraction::{Interval, PreimageTree, Refinement, ResidualSet};
 use hopper_basin::{
-    Fates, HopperFate, ReachEdge, Trap, TrapEdge, crisis, grounding, hopper_basins, reach,
-    recovery, shares,
+    Fates, HopperFate, ImmediateBasinEdge, Trap, TrapEdge, basin_fractions, crisis, grounding,
+    hopper_basins, immediate_basin, recovery,
 };
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use serde_json::Value;
@@ -88,12 +88,15 @@ fn every_reference_fate() {
 /// Sec. VI B: 1 and 0.953 at M = 0.1, 0.037 at M = 0.2, by the paper's 10 000 points an interval.
 #[test]
 fn the_papers_measures() {
-    let low = shares(MassRatio::new(0.1).unwrap(), 1, 6, 10_000).unwrap();
+    let low = basin_fractions(MassRatio::new(0.1).unwrap(), 1, 6, 10_000).unwrap();
     assert_eq!(low.incessant(), 1.0);
     assert!((low.of(1) - 0.953).abs() < 0.0005);
-    let high = shares(MassRatio::new(0.2).unwrap(), 1, 6, 10_000).unwrap();
+    let high = basin_fractions(MassRatio::new(0.2).unwrap(), 1, 6, 10_000).unwrap();
     assert!((high.incessant() - 0.037).abs() < 0.0005);
-    assert!(shares(MassRatio::ONE, 1, 6, 0).is_err() && shares(MassRatio::ONE, 6, 1, 10).is_err());
+    assert!(
+        basin_fractions(MassRatio::ONE, 1, 6, 0).is_err()
+            && basin_fractions(MassRatio::ONE, 6, 1, 10).is_err()
+    );
 }
 
 /// Δ_n λ³ → 1, far beyond the spacing of α: Δ is 5e-24 at n = 10⁷.
@@ -101,9 +104,10 @@ fn the_papers_measures() {
 fn tiny_traps_keep_their_digits() {
     for n in [1_000, 100_000, 10_000_000] {
         let trap = Trap::new(n, MassRatio::ONE).unwrap();
-        let square = trap.star.high * trap.star.high;
+        let square = trap.fixed_point.value() * trap.fixed_point.value();
         // 2 (1+α*²)⁴/(81 μ³ α*¹¹), with relative corrections of 32/(15 α*²).
-        let leading = 2.0 * 64.0 / 81.0 * (1.0 + 1.0 / square).powi(4) / (square * trap.star.high);
+        let leading =
+            2.0 * 64.0 / 81.0 * (1.0 + 1.0 / square).powi(4) / (square * trap.fixed_point.value());
         assert_relative_eq!(trap.delta, leading, max_relative = 1e-12 + 40.0 / square);
     }
     assert!(Trap::new(u64::MAX, MassRatio::ONE).is_err());
@@ -114,7 +118,7 @@ fn tiny_traps_keep_their_digits() {
 fn tiny_mass_ratios_are_decided_at_once() {
     for m in [1e-300, 1e-9, 1e-3] {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
-        let below = passive_hopper::alpha_star(3).high - 1e-9;
+        let below = passive_hopper::alpha_star(3) - 1e-9;
         assert_eq!(fates.fate_within(below, 0).unwrap().0, HopperFate::Incessant { n: 2 });
     }
     // The bound holds: the lowest image of the sudden window is above.
@@ -122,11 +126,12 @@ fn tiny_mass_ratios_are_decided_at_once() {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
         for n in (1..6).filter(|&n| fates.trap(n).unwrap().edge == TrapEdge::NextFixedPoint) {
             let (left, right) =
-                ((n + 1) as f64 * std::f64::consts::PI, passive_hopper::alpha_star(n + 1).high);
+                ((n + 1) as f64 * std::f64::consts::PI, passive_hopper::alpha_star(n + 1));
             for k in 1..200 {
                 let alpha = left + (right - left) * f64::from(k) / 200.0;
                 assert!(
-                    fates.map().image(alpha).unwrap().unwrap() > fates.trap(n).unwrap().star.high
+                    fates.map().image(alpha).unwrap().unwrap()
+                        > fates.trap(n).unwrap().fixed_point.value()
                 );
             }
         }
@@ -138,7 +143,7 @@ fn tiny_mass_ratios_are_decided_at_once() {
 fn levels_are_complete() {
     let fates = Fates::new(MassRatio::new(0.4).unwrap()).unwrap();
     let levels = hopper_basin::basin_levels(&fates, 1, 4, 4, 4001).unwrap();
-    let (left, right) = (passive_hopper::alpha_star(1).high, passive_hopper::alpha_star(4).high);
+    let (left, right) = (passive_hopper::alpha_star(1), passive_hopper::alpha_star(4));
     let mut seen = [0; 5];
     for k in 1..40_000 {
         let alpha = left + (right - left) * (f64::from(k) * 0.618_033_988_749_895).fract();
@@ -167,7 +172,7 @@ fn interval_basins_have_the_known_measures() {
         let found = hopper_basins(&fates(m), 1, 6, 400, refinement).unwrap().basins;
         let (mut incessant, mut to_first, mut open) = (0.0, 0.0, 0.0);
         for n in 1..6 {
-            let hump = Interval::new(alpha_star(n).high, alpha_star(n + 1).high).unwrap();
+            let hump = Interval::new(alpha_star(n), alpha_star(n + 1)).unwrap();
             let part = found.within(hump);
             let share = |length: f64| length / hump.length() / 5.0;
             incessant += share(part.measure_of(|label| (1..100).contains(&label)).value);
@@ -196,7 +201,7 @@ fn interval_basins_agree_with_fates() {
         let (mut decided, mut grounded) = (0, 0);
         for k in 0..3000 {
             let part = (f64::from(k) + 0.5) / 3000.0;
-            let alpha = alpha_star(1).high + (alpha_star(4).high - alpha_star(1).high) * part;
+            let alpha = alpha_star(1) + (alpha_star(4) - alpha_star(1)) * part;
             let Some(label) = found.basins.label(alpha) else { continue };
             assert_eq!(fates.fate(alpha).unwrap().label(), label, "M = {m}, α = {alpha}");
             decided += 1;
@@ -210,16 +215,22 @@ fn interval_basins_agree_with_fates() {
 /// Theory's table of Δ: at M = 10 the edge of hump 1 lies in the sudden window, on a chain of six.
 #[test]
 fn reaches_in_the_sudden_windows() {
-    let found = reach(&fates(10.0), 1, 1e-3).unwrap();
-    assert_eq!(found.edge, ReachEdge::Sudden { width: 1e-3 });
+    let found = immediate_basin(&fates(10.0), 1, 1e-3).unwrap();
+    assert_eq!(found.edge, ImmediateBasinEdge::Sudden { width: 1e-3 });
     assert_relative_eq!(found.delta, 2.577_461_789_994_586_2, max_relative = 1e-13);
-    let found = reach(&fates(0.1), 1, 1e-3).unwrap();
-    assert_eq!(found.edge, ReachEdge::NotFound { width: 1e-3 });
+    let found = immediate_basin(&fates(0.1), 1, 1e-3).unwrap();
+    assert_eq!(found.edge, ImmediateBasinEdge::NotFound { width: 1e-3 });
     assert_relative_eq!(found.delta, 3.231_842_379_028_643, max_relative = 1e-14);
-    assert_eq!(reach(&fates(1.0), 1, 1e-3).unwrap().edge, ReachEdge::Contact);
+    assert_eq!(immediate_basin(&fates(1.0), 1, 1e-3).unwrap().edge, ImmediateBasinEdge::Contact);
     // At M = 20 the first fall is 2.4e-8 wide: a scan at 1e-3 does not see it.
-    assert_eq!(reach(&fates(20.0), 1, 1e-3).unwrap().edge, ReachEdge::NotFound { width: 1e-3 });
-    assert!(reach(&fates(10.0), 1, 0.0).is_err() && reach(&fates(10.0), 1, f64::NAN).is_err());
+    assert_eq!(
+        immediate_basin(&fates(20.0), 1, 1e-3).unwrap().edge,
+        ImmediateBasinEdge::NotFound { width: 1e-3 }
+    );
+    assert!(
+        immediate_basin(&fates(10.0), 1, 0.0).is_err()
+            && immediate_basin(&fates(10.0), 1, f64::NAN).is_err()
+    );
 }
 
 /// The counts of the tree are 2k − 3 on two humps, and grow like k² on three: countable.
@@ -227,13 +238,13 @@ fn reaches_in_the_sudden_windows() {
 fn the_preimage_tree_leaves_a_countable_set() {
     let fates = fates(0.2);
     let trap = fates.trap(1).unwrap();
-    let trap = Interval::new(trap.star.high, trap.right()).unwrap();
+    let trap = Interval::new(trap.fixed_point.value(), trap.right()).unwrap();
     for (top, power) in [(3, 1.0), (4, 2.0)] {
-        let window = Interval::new(alpha_star(1).high, alpha_star(top).high).unwrap();
+        let window = Interval::new(alpha_star(1), alpha_star(top)).unwrap();
         let branches = hopper_basin::branches(&fates, 1, top, 400).unwrap();
         let tree = PreimageTree::grow(&fates, &branches, trap, window, 40);
-        let Remainder::Countable { power: found } = tree.remainder() else {
-            panic!("{:?} of {:?}, {}", tree.remainder(), tree.counts(), tree.complete_levels())
+        let ResidualSet::Countable { power: found } = tree.residual_set() else {
+            panic!("{:?} of {:?}, {}", tree.residual_set(), tree.counts(), tree.complete_levels())
         };
         assert!((found - power).abs() < 0.35, "{top}: {found}");
         if top == 3 {
@@ -277,7 +288,7 @@ fn labels_say_why() {
     }
     // An ulp left of a fixed point an orbit stands still in f64; from a little farther it takes long.
     let fates = fates(0.2);
-    let alpha = alpha_star(2).high.next_down();
+    let alpha = alpha_star(2).next_down();
     let (fate, _) = fates.fate_within(alpha, 5).unwrap();
     assert_eq!(fate, HopperFate::Undecided(Reason::Precision { at: alpha }));
     let (fate, hops) = fates.fate_within(alpha - 1e-9, 5).unwrap();

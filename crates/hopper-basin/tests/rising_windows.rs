@@ -123,7 +123,7 @@ fn the_map_rises_in_its_windows() {
     for n in 1..=8 {
         let window = rising_window(n).unwrap();
         // h of the upper end, by A(h) = α: h < α.
-        let (mut left, mut right) = (n as f64 * PI, alpha_star(n).high);
+        let (mut left, mut right) = (n as f64 * PI, alpha_star(n));
         for _ in 0..60 {
             let middle = 0.5 * (left + right);
             if HalfFlight::at(middle).start_speed(0.0) < window.part.right {
@@ -133,7 +133,7 @@ fn the_map_rises_in_its_windows() {
             }
         }
         let mut boxes = 0;
-        let limits = (alpha_star(n).high, window.steepest);
+        let limits = (alpha_star(n), window.steepest);
         let ratios = Range(0.0, window.largest_mass_ratio);
         prove(Range(n as f64 * PI, right), ratios, limits, &mut boxes);
         println!("window {n}: {boxes} boxes");

@@ -12,7 +12,7 @@ struct Swing(Search);
 
 #[derive(Clone, Copy, PartialEq)]
 enum Search {
-    Signal,
+    QuasiPolynomial,
     Enclosure,
     Samples,
 }
@@ -32,8 +32,9 @@ impl HybridSystem<2> for Swing {
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn guard_signal(&self, _: (), _: (), x: &State<2>) -> Option<Signal> {
-        (self.0 == Search::Signal).then(|| Signal::cosine(x[0], 1.0) + Signal::sine(x[1], 1.0))
+    fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<2>) -> Option<QuasiPolynomial> {
+        (self.0 == Search::QuasiPolynomial)
+            .then(|| QuasiPolynomial::cosine(x[0], 1.0) + QuasiPolynomial::sine(x[1], 1.0))
     }
     fn guard_enclosure(
         &self,
@@ -92,9 +93,11 @@ impl HybridSystem<2> for Integrated {
 }
 
 fn zeros(criterion: &mut Criterion) {
-    for (name, search) in
-        [("signal", Search::Signal), ("enclosure", Search::Enclosure), ("samples", Search::Samples)]
-    {
+    for (name, search) in [
+        ("signal", Search::QuasiPolynomial),
+        ("enclosure", Search::Enclosure),
+        ("samples", Search::Samples),
+    ] {
         criterion.bench_function(&format!("ten zeros of a swing: {name}"), |bencher| {
             let swing = Swing(search);
             let start = Vector2::new(1.0, 0.0);

@@ -80,17 +80,23 @@ impl HybridSystem<3> for Ball {
         }
     }
 
-    fn guard_signal(&self, _: Mode, surface: Surface, x: &State<3>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        _: Mode,
+        surface: Surface,
+        x: &State<3>,
+    ) -> Option<QuasiPolynomial> {
         let (sin, cos) = x[2].sin_cos();
         // sin(φ₀ + ωt)
-        let shake = Signal::sine(cos, self.frequency) + Signal::cosine(sin, self.frequency);
+        let shake = QuasiPolynomial::sine(cos, self.frequency)
+            + QuasiPolynomial::cosine(sin, self.frequency);
         Some(match surface {
             Surface::Impact => {
-                Signal::polynomial(&[x[0], x[1], -0.5 * self.gravity])
+                QuasiPolynomial::polynomial(&[x[0], x[1], -0.5 * self.gravity])
                     + shake.scaled(self.amplitude)
             }
             Surface::Release => {
-                Signal::polynomial(&[self.gravity])
+                QuasiPolynomial::polynomial(&[self.gravity])
                     + shake.scaled(self.amplitude * self.frequency.powi(2))
             }
         })

@@ -110,7 +110,12 @@ impl HybridSystem<4> for Masses {
     }
 
     /// Both guards are polynomials and sines of time: their crossings are certain.
-    fn guard_signal(&self, _: Mode, surface: Surface, x: &State<4>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        _: Mode,
+        surface: Surface,
+        x: &State<4>,
+    ) -> Option<QuasiPolynomial> {
         Some(match surface {
             Surface::Landing => {
                 // x₁ = center − m₂/m (length + stretch)
@@ -118,17 +123,17 @@ impl HybridSystem<4> for Masses {
                 let (stretch, rate) = (x[1] - x[0] - self.length, x[3] - x[2]);
                 let omega = self.free_frequency();
                 let drift = x[2] + share * rate;
-                Signal::polynomial(&[x[0] + share * stretch, drift, -0.5 * self.gravity])
-                    - Signal::cosine(share * stretch, omega)
-                    - Signal::sine(share * rate / omega, omega)
+                QuasiPolynomial::polynomial(&[x[0] + share * stretch, drift, -0.5 * self.gravity])
+                    - QuasiPolynomial::cosine(share * stretch, omega)
+                    - QuasiPolynomial::sine(share * rate / omega, omega)
             }
             Surface::LiftOff => {
                 let omega = self.held_frequency();
                 let off = x[1] - self.balance();
                 let weight = self.mass() * self.gravity;
-                Signal::polynomial(&[weight])
-                    - Signal::cosine(self.stiffness * off, omega)
-                    - Signal::sine(self.stiffness * x[3] / omega, omega)
+                QuasiPolynomial::polynomial(&[weight])
+                    - QuasiPolynomial::cosine(self.stiffness * off, omega)
+                    - QuasiPolynomial::sine(self.stiffness * x[3] / omega, omega)
             }
         })
     }

@@ -1,6 +1,6 @@
 //! Arcs and events: the pieces of an execution.
 
-use crate::{Accumulation, Certainty, Error, HybridSystem, State};
+use crate::{Certainty, Error, HybridSystem, State, ZenoLimit};
 
 /// A jump between two arcs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,9 +25,9 @@ pub enum ArcEnd<M, S, const N: usize> {
     /// In an event.
     Event(Event<M, S, N>),
     /// In infinitely many events, each sooner than the one before (Zeno); the arc stands for all of them.
-    Accumulation {
+    Zeno {
         /// Where and when they end.
-        limit: Accumulation<N>,
+        limit: ZenoLimit<N>,
         /// Mode and state in which the model goes on; nothing if it names none.
         after: Option<(M, State<N>)>,
     },
@@ -75,7 +75,7 @@ impl<M: Copy, S: Copy, const N: usize> Arc<M, S, N> {
     pub fn event(&self) -> Option<&Event<M, S, N>> {
         match &self.end {
             ArcEnd::Event(event) => Some(event),
-            ArcEnd::Accumulation { .. } | ArcEnd::TimeLimit | ArcEnd::Never => None,
+            ArcEnd::Zeno { .. } | ArcEnd::TimeLimit | ArcEnd::Never => None,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The first zero of a [`Signal`], with certainty.
+//! The first zero of a [`QuasiPolynomial`], with certainty.
 //!
 //! On an interval with middle m and half length r, and |g″| ≤ B on it,
 //!
@@ -11,7 +11,7 @@
 //! A start at zero, to any order, is left by its first derivative that is not zero: with g = c tᵏ + …,
 //! |g| ≥ tᵏ (|c| − M t/(k+1)!) where |g⁽ᵏ⁺¹⁾| ≤ M.
 
-use crate::{Direction, Error, Signal, bracketed_root};
+use crate::{Direction, Error, QuasiPolynomial, bracketed_root};
 
 /// The first crossing of a signal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,20 +44,20 @@ const ORDERS: u32 = 16;
 /// Most intervals looked at.
 const INTERVALS: usize = 1_000_000;
 
-impl Signal {
+impl QuasiPolynomial {
     /// The first crossing of zero strictly after time zero, up to `horizon`, in one direction.
     ///
     /// A start at zero, but for rounding, counts by the side to which the signal leaves it. A signal that is
     /// zero throughout never crosses.
     ///
     /// ```
-    /// use hybrid_system::{Direction, FirstCrossing, Signal};
+    /// use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial};
     /// // t³ − t⁴ leaves zero upwards, cubically, and comes back at 1.
-    /// let g = Signal::polynomial(&[0.0, 0.0, 0.0, 1.0, -1.0]);
+    /// let g = QuasiPolynomial::polynomial(&[0.0, 0.0, 0.0, 1.0, -1.0]);
     /// let back = FirstCrossing::At { time: 1.0, rising: false };
     /// assert_eq!(g.first_crossing(Direction::Either, 9.0)?, back);
     /// // (t − 1)² touches.
-    /// let g = Signal::polynomial(&[1.0, -2.0, 1.0]);
+    /// let g = QuasiPolynomial::polynomial(&[1.0, -2.0, 1.0]);
     /// assert!(matches!(g.first_crossing(Direction::Either, 9.0)?, FirstCrossing::Grazing { .. }));
     /// # Ok::<(), hybrid_system::Error>(())
     /// ```
@@ -181,9 +181,9 @@ pub(crate) fn closest(
 
 /// A signal with its derivatives.
 struct Search<'a> {
-    signal: &'a Signal,
-    slope: Signal,
-    bend: Signal,
+    signal: &'a QuasiPolynomial,
+    slope: QuasiPolynomial,
+    bend: QuasiPolynomial,
 }
 
 /// What an interval holds.
@@ -197,7 +197,7 @@ enum Found {
 }
 
 impl<'a> Search<'a> {
-    fn new(signal: &'a Signal) -> Self {
+    fn new(signal: &'a QuasiPolynomial) -> Self {
         let slope = signal.derivative();
         let bend = slope.derivative();
         Search { signal, slope, bend }

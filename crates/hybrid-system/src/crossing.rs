@@ -110,7 +110,7 @@ where
 {
     let Guard { surface, direction } = guard;
     if !horizon.is_finite() {
-        let bounded = system.guard_signal(mode, surface, start).is_some()
+        let bounded = system.guard_quasi_polynomial(mode, surface, start).is_some()
             || system.guard_enclosure(mode, surface, start, 0, (0.0, 0.0)).is_some();
         let error =
             Error::BadLimit { what: "the horizon of a search under bounds", value: horizon };
@@ -124,7 +124,7 @@ where
         other => other,
     };
     let error = rounding_at(start, &start.abs(), |state| system.guard_value(surface, state));
-    if let Some(signal) = system.guard_signal(mode, surface, start) {
+    if let Some(signal) = system.guard_quasi_polynomial(mode, surface, start) {
         return signal.first_crossing_from(direction, horizon, error).map(behind).map(Some);
     }
     let enclosure = |order, times| system.guard_enclosure(mode, surface, start, order, times);

@@ -1,9 +1,9 @@
 //! Executions: arcs and events, one after the other, in hybrid time.
 
-use crate::accumulation::History;
 use crate::simultaneous::{next_of, together};
+use crate::zeno::History;
 use crate::{
-    Accumulation, Arc, ArcEnd, Certainty, Crossing, Error, Event, HybridSystem, Reset, State,
+    Arc, ArcEnd, Certainty, Crossing, Error, Event, HybridSystem, Reset, State, ZenoLimit,
 };
 
 /// How far an execution may go.
@@ -41,7 +41,7 @@ pub enum Stop {
     /// No event ever follows.
     NoFurtherEvent,
     /// Events accumulate, and the model names no mode that they lead to.
-    Accumulation,
+    Zeno,
     /// An error was returned.
     Failed,
 }
@@ -189,7 +189,7 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
     }
 
     /// The last arc before the limit of infinitely many events, and what follows it.
-    fn accumulate(&mut self, limit: Accumulation<N>) -> Arc<T::Mode, T::Surface, N> {
+    fn accumulate(&mut self, limit: ZenoLimit<N>) -> Arc<T::Mode, T::Surface, N> {
         if limit.time > self.limits.time {
             self.stop = Some(Stop::TimeLimit);
             return Arc {
@@ -208,14 +208,14 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             jump: self.jump,
             start: self.state,
             duration: (limit.time - self.time).max(0.0),
-            end: ArcEnd::Accumulation { limit, after },
+            end: ArcEnd::Zeno { limit, after },
         };
         self.time = limit.time;
         self.jump += 1;
         self.history.clear();
         match after {
             Some((mode, state)) => (self.mode, self.state) = (mode, state),
-            None => self.stop = Some(Stop::Accumulation),
+            None => self.stop = Some(Stop::Zeno),
         }
         arc
     }

@@ -12,10 +12,10 @@
 //! | [`Guard`], [`Direction`] | a switching surface, and the side from which a crossing counts |
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how sure it is: exact, certain, interpolated or sampled |
 //! | [`Enclosure`] | bounds on a guard that the model gives |
-//! | [`Signal`], [`FirstCrossing`] | guards as sums of polynomials times sines: the first crossing with certainty, grazings told |
+//! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times sines: the first crossing with certainty, grazings told |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, bounded in time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | what an execution consists of, with both one-sided states |
-//! | [`Accumulation`] | infinitely many events in finite time (Zeno): the limit, and what follows |
+//! | [`ZenoLimit`] | infinitely many events in finite time (Zeno): the limit, and what follows |
 //! | [`VectorField`], `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | small changes of the start, through arcs and events (saltation) |
@@ -70,7 +70,7 @@
 //!
 //! # Accuracy
 //! Crossing times are as exact as the model's own solution, or to a few ulps by bracketing. A guard
-//! given as a [`Signal`] or by [`Enclosure`]s is searched under bounds: no crossing is missed, a start at
+//! given as a [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed, a start at
 //! zero is left by its derivatives, and what rounding hides is an error. Along integrated flows guards are searched
 //! on polynomials, to the flow's tolerances. A crossing found by sampling says so in its [`Certainty`].
 //!
@@ -89,7 +89,6 @@
 //! Springer (2004), for saltation; J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*,
 //! Numer. Algorithms 53 (2010).
 
-mod accumulation;
 mod arc;
 mod bracketed_root;
 mod certain_crossing;
@@ -100,12 +99,12 @@ mod execution;
 mod guard;
 #[cfg(feature = "ode")]
 mod ode;
+mod quasi_polynomial;
 mod sensitivity;
-mod signal;
 mod simultaneous;
 mod system;
+mod zeno;
 
-pub use accumulation::Accumulation;
 pub use arc::{Arc, ArcEnd, Event};
 pub use bracketed_root::bracketed_root;
 pub use certain_crossing::FirstCrossing;
@@ -118,9 +117,10 @@ pub use guard::{Direction, Guard};
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
 };
+pub use quasi_polynomial::QuasiPolynomial;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
-pub use signal::Signal;
 pub use system::{HybridSystem, Reset, State, VectorField};
+pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}

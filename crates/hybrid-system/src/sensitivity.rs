@@ -56,8 +56,8 @@ const SLOWEST: f64 = 1e-12;
 ///     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
 ///         x[0]
 ///     }
-///     fn guard_signal(&self, _: (), _: Floor, x: &State<2>) -> Option<Signal> {
-///         Some(Signal::polynomial(&[x[0], x[1], -0.5]))
+///     fn guard_quasi_polynomial(&self, _: (), _: Floor, x: &State<2>) -> Option<QuasiPolynomial> {
+///         Some(QuasiPolynomial::polynomial(&[x[0], x[1], -0.5]))
 ///     }
 ///     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
 ///         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
@@ -138,7 +138,7 @@ fn transition<T, const N: usize>(
 where
     T: Differentiable<N>,
 {
-    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Accumulation { .. }) {
+    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Zeno { .. }) {
         return Err(Error::NoSensitivity { time: arc.time });
     }
     let along = system.flow_jacobian(arc.mode, &arc.start, arc.duration);

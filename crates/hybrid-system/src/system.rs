@@ -1,7 +1,7 @@
 //! The trait that a model implements.
 
 use crate::crossing::earliest_crossing;
-use crate::{Crossing, Enclosure, Error, Guard, Signal};
+use crate::{Crossing, Enclosure, Error, Guard, QuasiPolynomial};
 use nalgebra::SVector;
 use std::fmt::Debug;
 
@@ -66,12 +66,12 @@ pub trait HybridSystem<const N: usize> {
     /// polynomials times sines and cosines: then its crossings are found with certainty.
     ///
     /// Provided: none.
-    fn guard_signal(
+    fn guard_quasi_polynomial(
         &self,
         mode: Self::Mode,
         surface: Self::Surface,
         start: &State<N>,
-    ) -> Option<Signal> {
+    ) -> Option<QuasiPolynomial> {
         let _ = (mode, surface, start);
         None
     }
@@ -98,7 +98,7 @@ pub trait HybridSystem<const N: usize> {
     /// The first crossing of a guard of `mode` strictly after `start`, no later than `horizon`
     /// (which may be infinite for a model that solves its crossings).
     ///
-    /// Provided: each guard by the best means that the model gives. A [signal](Self::guard_signal) or
+    /// Provided: each guard by the best means that the model gives. A [signal](Self::guard_quasi_polynomial) or
     /// [enclosures](Self::guard_enclosure) are searched with certainty up to a finite horizon. Any other
     /// guard is sampled at `sampling_interval` and a change of sign is refined to full precision: two
     /// crossings of one guard inside one interval are not seen, a zero on a sample counts once, and a
@@ -107,7 +107,7 @@ pub trait HybridSystem<const N: usize> {
     ///
     /// # Errors
     /// [`Error::Grazing`] if a signal or enclosure comes so close that rounding hides whether it crosses, and
-    /// the errors of [`Signal::first_crossing`]; [`Error::NoSamplingInterval`] if it is needed and absent;
+    /// the errors of [`QuasiPolynomial::first_crossing`]; [`Error::NoSamplingInterval`] if it is needed and absent;
     /// [`Error::UndecidedStart`] if a sampled guard starts at zero and is beyond its surface at the first
     /// sample.
     fn first_crossing(

@@ -21,8 +21,8 @@ fn constant_flow() {
         fn guard_value(&self, (): (), x: &State<2>) -> f64 {
             x[0] + x[1]
         }
-        fn guard_signal(&self, (): (), (): (), x: &State<2>) -> Option<Signal> {
-            Some(Signal::polynomial(&[x[0] + x[1], 1.0]))
+        fn guard_quasi_polynomial(&self, (): (), (): (), x: &State<2>) -> Option<QuasiPolynomial> {
+            Some(QuasiPolynomial::polynomial(&[x[0] + x[1], 1.0]))
         }
         fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
             Reset::Jump { mode: (), state: Vector2::new(x[0] - 2.0, x[1]) }
@@ -55,8 +55,8 @@ fn diffeqgpu_540_at_the_end_time() {
         fn guard_value(&self, (): (), x: &State<2>) -> f64 {
             x[0]
         }
-        fn guard_signal(&self, (): (), (): (), x: &State<2>) -> Option<Signal> {
-            Some(Signal::polynomial(&[x[0], x[1], -5.0]))
+        fn guard_quasi_polynomial(&self, (): (), (): (), x: &State<2>) -> Option<QuasiPolynomial> {
+            Some(QuasiPolynomial::polynomial(&[x[0], x[1], -5.0]))
         }
         fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
             Reset::Jump { mode: (), state: Vector2::new(0.0, -x[1]) }
@@ -133,7 +133,7 @@ fn enclosures_and_the_weakest_certainty() {
 /// A small swing that never reaches zero, over a million of its periods.
 #[test]
 fn a_small_swing_holds_for_ever() {
-    let force = Signal::polynomial(&[19.6]) - Signal::cosine(5.0, 22.4);
+    let force = QuasiPolynomial::polynomial(&[19.6]) - QuasiPolynomial::cosine(5.0, 22.4);
     assert_eq!(force.first_crossing(Direction::Falling, 1e6).unwrap(), FirstCrossing::Never);
 }
 
@@ -153,8 +153,8 @@ fn drake_elastic_ball_by_bounds() {
         fn guard_value(&self, (): (), x: &State<2>) -> f64 {
             x[0]
         }
-        fn guard_signal(&self, (): (), (): (), x: &State<2>) -> Option<Signal> {
-            Some(Signal::polynomial(&[x[0], x[1], -0.5 * 9.81]))
+        fn guard_quasi_polynomial(&self, (): (), (): (), x: &State<2>) -> Option<QuasiPolynomial> {
+            Some(QuasiPolynomial::polynomial(&[x[0], x[1], -0.5 * 9.81]))
         }
         fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
             Reset::Jump { mode: (), state: Vector2::new(0.0, -x[1]) }

@@ -8,7 +8,11 @@ use proptest::prelude::*;
 use std::f64::consts::PI;
 
 /// All crossings of a polynomial in time, with their directions.
-fn crossings(signal: &Signal, shift: impl Fn(f64) -> Signal, horizon: f64) -> Vec<f64> {
+fn crossings(
+    signal: &QuasiPolynomial,
+    shift: impl Fn(f64) -> QuasiPolynomial,
+    horizon: f64,
+) -> Vec<f64> {
     let (mut times, mut from) = (Vec::new(), 0.0);
     let mut now = signal.clone();
     while let FirstCrossing::At { time, .. } =
@@ -25,9 +29,9 @@ fn crossings(signal: &Signal, shift: impl Fn(f64) -> Signal, horizon: f64) -> Ve
 }
 
 /// Π (t + s − r), as a polynomial in t.
-fn with_roots(roots: &[f64], shift: f64) -> Signal {
-    roots.iter().fold(Signal::polynomial(&[1.0]), |product, root| {
-        product * Signal::polynomial(&[shift - root, 1.0])
+fn with_roots(roots: &[f64], shift: f64) -> QuasiPolynomial {
+    roots.iter().fold(QuasiPolynomial::polynomial(&[1.0]), |product, root| {
+        product * QuasiPolynomial::polynomial(&[shift - root, 1.0])
     })
 }
 
@@ -36,7 +40,7 @@ fn with_roots(roots: &[f64], shift: f64) -> Signal {
 fn scipy_9228_all_three() {
     let at = |t: f64| {
         let x = t - 8.0;
-        Signal::polynomial(&[
+        QuasiPolynomial::polynomial(&[
             ((x + 6.0) * x - 4.0) * x - 24.0,
             (3.0 * x + 12.0) * x - 4.0,
             3.0 * x + 6.0,
@@ -72,7 +76,7 @@ fn roots_wherever_they_are() {
 
 #[test]
 fn oscillator_zeros_in_one_direction() {
-    let cosine = Signal::cosine(1.0, 1.0);
+    let cosine = QuasiPolynomial::cosine(1.0, 1.0);
     for (direction, zero) in [
         (Direction::Falling, PI / 2.0),
         (Direction::Rising, 1.5 * PI),
@@ -88,7 +92,7 @@ fn oscillator_zeros_in_one_direction() {
 /// E7: the guard y₀ − x² along ẋ = 1 from x = −1.
 #[test]
 fn tangency() {
-    let guard = |y0: f64| Signal::polynomial(&[y0 - 1.0, 2.0, -1.0]);
+    let guard = |y0: f64| QuasiPolynomial::polynomial(&[y0 - 1.0, 2.0, -1.0]);
     assert_eq!(guard(-1e-9).first_crossing(Direction::Either, 3.0).unwrap(), FirstCrossing::Never);
     let FirstCrossing::Grazing { time, value } =
         guard(0.0).first_crossing(Direction::Either, 3.0).unwrap()
@@ -124,7 +128,7 @@ fn starts_at_zero_are_left_by_their_derivatives() {
         for sign in [1.0, -1.0] {
             let mut coefficients = vec![0.0; order + 2];
             (coefficients[order], coefficients[order + 1]) = (sign, -sign);
-            let signal = Signal::polynomial(&coefficients);
+            let signal = QuasiPolynomial::polynomial(&coefficients);
             let (there, not) = if sign > 0.0 {
                 (Direction::Falling, Direction::Rising)
             } else {
@@ -137,22 +141,25 @@ fn starts_at_zero_are_left_by_their_derivatives() {
         }
     }
     // On the surface but for rounding, as after an event.
-    let rounded = Signal::cosine(0.3, 1.0) + Signal::polynomial(&[-0.3 + 5e-17, 1.0, -0.5]);
+    let rounded =
+        QuasiPolynomial::cosine(0.3, 1.0) + QuasiPolynomial::polynomial(&[-0.3 + 5e-17, 1.0, -0.5]);
     let FirstCrossing::At { time, .. } = rounded.first_crossing(Direction::Falling, 9.0).unwrap()
     else {
         panic!()
     };
     assert!(time > 1.0);
-    let nothing = Signal::polynomial(&[0.0, 0.0]);
+    let nothing = QuasiPolynomial::polynomial(&[0.0, 0.0]);
     assert_eq!(nothing.first_crossing(Direction::Either, 1.0).unwrap(), FirstCrossing::Never);
     // Tiny values are values.
-    let tiny = Signal::polynomial(&[1e-166, -1e-166]);
+    let tiny = QuasiPolynomial::polynomial(&[1e-166, -1e-166]);
     assert_eq!(
         tiny.first_crossing(Direction::Either, 2.0).unwrap(),
         FirstCrossing::At { time: 1.0, rising: false }
     );
     assert!(tiny.first_crossing(Direction::Either, f64::INFINITY).is_err());
-    assert!(Signal::polynomial(&[f64::NAN]).first_crossing(Direction::Either, 1.0).is_err());
+    assert!(
+        QuasiPolynomial::polynomial(&[f64::NAN]).first_crossing(Direction::Either, 1.0).is_err()
+    );
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -181,8 +188,8 @@ impl HybridSystem<2> for Box {
             Face::Ceiling => x[0] - self.height,
         }
     }
-    fn guard_signal(&self, (): (), face: Face, x: &State<2>) -> Option<Signal> {
-        Some(Signal::polynomial(&[self.guard_value(face, x), x[1], -0.5]))
+    fn guard_quasi_polynomial(&self, (): (), face: Face, x: &State<2>) -> Option<QuasiPolynomial> {
+        Some(QuasiPolynomial::polynomial(&[self.guard_value(face, x), x[1], -0.5]))
     }
     fn reset(&self, _: (), face: Face, x: &State<2>) -> Reset<(), 2> {
         let height = if face == Face::Floor { 0.0 } else { self.height };
@@ -213,7 +220,7 @@ fn a_ball_between_two_walls_needs_no_sampling() {
 #[test]
 fn a_narrow_dip_is_not_missed() {
     // cos 40t + 1 − 10⁻¹⁰: below zero for 7e-7 of time around π/40.
-    let signal = Signal::cosine(1.0, 40.0) + Signal::polynomial(&[1.0 - 1e-10]);
+    let signal = QuasiPolynomial::cosine(1.0, 40.0) + QuasiPolynomial::polynomial(&[1.0 - 1e-10]);
     let FirstCrossing::At { time, .. } = signal.first_crossing(Direction::Falling, 10.0).unwrap()
     else {
         panic!("missed")
@@ -241,7 +248,7 @@ proptest! {
     /// Sums of sines against dense sampling: no change of sign before the first crossing.
     #[test]
     fn no_change_of_sign_before(a in -2.0..2.0f64, b in -2.0..2.0f64, c in -1.0..1.0f64, w in 0.3..5.0f64) {
-        let signal = Signal::cosine(a, w) + Signal::sine(b, 1.0) + Signal::polynomial(&[c, 0.1]);
+        let signal = QuasiPolynomial::cosine(a, w) + QuasiPolynomial::sine(b, 1.0) + QuasiPolynomial::polynomial(&[c, 0.1]);
         let start = signal.value(0.0);
         prop_assume!(start.abs() > 1e-9);
         let found = signal.first_crossing(Direction::Either, 20.0).unwrap();

@@ -52,9 +52,9 @@ impl HybridSystem<2> for Trampoline {
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn guard_signal(&self, _: Mode, _: (), x: &State<2>) -> Option<Signal> {
-        let swing = Signal::cosine(x[0] + 1.0, 1.0) + Signal::sine(x[1], 1.0);
-        Some(swing + Signal::polynomial(&[-1.0]))
+    fn guard_quasi_polynomial(&self, _: Mode, _: (), x: &State<2>) -> Option<QuasiPolynomial> {
+        let swing = QuasiPolynomial::cosine(x[0] + 1.0, 1.0) + QuasiPolynomial::sine(x[1], 1.0);
+        Some(swing + QuasiPolynomial::polynomial(&[-1.0]))
     }
     fn reset(&self, mode: Mode, _: (), x: &State<2>) -> Reset<Mode, 2> {
         let next = if mode == Mode::Air { Mode::Spring } else { Mode::Air };
@@ -69,7 +69,7 @@ impl HybridSystem<2> for Trampoline {
     ) -> Result<Option<Crossing<(), 2>>, Error> {
         match mode {
             Mode::Air => integrated_crossing(self, mode, x, horizon, TIGHT),
-            Mode::Spring => self.guard_signal(mode, (), x).map_or(Ok(None), |signal| {
+            Mode::Spring => self.guard_quasi_polynomial(mode, (), x).map_or(Ok(None), |signal| {
                 let FirstCrossing::At { time, .. } =
                     signal.first_crossing(Direction::Rising, horizon)?
                 else {

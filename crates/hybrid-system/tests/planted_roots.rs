@@ -86,16 +86,16 @@ impl HybridSystem<1> for Planted<'_> {
     fn guard_value(&self, _: (), x: &State<1>) -> f64 {
         self.roots.iter().map(|root| x[0] - root).product()
     }
-    fn guard_signal(&self, _: (), _: (), x: &State<1>) -> Option<Signal> {
+    fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<1>) -> Option<QuasiPolynomial> {
         let factor = |root: f64| match self.form {
-            Form::Polynomial => Some(Signal::polynomial(&[x[0] - root, 1.0])),
+            Form::Polynomial => Some(QuasiPolynomial::polynomial(&[x[0] - root, 1.0])),
             Form::Trigonometric => {
                 let (sin, cos) = (OMEGA * (x[0] - root)).sin_cos();
-                Some(Signal::sine(cos, OMEGA) + Signal::cosine(sin, OMEGA))
+                Some(QuasiPolynomial::sine(cos, OMEGA) + QuasiPolynomial::cosine(sin, OMEGA))
             }
             Form::Enclosed => None,
         };
-        let one = Signal::polynomial(&[1.0]);
+        let one = QuasiPolynomial::polynomial(&[1.0]);
         self.roots.iter().try_fold(one, |product, root| Some(product * factor(*root)?))
     }
     fn guard_enclosure(

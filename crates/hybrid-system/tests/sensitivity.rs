@@ -39,12 +39,17 @@ impl HybridSystem<2> for Bilinear {
     fn guard_value(&self, _: Middle, x: &State<2>) -> f64 {
         x[0] - 0.3
     }
-    fn guard_signal(&self, side: Side, _: Middle, x: &State<2>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        side: Side,
+        _: Middle,
+        x: &State<2>,
+    ) -> Option<QuasiPolynomial> {
         let omega = Self::omega(side);
         Some(
-            Signal::cosine(x[0], omega)
-                + Signal::sine(x[1] / omega, omega)
-                + Signal::polynomial(&[-0.3]),
+            QuasiPolynomial::cosine(x[0], omega)
+                + QuasiPolynomial::sine(x[1] / omega, omega)
+                + QuasiPolynomial::polynomial(&[-0.3]),
         )
     }
     fn reset(&self, side: Side, _: Middle, x: &State<2>) -> Reset<Side, 2> {

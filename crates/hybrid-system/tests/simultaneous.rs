@@ -29,9 +29,9 @@ impl HybridSystem<4> for Corner {
     fn guard_value(&self, wall: Wall, x: &State<4>) -> f64 {
         if wall == Wall::Left { x[0] } else { x[1] }
     }
-    fn guard_signal(&self, (): (), wall: Wall, x: &State<4>) -> Option<Signal> {
+    fn guard_quasi_polynomial(&self, (): (), wall: Wall, x: &State<4>) -> Option<QuasiPolynomial> {
         let axis = if wall == Wall::Left { 0 } else { 1 };
-        self.signals.then(|| Signal::polynomial(&[x[axis], x[axis + 2]]))
+        self.signals.then(|| QuasiPolynomial::polynomial(&[x[axis], x[axis + 2]]))
     }
     fn reset(&self, (): (), wall: Wall, x: &State<4>) -> Reset<(), 4> {
         let mut after = *x;

@@ -42,8 +42,13 @@ impl HybridSystem<2> for Ball {
     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
         x[0] - self.floor
     }
-    fn guard_signal(&self, _: Mode, floor: Floor, x: &State<2>) -> Option<Signal> {
-        Some(Signal::polynomial(&[self.guard_value(floor, x), x[1], -0.5 * self.gravity]))
+    fn guard_quasi_polynomial(
+        &self,
+        _: Mode,
+        floor: Floor,
+        x: &State<2>,
+    ) -> Option<QuasiPolynomial> {
+        Some(QuasiPolynomial::polynomial(&[self.guard_value(floor, x), x[1], -0.5 * self.gravity]))
     }
     fn reset(&self, _: Mode, _: Floor, x: &State<2>) -> Reset<Mode, 2> {
         let speed = -self.restitution * x[1];
@@ -68,7 +73,7 @@ fn sciml_696_restitution_one_half() {
     let first = arcs[0].event().unwrap();
     assert!((first.time - 0.565_175_743_588_172_131).abs() < 1e-15);
     assert!((first.before[1] + 4.538_722_287_164_086_89).abs() < 1e-14);
-    let ArcEnd::Accumulation { limit, after } = arcs[arcs.len() - 2].end else { panic!() };
+    let ArcEnd::Zeno { limit, after } = arcs[arcs.len() - 2].end else { panic!() };
     assert!((limit.time - 1.491_445_598_111_455_17).abs() <= limit.time_error);
     assert!(limit.time_error < 1e-11 && (limit.ratio - 0.5).abs() < 1e-3 && limit.period == 1);
     assert!((limit.state - Vector2::new(-1.0, 0.0)).amax() <= limit.state_error);
@@ -92,7 +97,7 @@ fn sciml_696_restitution_zero() {
 fn fmi_reference_ball_to_its_end() {
     let ball = Ball { gravity: 9.81, floor: 0.0, restitution: 0.7 };
     let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 10.0);
-    let ArcEnd::Accumulation { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+    let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
     assert!((limit.time - 2.558_633_965_585_808_46).abs() <= limit.time_error);
     assert!(limit.time_error < 1e-11, "{limit:?}");
 }
@@ -103,7 +108,7 @@ fn every_restitution() {
     for restitution in [0.01, 0.1, 0.3, 0.9, 0.99] {
         let ball = Ball { gravity: 2.0, floor: 0.0, restitution };
         let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 1e4);
-        let ArcEnd::Accumulation { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+        let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
         let exact = (1.0 + restitution) / (1.0 - restitution);
         // Roundings of thousands of bounces add to the limit's own error.
         let rounding = 1e-15 * arcs.len() as f64 * exact;
@@ -134,8 +139,13 @@ fn an_accumulation_without_rest_ends_the_execution() {
         fn guard_value(&self, floor: Floor, x: &State<2>) -> f64 {
             self.0.guard_value(floor, x)
         }
-        fn guard_signal(&self, mode: Mode, floor: Floor, x: &State<2>) -> Option<Signal> {
-            self.1.then(|| self.0.guard_signal(mode, floor, x)).flatten()
+        fn guard_quasi_polynomial(
+            &self,
+            mode: Mode,
+            floor: Floor,
+            x: &State<2>,
+        ) -> Option<QuasiPolynomial> {
+            self.1.then(|| self.0.guard_quasi_polynomial(mode, floor, x)).flatten()
         }
         fn reset(&self, mode: Mode, floor: Floor, x: &State<2>) -> Reset<Mode, 2> {
             self.0.reset(mode, floor, x)
@@ -153,8 +163,8 @@ fn an_accumulation_without_rest_ends_the_execution() {
     let limits = Limits::new(10.0, 100_000);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
     let last = execution.by_ref().last().unwrap().unwrap();
-    assert_eq!(execution.stop(), Some(Stop::Accumulation));
-    let ArcEnd::Accumulation { limit, after: None } = last.end else { panic!() };
+    assert_eq!(execution.stop(), Some(Stop::Zeno));
+    let ArcEnd::Zeno { limit, after: None } = last.end else { panic!() };
     assert!((limit.time - 3.0 * (2.0f64 / 9.81).sqrt()).abs() <= limit.time_error);
     // A limit on time before the accumulation is kept.
     let early = Limits::new(1.354_570_922, 100_000);

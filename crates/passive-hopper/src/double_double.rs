@@ -7,11 +7,11 @@ use std::sync::OnceLock;
 
 /// A number `high + low` with |`low`| ≤ ½ ulp(`high`): about 106 bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DoubleDouble {
+pub(crate) struct DoubleDouble {
     /// The nearest `f64`.
-    pub high: f64,
+    pub(crate) high: f64,
     /// What is left.
-    pub low: f64,
+    pub(crate) low: f64,
 }
 
 /// π to 161 bits, in three parts.
@@ -87,12 +87,12 @@ impl DoubleDouble {
     }
 
     /// Compares `value` with this number: `Less` if `value` is below it.
-    pub fn compare(self, value: f64) -> Ordering {
+    pub(crate) fn compare(self, value: f64) -> Ordering {
         value.total_cmp(&self.high).then(0f64.total_cmp(&self.low))
     }
 
     /// `value` minus this number, rounded once.
-    pub fn offset_of(self, value: f64) -> f64 {
+    pub(crate) fn offset_of(self, value: f64) -> f64 {
         let difference = Self::exact_sum(value, -self.high);
         difference.high + (difference.low - self.low)
     }
@@ -232,7 +232,7 @@ mod tests {
     #[test]
     fn sines_at_the_fixed_points() {
         for n in [1, 2, 10, 1000] {
-            let star = crate::alpha_star(n);
+            let star = crate::lossless::exact_alpha_star(n);
             let (sin, cos) = star.sin_cos();
             let rest = sin - star * cos;
             assert!(rest.high.abs() < 1e-28 * star.high, "{n}: {}", rest.high);

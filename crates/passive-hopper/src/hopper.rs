@@ -37,11 +37,11 @@ pub enum HopperSurface {
 /// use passive_hopper::{Hopper, HopperState, MassRatio, Phase, alpha_star};
 ///
 /// let hopper = Hopper::new(MassRatio::new(0.5)?);
-/// let start = HopperState::lift_off(alpha_star(1).high);
+/// let start = HopperState::lift_off(alpha_star(1));
 /// let arcs: Vec<_> = Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(100.0, 2))
 ///     .collect::<Result<_, _>>()?;
 /// // A lossless hop lands after 2α*: a triple root, so the time is good to the cube root of an ulp.
-/// assert!((arcs[0].duration - 2.0 * alpha_star(1).high).abs() < 1e-4);
+/// assert!((arcs[0].duration - 2.0 * alpha_star(1)).abs() < 1e-4);
 /// assert_eq!(arcs[1].mode, Phase::Contact);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

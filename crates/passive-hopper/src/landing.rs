@@ -18,7 +18,7 @@
 use crate::HalfFlight;
 use crate::double_double::DoubleDouble;
 use crate::kernel::table::{Place, stars};
-use crate::lossless::{alpha_star, n_pi};
+use crate::lossless::{alpha_star, exact_alpha_star, n_pi};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
 
@@ -71,7 +71,7 @@ impl Cell {
         } else if part > 0.999 && n_pi(n + 1).compare(alpha) != Ordering::Less {
             n += 1;
         }
-        let star = alpha_star(n);
+        let star = exact_alpha_star(n);
         Cell { n, star, sudden: n > 0 && star.compare(alpha) == Ordering::Less }
     }
 
@@ -156,7 +156,7 @@ fn branch(start: TakeOff, before_maximum: bool) -> (f64, f64) {
     if velocity < (m + 0.5) * PI && before_maximum {
         (m * PI, velocity)
     } else {
-        (velocity.max(alpha_star(m as u64).high), (m + 1.0) * PI)
+        (velocity.max(alpha_star(m as u64)), (m + 1.0) * PI)
     }
 }
 

@@ -1,12 +1,13 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 
+use crate::double_double::DoubleDouble;
 use crate::doubt::Doubt;
 use crate::images::images;
 use crate::kernel::hop::{Decided, Masses, hop as fast_hop};
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
 use crate::real::Real;
 use crate::wide::{Start, WideHop, wide_hop};
-use crate::{DoubleDouble, Error, Landing, MassRatio, TakeOff};
+use crate::{Error, Landing, MassRatio, TakeOff};
 
 /// Sudden lift-offs that one hop may have before it is given up with an error.
 ///
@@ -51,7 +52,7 @@ pub struct Hop {
     /// α − α', without cancellation; nothing if grounded.
     pub loss: Option<f64>,
     /// α'², negative if grounded.
-    pub radicand: f64,
+    pub next_speed_squared: f64,
     /// Number of sudden lift-offs on the way.
     pub sudden: usize,
     /// Total time of flight τ.
@@ -127,14 +128,14 @@ impl LiftOffMap {
     /// let [light, heavy] = [0.2, 0.8].map(|m| MassRatio::new(m).map(LiftOffMap::new));
     /// let (light, heavy) = (light?, heavy?);
     /// let mut hops = [(&light, Some(5.5)), (&heavy, Some(5.5)), (&heavy, None)];
-    /// LiftOffMap::images_of_each(&mut hops)?;
+    /// LiftOffMap::images_of_pairs(&mut hops)?;
     /// assert_eq!(hops.map(|hop| hop.1), [light.image(5.5)?, heavy.image(5.5)?, None]);
     /// # Ok::<(), passive_hopper::Error>(())
     /// ```
     ///
     /// # Errors
     /// As [`images`](Self::images).
-    pub fn images_of_each(hops: &mut [(&LiftOffMap, Option<f64>)]) -> Result<(), Error> {
+    pub fn images_of_pairs(hops: &mut [(&LiftOffMap, Option<f64>)]) -> Result<(), Error> {
         images(hops, |hop| *hop.0, |hop| hop.1, |hop| &mut hop.1)
     }
 
@@ -195,8 +196,8 @@ impl LiftOffMap {
         // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
-        let radicand = alpha * alpha * (1.0 - t);
-        Ok(Hop { speed: alpha, next, loss, radicand, sudden, flight_time, certain })
+        let next_speed_squared = alpha * alpha * (1.0 - t);
+        Ok(Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time, certain })
     }
 
     fn rounded(&self, alpha: f64, hop: &WideHop) -> Hop {
@@ -204,7 +205,7 @@ impl LiftOffMap {
             speed: alpha,
             next: hop.next.as_ref().map(|next| next.speed),
             loss: hop.next.as_ref().map(|next| next.loss),
-            radicand: hop.radicand,
+            next_speed_squared: hop.next_speed_squared,
             sudden: hop.landings.len() - 1,
             flight_time: hop.landings.iter().map(|landing| landing.time).sum(),
             certain: hop.certain,
@@ -227,7 +228,7 @@ impl Decided {
     /// α′, or nothing if the hopper is grounded.
     #[inline(always)]
     pub(crate) fn next(&self) -> Option<f64> {
-        (self.radicand > 0.0).then(|| self.radicand.sqrt())
+        (self.next_speed_squared > 0.0).then(|| self.next_speed_squared.sqrt())
     }
 
     fn hop(&self, alpha: f64) -> Hop {
@@ -236,7 +237,7 @@ impl Decided {
             speed: alpha,
             next,
             loss: next.map(|next| self.taken / (alpha + next)),
-            radicand: self.radicand,
+            next_speed_squared: self.next_speed_squared,
             sudden: self.sum.flights as usize - 1,
             flight_time: 2.0 * self.sum.half_time,
             certain: true,

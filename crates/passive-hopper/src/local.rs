@@ -14,7 +14,7 @@
 use crate::doubt::Doubt;
 use crate::landing::{LARGEST_LIFT_OFF_SPEED, next_landing};
 use crate::lift_off_map::LARGEST_PLAIN_SPEED;
-use crate::lossless::n_pi;
+use crate::lossless::{exact_alpha_star, n_pi};
 use crate::real::Real;
 use crate::wide::{Start, WideLanding, wide_hop};
 use crate::{Error, Landing, LiftOffMap, TakeOff, alpha_star};
@@ -45,7 +45,7 @@ impl LiftOffMap {
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};
     /// let map = LiftOffMap::new(MassRatio::ONE);
-    /// let hop = map.hop_about(1, 1e-60)?;
+    /// let hop = map.hop_near_fixed_point(1, 1e-60)?;
     /// // f(α* + δ) = α* + δ − λδ^{4/3}: far below the spacing of α.
     /// let lambda = hop.loss.expect("it hops again") / 1e-80;
     /// assert!((lambda - 3.616949794602146).abs() < 1e-14);
@@ -57,8 +57,8 @@ impl LiftOffMap {
     /// offset of zero is welcome); [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop);
     /// [`Error::Undecided`] where 1024 bits, or the budget of flights in them, do not give the verdicts and
     /// the digits of δ′.
-    pub fn hop_about(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
-        let star = alpha_star(n);
+    pub fn hop_near_fixed_point(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
+        let star = exact_alpha_star(n);
         // The cell (nπ, (n+1)π) in δ, to 100 bits.
         let (left, right) = (n_pi(n) - star, n_pi(n + 1) - star);
         let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
@@ -126,7 +126,7 @@ impl LiftOffMap {
         let hop = wide_hop(Start::Offset { n, delta }, self.mass_ratio())?;
         let sudden = hop.landings.len() - 1;
         if !(hop.certain && hop.precise) {
-            return Err(Error::Undecided { alpha: alpha_star(n).high + delta, sudden });
+            return Err(Error::Undecided { alpha: alpha_star(n) + delta, sudden });
         }
         let (next, loss) = hop.next.map(|next| (next.offset, next.loss)).unzip();
         Ok(LocalHop { next, loss, sudden, time_shift })
@@ -151,7 +151,7 @@ pub struct LocalFlight {
 impl LocalFlight {
     /// The flights near α*_n, n ≥ 1. (At n = 0 the functions of [`crate::HalfFlight`] serve.)
     pub fn new(n: u64) -> Self {
-        LocalFlight { a: alpha_star(n.max(1)).high }
+        LocalFlight { a: alpha_star(n.max(1)) }
     }
 
     /// δ(t), the offset of the lift-off speed from α*_n.

@@ -1,23 +1,80 @@
 //! The lossless hops: fixed points of every map, whatever the mass ratio.
 
 use crate::double_double::DoubleDouble;
-use crate::{Error, LARGEST_LIFT_OFF_SPEED};
+use crate::error::Error;
+use crate::landing::LARGEST_LIFT_OFF_SPEED;
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
 /// α*_n, the n-th positive root of tan α = α (paper, Eq. 3); α*_0 = 0.
 ///
 /// Lift-off at this speed lands after τ = 2α*_n with no speed at all: the hop repeats for ever.
-/// The value is right to 100 bits, so that its high part is the nearest `f64`.
+/// The value is the `f64` nearest to the root; [`FixedPointSpeed`] has 100 bits of it.
 ///
 /// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²).
 ///
 /// ```
 /// use passive_hopper::alpha_star;
-/// assert_eq!(alpha_star(1).high, 4.493409457909064);
-/// assert_eq!(alpha_star(2).high, 7.725251836937707);
+/// assert_eq!(alpha_star(1), 4.493409457909064);
+/// assert_eq!(alpha_star(2), 7.725251836937707);
 /// ```
-pub fn alpha_star(n: u64) -> DoubleDouble {
+pub fn alpha_star(n: u64) -> f64 {
+    exact_alpha_star(n).high
+}
+
+/// α*_n to 100 bits, for questions that 53 bits leave open: on which side of it a speed lies, and how far away.
+///
+/// ```
+/// use passive_hopper::{FixedPointSpeed, alpha_star};
+/// use std::cmp::Ordering;
+/// let star = FixedPointSpeed::new(1);
+/// assert_eq!(star.value(), alpha_star(1));
+/// // The nearest f64 lies below α*_1; the offset is far smaller than the spacing of f64 there.
+/// assert_eq!(star.compare(star.value()), Ordering::Less);
+/// assert!(star.offset_of(star.value()).abs() < 4.5e-16);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedPointSpeed(DoubleDouble);
+
+impl FixedPointSpeed {
+    /// α*_n; zero for n = 0.
+    pub fn new(n: u64) -> Self {
+        FixedPointSpeed(exact_alpha_star(n))
+    }
+
+    /// The `f64` nearest to α*_n.
+    pub fn value(self) -> f64 {
+        self.0.high
+    }
+
+    /// α*_n − [`value`](Self::value), at most half an ulp of it.
+    pub fn rest(self) -> f64 {
+        self.0.low
+    }
+
+    /// Compares the speed `alpha` with α*_n: `Less` if `alpha` lies below α*_n.
+    pub fn compare(self, alpha: f64) -> Ordering {
+        self.0.compare(alpha)
+    }
+
+    /// `alpha` − α*_n, rounded once.
+    pub fn offset_of(self, alpha: f64) -> f64 {
+        self.0.offset_of(alpha)
+    }
+
+    /// The smallest `f64` that is not below α*_n.
+    pub fn smallest_not_below(self) -> f64 {
+        if self.0.low > 0.0 { self.0.high.next_up() } else { self.0.high }
+    }
+
+    /// The largest `f64` below α*_n.
+    pub fn largest_below(self) -> f64 {
+        if self.0.low > 0.0 { self.0.high } else { self.0.high.next_down() }
+    }
+}
+
+/// α*_n to 100 bits. The first 128 values are computed once and kept.
+pub(crate) fn exact_alpha_star(n: u64) -> DoubleDouble {
     static FIRST: OnceLock<[DoubleDouble; 128]> = OnceLock::new();
     let first = FIRST.get_or_init(|| std::array::from_fn(|n| solve(n as u64)));
     first.get(n as usize).copied().unwrap_or_else(|| solve(n))
@@ -76,7 +133,7 @@ pub fn index_below(alpha: f64) -> Result<u64, Error> {
     }
     // α*_n ∈ (nπ, (n+½)π): it is ⌊α/π⌋, or one off.
     let mut n = (alpha / std::f64::consts::PI) as u64 + 1;
-    while n > 0 && alpha_star(n).compare(alpha) == Ordering::Less {
+    while n > 0 && exact_alpha_star(n).compare(alpha) == Ordering::Less {
         n -= 1;
     }
     Ok(n)
@@ -96,7 +153,7 @@ mod tests {
         for row in rows {
             let n = row["n"].as_u64().unwrap();
             let text = row["alpha_star"].as_str().unwrap();
-            let ours = alpha_star(n);
+            let ours = exact_alpha_star(n);
             assert_eq!(ours.high, text.parse::<f64>().unwrap(), "n = {n}");
             // The rest, from the decimal digits: integer part and 30 digits of the fraction.
             let (whole, fraction) = text.split_once('.').unwrap();
@@ -118,7 +175,7 @@ mod tests {
     #[test]
     fn index_is_right_on_both_sides_of_every_fixed_point() {
         for n in 1..2000 {
-            let star = alpha_star(n);
+            let star = exact_alpha_star(n);
             let (below, above) = if star.low < 0.0 {
                 (star.high.next_down(), star.high)
             } else {
@@ -135,7 +192,7 @@ mod tests {
     #[test]
     fn huge_indices_do_not_break() {
         for n in [1 << 40, 1 << 50, u64::MAX] {
-            assert!(alpha_star(n).high.is_finite());
+            assert!(alpha_star(n).is_finite());
         }
     }
 }

@@ -60,6 +60,6 @@ fn flight_map(mass_ratio: MassRatio, (y, v): UpperState, t: f64) -> UpperState {
 /// F_c, Eq. (7): from landing to the gradual lift-off.
 fn contact_map(mass_ratio: MassRatio, (y, v): UpperState) -> Option<f64> {
     let m = mass_ratio.value();
-    let radicand = ((1.0 + m) * v * v + m * y * y + 2.0 * y - 2.0 - m) / (1.0 + m);
-    (radicand > 0.0).then(|| radicand.sqrt())
+    let next_speed_squared = ((1.0 + m) * v * v + m * y * y + 2.0 * y - 2.0 - m) / (1.0 + m);
+    (next_speed_squared > 0.0).then(|| next_speed_squared.sqrt())
 }

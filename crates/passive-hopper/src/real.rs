@@ -64,6 +64,6 @@ impl Real for DoubleDouble {
     }
 
     fn alpha_star(n: u64) -> Self {
-        crate::alpha_star(n)
+        crate::lossless::exact_alpha_star(n)
     }
 }

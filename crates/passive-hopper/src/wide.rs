@@ -4,12 +4,13 @@
 //! In 106 bits a hop takes some tens of microseconds, in 1024 bits milliseconds: longer numbers are
 //! taken only where shorter ones are in doubt.
 
+use crate::double_double::DoubleDouble;
 use crate::doubt::Doubt;
 use crate::landing::{Cell, TakeOff, next_root};
 use crate::local::WideLocal;
 use crate::long::Long;
 use crate::real::Real;
-use crate::{DoubleDouble, Error, Landing, MassRatio, SUDDEN_LIFT_OFF_BUDGET};
+use crate::{Error, Landing, MassRatio, SUDDEN_LIFT_OFF_BUDGET};
 use std::f64::consts::PI;
 
 /// μ and κ.
@@ -63,7 +64,7 @@ pub(crate) struct WideHop {
     /// Nothing if grounded.
     pub(crate) next: Option<Next>,
     /// α′².
-    pub(crate) radicand: f64,
+    pub(crate) next_speed_squared: f64,
     /// All landings, rounded; all but the last are sudden.
     pub(crate) landings: Vec<Landing>,
     /// Whether all verdicts exceed their rounding errors.
@@ -97,7 +98,7 @@ pub(crate) fn wide_hop(start: Start, mass_ratio: MassRatio) -> Result<WideHop, E
     hop.ok_or_else(|| {
         let alpha = match start {
             Start::Speed(alpha) => alpha,
-            Start::Offset { n, delta } => crate::alpha_star(n).high + delta,
+            Start::Offset { n, delta } => crate::alpha_star(n) + delta,
         };
         Error::Undecided { alpha, sudden: DoubleDouble::SUDDEN_BUDGET }
     })
@@ -134,10 +135,10 @@ fn hop_with<R: Real>(start: Start, mass_ratio: MassRatio) -> Result<Option<WideH
         return Ok(None);
     };
     let loss = ratio.mu * chain.loss;
-    let radicand = alpha.squared() - loss;
-    let share = (radicand / alpha.squared()).nearest();
-    let next = (radicand.nearest() > 0.0).then(|| {
-        let speed = radicand.sqrt();
+    let next_speed_squared = alpha.squared() - loss;
+    let share = (next_speed_squared / alpha.squared()).nearest();
+    let next = (next_speed_squared.nearest() > 0.0).then(|| {
+        let speed = next_speed_squared.sqrt();
         let lost = loss / (alpha + speed);
         Next { speed: speed.nearest(), loss: lost.nearest(), offset: (offset - lost).nearest() }
     });
@@ -150,7 +151,7 @@ fn hop_with<R: Real>(start: Start, mass_ratio: MassRatio) -> Result<Option<WideH
     });
     Ok(Some(WideHop {
         next,
-        radicand: radicand.nearest(),
+        next_speed_squared: next_speed_squared.nearest(),
         certain: !chain.doubt.is_real(share, mu, speed),
         precise,
         landings: chain.landings,

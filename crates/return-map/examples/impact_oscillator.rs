@@ -70,18 +70,24 @@ impl HybridSystem<3> for Oscillator {
         }
     }
 
-    fn guard_signal(&self, _: (), surface: Surface, x: &State<3>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        _: (),
+        surface: Surface,
+        x: &State<3>,
+    ) -> Option<QuasiPolynomial> {
         Some(match surface {
             Surface::Wall => {
                 let (offset, rate) = self.free(x);
                 let (sin, cos) = x[2].sin_cos();
-                let push = Signal::cosine(cos, self.frequency) - Signal::sine(sin, self.frequency);
-                Signal::cosine(offset, 1.0)
-                    + Signal::sine(rate, 1.0)
+                let push = QuasiPolynomial::cosine(cos, self.frequency)
+                    - QuasiPolynomial::sine(sin, self.frequency);
+                QuasiPolynomial::cosine(offset, 1.0)
+                    + QuasiPolynomial::sine(rate, 1.0)
                     + push.scaled(self.driven())
-                    + Signal::polynomial(&[-self.wall])
+                    + QuasiPolynomial::polynomial(&[-self.wall])
             }
-            Surface::Period => Signal::polynomial(&[x[2] - TAU, self.frequency]),
+            Surface::Period => QuasiPolynomial::polynomial(&[x[2] - TAU, self.frequency]),
         })
     }
 

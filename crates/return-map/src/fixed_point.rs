@@ -5,11 +5,11 @@ use hybrid_system::bracketed_root;
 
 /// How the graph meets the diagonal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Meeting {
+pub enum Intersection {
     /// f(x) − x changes sign.
-    Crossing,
+    Transverse,
     /// f(x) − x has an extremum of value zero, to rounding: stable from one side at most.
-    Touching,
+    Tangent,
 }
 
 /// A fixed point of a scalar map.
@@ -20,7 +20,7 @@ pub struct FixedPoint {
     /// f(x) − x there.
     pub residual: f64,
     /// How the graph meets the diagonal there.
-    pub meeting: Meeting,
+    pub intersection: Intersection,
 }
 
 /// Residuals up to this many ulps of x count as zero at a touch.
@@ -34,10 +34,10 @@ const TOUCH_ULPS: f64 = 8.0;
 /// the diagonal is not a fixed point.
 ///
 /// ```
-/// use return_map::{Meeting, fixed_points};
+/// use return_map::{Intersection, fixed_points};
 /// // x + x² touches the diagonal at 0; 2x(1 − x) crosses it at 0 and ½.
 /// let touch = fixed_points(|x| Some(x + x * x), -0.5, 0.4, 101)?;
-/// assert_eq!(touch[0].meeting, Meeting::Touching);
+/// assert_eq!(touch[0].intersection, Intersection::Tangent);
 /// assert!(touch[0].location.abs() < 1e-8);
 /// let crossings = fixed_points(|x| Some(2.0 * x * (1.0 - x)), -0.25, 1.1, 100)?;
 /// assert!((crossings[1].location - 0.5).abs() < 1e-15);
@@ -89,8 +89,8 @@ fn on_sample(values: &[Option<f64>], k: usize, location: f64) -> FixedPoint {
         |k: Option<usize>| k.and_then(|k| values.get(k).copied().flatten()).unwrap_or(0.0);
     let (before, after) = (neighbour(k.checked_sub(1)), neighbour(Some(k + 1)));
     let touches = before != 0.0 && after != 0.0 && before.signum() == after.signum();
-    let meeting = if touches { Meeting::Touching } else { Meeting::Crossing };
-    FixedPoint { location, residual: 0.0, meeting }
+    let intersection = if touches { Intersection::Tangent } else { Intersection::Transverse };
+    FixedPoint { location, residual: 0.0, intersection }
 }
 
 fn crossing(gap: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<FixedPoint> {
@@ -101,7 +101,7 @@ fn crossing(gap: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<F
     (residual.abs() <= 1e-8 * scale).then_some(FixedPoint {
         location,
         residual,
-        meeting: Meeting::Crossing,
+        intersection: Intersection::Transverse,
     })
 }
 
@@ -131,6 +131,6 @@ fn touching(
     (residual.abs() <= rounding).then_some(FixedPoint {
         location,
         residual,
-        meeting: Meeting::Touching,
+        intersection: Intersection::Tangent,
     })
 }

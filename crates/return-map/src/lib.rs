@@ -74,7 +74,7 @@ mod section;
 mod stability;
 
 pub use error::Error;
-pub use fixed_point::{FixedPoint, Meeting, fixed_points};
+pub use fixed_point::{FixedPoint, Intersection, fixed_points};
 pub use orbit::{cobweb, orbit};
 pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
 pub use return_map::{Return, ReturnMap, SmoothReturn};

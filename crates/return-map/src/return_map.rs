@@ -94,7 +94,7 @@ where
         for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
-            if matches!(arc.end, ArcEnd::Accumulation { .. }) {
+            if matches!(arc.end, ArcEnd::Zeno { .. }) {
                 return Err(hybrid_system::Error::NoSensitivity { time: arc.time }.into());
             }
             let Some(event) = arc.event() else { continue };
@@ -127,7 +127,7 @@ where
         match self.next(&SVector::<f64, 1>::new(coordinate)) {
             Ok(back) => Ok(Some(back.coordinates[0])),
             Err(Error::NoReturn {
-                stop: Stop::NoFurtherEvent | Stop::Terminal | Stop::Accumulation,
+                stop: Stop::NoFurtherEvent | Stop::Terminal | Stop::Zeno,
                 ..
             }) => Ok(None),
             Err(error) => Err(error),

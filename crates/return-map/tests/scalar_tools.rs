@@ -4,7 +4,7 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use proptest::prelude::*;
-use return_map::{Error, Meeting, Side, Stability, fixed_points, one_sided_stability, orbit};
+use return_map::{Error, Intersection, Side, Stability, fixed_points, one_sided_stability, orbit};
 
 proptest! {
     /// x + s (x − a)(x − b)²: crosses at a, touches at b.
@@ -14,7 +14,7 @@ proptest! {
         let map = move |x: f64| Some(x + sign * (x - a) * (x - b) * (x - b));
         let found = fixed_points(map, -1.0, 1.0, 201).unwrap();
         prop_assert_eq!(found.len(), 2, "{:?}", found);
-        prop_assert_eq!((found[0].meeting, found[1].meeting), (Meeting::Crossing, Meeting::Touching));
+        prop_assert_eq!((found[0].intersection, found[1].intersection), (Intersection::Transverse, Intersection::Tangent));
         prop_assert!((found[0].location - a).abs() < 1e-13);
         // A quadratic touch hides in rounding at the square root of an ulp.
         prop_assert!((found[1].location - b).abs() < 1e-6);

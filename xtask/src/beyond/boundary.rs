@@ -6,7 +6,7 @@ use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, ticks};
 use basin_of_attraction::{
     Estimate, IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law,
-    uncertain_share,
+    uncertain_fraction,
 };
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::hopper_basins;
@@ -160,7 +160,8 @@ fn generations() -> Result<Vec<f64>, Error> {
             if middle <= near || middle >= far {
                 break;
             }
-            let image = map.hop_about(N, -middle)?.next.map_or(f64::INFINITY, |next| -next);
+            let image =
+                map.hop_near_fixed_point(N, -middle)?.next.map_or(f64::INFINITY, |next| -next);
             if image < delta { near = middle } else { far = middle }
         }
         delta = far;
@@ -220,7 +221,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         let epsilon = pxfm::f_exp10(-2.0 - k as f64);
         // Rare ones need more points.
         let count = 50_000 << k.min(4);
-        let share = uncertain_share(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
+        let share = uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
         Ok(vec![epsilon, share.value, share.lower, share.upper])
     })?;
     let sampled: Vec<(f64, Estimate)> =
@@ -229,7 +230,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
     let exact: Vec<(f64, f64)> = (0..=16)
         .map(|k| {
             let epsilon = pxfm::f_exp10(-10.0 + 0.5 * f64::from(k));
-            let share = basins.uncertain_share(epsilon, RESOLUTION)?;
+            let share = basins.uncertain_fraction(epsilon, RESOLUTION)?;
             widest = widest.max(share.half_width() / share.value);
             Ok((epsilon, share.value))
         })

@@ -4,7 +4,7 @@ use super::{Finding, Job, Table, estimate, fates, hump, is_incessant, label};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, palette};
-use basin_of_attraction::{Estimate, random_shares, uncertain_share};
+use basin_of_attraction::{Estimate, random_fractions, uncertain_fraction};
 
 const M: f64 = 0.2;
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
@@ -24,7 +24,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         let (n, decade) = (HUMPS[k / DECADES], k % DECADES + 1);
         let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };
         let epsilon = pxfm::f_exp10(-(decade as f64));
-        let share = uncertain_share(hump(n)?, epsilon, starts(n), n, at)?;
+        let share = uncertain_fraction(hump(n)?, epsilon, starts(n), n, at)?;
         Ok(vec![epsilon, share.value, share.lower, share.upper])
     })?;
     let mut svg = Svg::new(640.0, 430.0);
@@ -65,7 +65,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         svg.marker((430.0, y), LOOKS[k], 6.5, color);
         svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("$n$ = {n}"));
         let incessant =
-            random_shares(window, starts(n), n, |x| u16::from(is_incessant(label(&fates, x))))?;
+            random_fractions(window, starts(n), n, |x| u16::from(is_incessant(label(&fates, x))))?;
         let cell = |decade: usize| {
             let share = points[decade - 1].1;
             format!("{:.2} ± {:.2} %", 100.0 * share.value, 100.0 * share.half_width())

@@ -4,7 +4,7 @@ use super::{Finding, Job, Table, fates};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, palette};
-use hopper_basin::{ReachEdge, crisis, reach, recovery};
+use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, recovery};
 
 const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 /// Up to here falls are looked for.
@@ -27,11 +27,13 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
         let fates = fates(m)?;
         let mut cells = vec![format!("{m}")];
         for width in WIDTHS {
-            let found = reach(&fates, 1, width)?;
+            let found = immediate_basin(&fates, 1, width)?;
             cells.push(match found.edge {
-                ReachEdge::Contact | ReachEdge::Sudden { .. } => format!("{:.10}", found.delta),
-                ReachEdge::NotFound { .. } => "all of the hump".into(),
-                ReachEdge::NextFixedPoint => "all of the hump, certain".into(),
+                ImmediateBasinEdge::Contact | ImmediateBasinEdge::Sudden { .. } => {
+                    format!("{:.10}", found.delta)
+                }
+                ImmediateBasinEdge::NotFound { .. } => "all of the hump".into(),
+                ImmediateBasinEdge::NextFixedPoint => "all of the hump, certain".into(),
             });
         }
         table.row(cells);

@@ -4,7 +4,7 @@ use super::{FROM, Finding, Job, TO, Table, fates};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, ticks};
-use basin_of_attraction::{Interval, PreimageTree, Refinement, Remainder};
+use basin_of_attraction::{Interval, PreimageTree, Refinement, ResidualSet};
 use hopper_basin::{branches, hopper_basins};
 use passive_hopper::alpha_star;
 
@@ -21,20 +21,20 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let refinement = Refinement { shortest: SHORTEST, undecided: 0.0, ..Refinement::default() };
     let basins = hopper_basins(&fates, FROM, TO, 400, refinement)?.basins;
     let long = |level: usize| {
-        let own = basins.parts().iter().filter(|part| part.label == 1 && part.level == level);
+        let own = basins.intervals().iter().filter(|part| part.label == 1 && part.level == level);
         own.filter(|part| part.interval.length() >= SHORTEST).count()
     };
     let levels = basins.levels(1);
     let total = basins.measure(1);
-    let window = Interval::new(alpha_star(FROM).high, alpha_star(TO).high)?;
-    let trap = Interval::new(fates.trap(1)?.star.high, fates.trap(1)?.right())?;
+    let window = Interval::new(alpha_star(FROM), alpha_star(TO))?;
+    let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
     let all = branches(&fates, FROM, TO, 400)?;
     let tree = PreimageTree::grow(&fates, &all, trap, window, GROWN);
     // One hump above the fixed point, far down the levels: how fast do the pieces multiply?
-    let lower = Interval::new(alpha_star(1).high, alpha_star(3).high)?;
+    let lower = Interval::new(alpha_star(1), alpha_star(3))?;
     let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60);
-    let growth = match deep.remainder() {
-        Remainder::Countable { power } => {
+    let growth = match deep.residual_set() {
+        ResidualSet::Countable { power } => {
             let levels = deep.complete_levels();
             format!(
                 "like $k$^{{{power:.1}}} over levels {} to {} (2$k$ − 1 of them, in fact): a countable rest, where \

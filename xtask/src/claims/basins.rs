@@ -4,7 +4,7 @@ use super::Claim;
 use crate::Error;
 use crate::progress::Progress;
 use basin_of_attraction::{Interval, monotone_branches};
-use hopper_basin::{Fates, Shares, branches, crisis, shares};
+use hopper_basin::{BasinFractions, Fates, basin_fractions, branches, crisis};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 
 pub(super) fn check(progress: &Progress) -> Result<Vec<Claim>, Error> {
@@ -24,7 +24,7 @@ fn multimodal() -> Result<Claim, Error> {
         );
     }
     // An independent look: the whole window, sampled, with no theory.
-    let window = Interval::new(alpha_star(1).high, alpha_star(6).high)?;
+    let window = Interval::new(alpha_star(1), alpha_star(6))?;
     let blind = monotone_branches(&fates, window, 40_001)?;
     let blind_turns =
         blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
@@ -49,7 +49,7 @@ fn lowest(mass_ratio: f64) -> Result<(f64, f64), Error> {
 }
 
 fn above_first() -> Result<Claim, Error> {
-    let star = alpha_star(1).high;
+    let star = alpha_star(1);
     let (light, heavy) = (lowest(0.05)?, lowest(0.1)?);
     Ok(Claim::new("Sec. V", "small M: the whole map is above α*₁")
         .paper("for low $M$ the entire map lies above the line $α$′ = $α$^{∗}_{1}: the whole range is attracted")
@@ -69,7 +69,7 @@ fn falls_through() -> Result<Claim, Error> {
     let mut signs = Vec::new();
     for m in around {
         let image = LiftOffMap::new(MassRatio::new(m)?).image(found.alpha)?;
-        signs.push(image.is_some_and(|image| image > alpha_star(1).high));
+        signs.push(image.is_some_and(|image| image > alpha_star(1)));
     }
     Ok(Claim::new("Secs. V, VI", "where that ends")
         .paper("as $M$ grows, larger and larger parts of the map drop below $α$^{∗}_{1}, between $M$ = 0.1 and 0.2")
@@ -85,11 +85,11 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let bar = progress.bar("measures", ratios.len() as u64);
     let mut results = Vec::new();
     for (k, m) in ratios.into_iter().enumerate() {
-        results.push(shares(MassRatio::new(m)?, 1, 6, POINTS)?);
+        results.push(basin_fractions(MassRatio::new(m)?, 1, 6, POINTS)?);
         bar.set(k as u64 + 1);
     }
     bar.finish();
-    let total: Vec<f64> = results.iter().map(Shares::incessant).collect();
+    let total: Vec<f64> = results.iter().map(BasinFractions::incessant).collect();
     let first = results[0].of(1);
     let how = "10 000 equally spaced points, the middles of equal parts, on each of the five intervals [$α$^{∗}_{i}, $α$^{∗}_{i+1}], fractions averaged; fates by traps. (The paper does not say whether it takes the ends: the double nearest to $α$^{∗}_{i} may lie on its left, which is another basin.)";
     let claim = |name: &str, paper: &str, value: f64, printed: f64, digit: f64| {
@@ -118,8 +118,7 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
 /// Changes of fate along α at M = 0.175, in the windows of Figs. 6, 8 and 9.
 fn finer_scales() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.175)?)?;
-    let windows =
-        [(alpha_star(1).high, alpha_star(6).high), (14.066, 20.371), (17.0, 17.8), (17.25, 17.33)];
+    let windows = [(alpha_star(1), alpha_star(6)), (14.066, 20.371), (17.0, 17.8), (17.25, 17.33)];
     let mut changes = Vec::new();
     for (left, right) in windows {
         let labels: Result<Vec<u16>, _> = (0..10_000)

@@ -6,7 +6,7 @@ use crate::Error;
 use crate::progress::Progress;
 use hopper_asymptotics::{Coefficients, Form};
 use hopper_basin::{Trap, TrapEdge};
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio};
 use return_map::Side;
 
 pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
@@ -24,12 +24,12 @@ fn beta() -> Result<Claim, Error> {
     let mut errors = Vec::new();
     for n in [1, 2, 3, 10] {
         let local = Coefficients::new(n, MassRatio::ONE, Form::Corrected)?;
-        let star = alpha_star(n);
+        let star = FixedPointSpeed::new(n);
         let ratio = |delta: f64| -> Result<f64, Error> {
-            let alpha = star.high + delta;
+            let alpha = star.value() + delta;
             let first = LiftOffMap::new(MassRatio::ONE).landings(alpha)?.next().transpose()?;
             let time = first.map_or(f64::NAN, |landing| landing.time);
-            Ok((time - 2.0 * star.high) / local.flight_time_shift(star.offset_of(alpha)))
+            Ok((time - 2.0 * star.value()) / local.flight_time_shift(star.offset_of(alpha)))
         };
         // 1 + w/(4α*) + …, w = β δ^{1/3}: an eighth of δ halves the excess.
         let limit = 2.0 * ratio(1e-7)? - ratio(8e-7)?;

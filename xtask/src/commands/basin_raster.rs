@@ -98,7 +98,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
         [from, to] => Interval::new(from, to).map_err(Error::from),
         _ => Err(Error::CheckFailed("two numbers are needed, from and to".into())),
     };
-    let default = [alpha_star(1).high, alpha_star(6).high];
+    let default = [alpha_star(1), alpha_star(6)];
     let [columns, rows] = options.pixels[..] else {
         return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
     };
@@ -244,7 +244,7 @@ mod tests {
     /// Tiles hold the labels of the whole raster.
     #[test]
     fn tiles_are_the_raster() {
-        let window = Interval::new(alpha_star(1).high, alpha_star(3).high).unwrap();
+        let window = Interval::new(alpha_star(1), alpha_star(3)).unwrap();
         let x = Interval::new(0.1, 0.9).unwrap();
         let grid = Grid { x, y: window, columns: 40, rows: 25 };
         let whole = basin_raster(grid, |_| ControlFlow::Continue(())).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::reference::{Edge, Hop, LIMIT, Line, Loss, parse};
-use hopper_basin::{Fates, ReachEdge, crisis, reach};
+use hopper_basin::{Fates, ImmediateBasinEdge, crisis, immediate_basin};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -88,7 +88,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                 let tally = tallies.entry("near_fixed_point".into()).or_default();
                 tally.lines += 1;
                 let place = format!("M = {}, n = {n}, δ = {offset:e}", mass_ratio.value());
-                match LiftOffMap::new(*mass_ratio).hop_about(*n, *offset) {
+                match LiftOffMap::new(*mass_ratio).hop_near_fixed_point(*n, *offset) {
                     Err(error) => tally.is_wrong(*at, &error.to_string()),
                     Ok(hop) => tally.judge(
                         *at,
@@ -109,7 +109,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
             Line::FixedPoint { n, alpha_star: exact } => {
                 let tally = tallies.entry("fixed points".into()).or_default();
                 let unit = 0.5 * f64::EPSILON * exact;
-                tally.value(*at, &format!("n = {n}"), alpha_star(*n).high, *exact, unit, limit);
+                tally.value(*at, &format!("n = {n}"), alpha_star(*n), *exact, unit, limit);
             }
             Line::Crisis { n, mu, mass_ratio, alpha } => {
                 let tally = tallies.entry("crises".into()).or_default();
@@ -129,7 +129,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                     }
                 }
             }
-            Line::Reach { n, mass_ratio, edge, delta } => {
+            Line::ImmediateBasin { n, mass_ratio, edge, delta } => {
                 let tally = tallies.entry("intervals of attraction".into()).or_default();
                 judge_reach(tally, *at, (*n, *mass_ratio), (*edge, *delta), limit);
             }
@@ -155,14 +155,17 @@ fn judge_reach(
     limit: f64,
 ) {
     const WIDTH: f64 = 1e-3;
-    let found = match Fates::new(mass_ratio).and_then(|fates| reach(&fates, n, WIDTH)) {
+    let found = match Fates::new(mass_ratio).and_then(|fates| immediate_basin(&fates, n, WIDTH)) {
         Ok(found) => found,
         Err(error) => return tally.is_wrong(at, &error.to_string()),
     };
     let right = match edge {
-        Edge::Contact => found.edge == ReachEdge::Contact,
-        Edge::Sudden => matches!(found.edge, ReachEdge::Sudden { .. }),
-        Edge::None => matches!(found.edge, ReachEdge::NextFixedPoint | ReachEdge::NotFound { .. }),
+        Edge::Contact => found.edge == ImmediateBasinEdge::Contact,
+        Edge::Sudden => matches!(found.edge, ImmediateBasinEdge::Sudden { .. }),
+        Edge::None => matches!(
+            found.edge,
+            ImmediateBasinEdge::NextFixedPoint | ImmediateBasinEdge::NotFound { .. }
+        ),
         Edge::Unknown => true, // the reference itself is not decided
     };
     if !right {

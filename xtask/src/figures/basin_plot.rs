@@ -51,7 +51,7 @@ pub(super) fn basin_figure(
         paper,
         notes: format!(
             "{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}",
-            shares(&image)
+            basin_fractions(&image)
         ),
         svg,
         data: vec![
@@ -108,12 +108,15 @@ fn legend(svg: &mut Svg, left: f64, image: &LabelImage) {
 }
 
 /// The share of every label, in words.
-fn shares(image: &LabelImage) -> String {
+fn basin_fractions(image: &LabelImage) -> String {
     let pixels = image.labels.len() as f64;
     let share = |(label, count): (u16, usize)| {
         format!("{} {:.2} %", palette::name(label), 100.0 * count as f64 / pixels)
     };
-    format!("Shares: {}.", image.counts().into_iter().map(share).collect::<Vec<_>>().join(", "))
+    format!(
+        "BasinFractions: {}.",
+        image.counts().into_iter().map(share).collect::<Vec<_>>().join(", ")
+    )
 }
 
 /// One byte a pixel, the highest row first; the palette in the order of the labels that occur.

@@ -17,7 +17,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let map = LiftOffMap::new(MassRatio::ONE);
     let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?;
     let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
-    let star = alpha_star(1).high;
+    let star = alpha_star(1);
     // Points crowd towards α* like squares: f has a δ^{4/3} there.
     let side =
         |end: f64| (0..=80).map(move |k| star + (end - star) * (f64::from(k) / 80.0).powi(2));

@@ -18,7 +18,7 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_06_basin",
         mass_ratio: (0.02, 1.0),
-        alpha: (alpha_star(1).high, alpha_star(6).high),
+        alpha: (alpha_star(1), alpha_star(6)),
         inset: Some((FIGURE_8.0, FIGURE_8.1, "Fig. 8")),
         tick_counts: (6, 8),
     };
@@ -41,7 +41,7 @@ pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_07_basin_large_mass_ratio",
         mass_ratio: (1.0, 10.0),
-        alpha: (alpha_star(1).high, alpha_star(6).high),
+        alpha: (alpha_star(1), alpha_star(6)),
         inset: None,
         tick_counts: (9, 8),
     };

@@ -6,7 +6,7 @@ use crate::output::repository;
 use crate::plot::{Anchor, Frame, Marker, Svg, decades};
 use crate::progress::Progress;
 use crate::reference::{number, parse_rows};
-use hopper_asymptotics::{Coefficients, Form, Left, Right};
+use hopper_asymptotics::{Coefficients, Form, LeftExpansion, RightExpansion};
 use passive_hopper::{LiftOffMap, MassRatio, printed_image};
 use serde_json::Value;
 
@@ -107,11 +107,11 @@ fn row(row: &Value) -> Result<Row, Error> {
         errors[0] = printed.map(|next| off(alpha - next, at_alpha));
         errors[1] = map.hop(alpha)?.loss.map(|loss| off(loss, at_alpha));
     }
-    errors[2] = map.hop_about(1, offset)?.loss.map(|loss| off(loss, exact));
+    errors[2] = map.hop_near_fixed_point(1, offset)?.loss.map(|loss| off(loss, exact));
     let expansion = if offset > 0.0 {
-        Right::new(1, MassRatio::ONE)?.loss(offset)
+        RightExpansion::new(1, MassRatio::ONE)?.loss(offset)
     } else {
-        Left::new(1, MassRatio::ONE)?.loss(offset)
+        LeftExpansion::new(1, MassRatio::ONE)?.loss(offset)
     };
     errors[3] = expansion.ok().map(|expansion| off(expansion.value, exact));
     for (form, place) in [(Form::Corrected, 4), (Form::Printed, 5)] {

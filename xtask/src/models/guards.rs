@@ -4,7 +4,7 @@ use crate::Error;
 use crate::beyond::Job;
 use crate::figures::Figure;
 use crate::plot::{Anchor, Frame, Marker, Pen, Svg};
-use hybrid_system::{Direction, FirstCrossing, Signal};
+use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial};
 
 const CURVE: Pen = Pen::solid("#10386e", 1.8);
 const BAND: &str = "#ececea";
@@ -13,21 +13,21 @@ const BAND: &str = "#ececea";
 struct Case {
     title: &'static str,
     says: &'static str,
-    signal: Signal,
+    signal: QuasiPolynomial,
     horizon: f64,
     range: (f64, f64),
 }
 
 fn cases() -> Vec<Case> {
     // 3 (t − 0.84)(t − 1.16)(3 − t), a dip that samples at 0.4 step over.
-    let narrow = Signal::polynomial(&[-0.84, 1.0])
-        * Signal::polynomial(&[-1.16, 1.0])
-        * Signal::polynomial(&[9.0, -3.0]);
+    let narrow = QuasiPolynomial::polynomial(&[-0.84, 1.0])
+        * QuasiPolynomial::polynomial(&[-1.16, 1.0])
+        * QuasiPolynomial::polynomial(&[9.0, -3.0]);
     vec![
         Case {
             title: "a crossing",
             says: "the first change of sign",
-            signal: Signal::cosine(1.0, 1.4) + Signal::polynomial(&[0.15]),
+            signal: QuasiPolynomial::cosine(1.0, 1.4) + QuasiPolynomial::polynomial(&[0.15]),
             horizon: 3.2,
             range: (-1.1, 1.3),
         },
@@ -41,14 +41,14 @@ fn cases() -> Vec<Case> {
         Case {
             title: "a touch",
             says: "an error: grazing at this time",
-            signal: Signal::polynomial(&[1.0, -1.6, 0.64]),
+            signal: QuasiPolynomial::polynomial(&[1.0, -1.6, 0.64]),
             horizon: 3.0,
             range: (-0.5, 1.3),
         },
         Case {
             title: "a start at zero",
             says: "left upwards, like $t$^{3}; then back",
-            signal: Signal::polynomial(&[0.0, 0.0, 0.0, 1.0, -0.5]),
+            signal: QuasiPolynomial::polynomial(&[0.0, 0.0, 0.0, 1.0, -0.5]),
             horizon: 2.6,
             range: (-1.4, 1.3),
         },

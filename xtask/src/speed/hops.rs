@@ -11,7 +11,7 @@ const SPEEDS: usize = 1024;
 
 /// The paper's window as its class has it: M in [0.05, 20], log-uniform, α in [α*_1, α*_6].
 fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
-    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+    let (low, high) = (alpha_star(1), alpha_star(6));
     let part = |k: usize, step: f64| (k as f64 * step).fract();
     let speed = |k: usize| low + (high - low) * part(k, 0.754_877_666_246_693);
     (1..=MAPS)
@@ -61,12 +61,14 @@ pub(super) fn check_landings() -> Result<String, Error> {
         let map = LiftOffMap::new(hop.mass_ratio);
         let landings: Vec<_> = map.landings(hop.alpha)?.collect::<Result<_, _>>()?;
         let squares: f64 = landings.iter().map(|l| l.closing_speed * l.closing_speed).sum();
-        let radicand = hop.alpha * hop.alpha - hop.mass_ratio.mu() * squares;
+        let next_speed_squared = hop.alpha * hop.alpha - hop.mass_ratio.mu() * squares;
         let right = landings.len() == 1 + hop.sudden
             && match hop.next {
                 // An error of α′ is half of one of α′², over α′.
-                Some(next) => (radicand - next * next).abs() <= 2.0 * next * hop.allowed(LIMIT),
-                None => radicand < 0.0,
+                Some(next) => {
+                    (next_speed_squared - next * next).abs() <= 2.0 * next * hop.allowed(LIMIT)
+                }
+                None => next_speed_squared < 0.0,
             };
         if !right {
             return Err(wrong(hop, &landings));

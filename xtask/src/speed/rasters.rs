@@ -15,7 +15,7 @@ const SIDE: usize = 1024;
 /// The window of Fig. 6 from M = 0.1 on, and that of Fig. 9.
 fn grid(figure: u8, side: usize) -> Result<Grid, Error> {
     let (x, y) = match figure {
-        6 => ((0.1, 1.0), (alpha_star(1).high, alpha_star(6).high)),
+        6 => ((0.1, 1.0), (alpha_star(1), alpha_star(6))),
         _ => ((0.17, 0.18), (17.0, 17.8)),
     };
     let (x, y) = (Interval::new(x.0, x.1)?, Interval::new(y.0, y.1)?);

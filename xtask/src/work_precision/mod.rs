@@ -14,7 +14,7 @@ use crate::Error;
 use crate::output::repository;
 use crate::progress::Progress;
 use crate::reference::{Hop, Line, parse};
-use passive_hopper::{MassRatio, alpha_star, index_below};
+use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star, index_below};
 use std::time::Duration;
 
 /// Where the files of hops lie in the repository.
@@ -129,7 +129,7 @@ fn case(line: Line) -> Option<(String, Quantity, Case)> {
             Some((hop.class, Quantity::Speed, case))
         }
         Line::Local { mass_ratio, n, offset, sudden, next } => {
-            let alpha = alpha_star(n).high + offset;
+            let alpha = alpha_star(n) + offset;
             let case = Case {
                 mass_ratio,
                 alpha,
@@ -157,7 +157,7 @@ fn case(line: Line) -> Option<(String, Quantity, Case)> {
 fn cell(alpha: f64) -> Option<(u64, f64)> {
     let below = index_below(alpha).ok()?;
     let n = if alpha > (below + 1) as f64 * std::f64::consts::PI { below + 1 } else { below };
-    (n > 0).then(|| (n, alpha_star(n).offset_of(alpha)))
+    (n > 0).then(|| (n, FixedPointSpeed::new(n).offset_of(alpha)))
 }
 
 fn score(class: &Class, method: Method) -> Score {
@@ -201,7 +201,8 @@ fn error(quantity: Quantity, case: &Case, answer: &Answer) -> Option<Option<f64>
         Quantity::Speed => next,
         Quantity::Loss => answer.loss.unwrap_or(case.alpha - next),
         Quantity::Offset => {
-            let difference = || alpha_star(case.local.map_or(0, |(n, _)| n)).offset_of(next);
+            let difference =
+                || FixedPointSpeed::new(case.local.map_or(0, |(n, _)| n)).offset_of(next);
             answer.offset.unwrap_or_else(difference)
         }
     };

@@ -50,14 +50,14 @@ fn single_hops(scores: &[Score]) -> Vec<Scene> {
         (
             "the same, very close to a lossless hop",
             "the hop in (n, δ)",
-            "`LiftOffMap::hop_about`",
+            "`LiftOffMap::hop_near_fixed_point`",
             "near_fixed_point",
             Method::Local,
         ),
         (
             "the same, within 0.1 of a lossless hop, roughly",
             "five terms of a series",
-            "`Right`, `Left`",
+            "`RightExpansion`, `LeftExpansion`",
             "near_fixed_point",
             Method::Asymptotics,
         ),
@@ -145,17 +145,17 @@ fn orbit() -> Result<Scene, Error> {
         let map = LiftOffMap::new(mass_ratio(row)?);
         let mut delta = field(row, "offset")?;
         for _ in 0..hops {
-            let next = map.hop_about(n, delta)?.next;
+            let next = map.hop_near_fixed_point(n, delta)?.next;
             delta = next.ok_or_else(|| Error::Reference { reason: "an orbit ended".into() })?;
         }
         errors.push((delta / field(row, "offset_after")? - 1.0).abs());
     }
     let map = LiftOffMap::new(MassRatio::ONE);
-    let time = median_time(1000, |k| map.hop_about(1, 1e-5 / (k + 1) as f64));
+    let time = median_time(1000, |k| map.hop_near_fixed_point(1, 1e-5 / (k + 1) as f64));
     Ok(Scene {
         question: "ten thousand hops of the slow approach",
         model: "hops in (n, δ), one after the other",
-        call: "`LiftOffMap::hop_about`",
+        call: "`LiftOffMap::hop_near_fixed_point`",
         time,
         per: "a hop",
         error: format!("{} of δ after up to 10⁴ hops", spread(&mut errors)),
@@ -251,7 +251,7 @@ fn fate() -> Result<Scene, Error> {
 
 fn raster() -> Result<Scene, Error> {
     const SIDE: usize = 256;
-    let window = Interval::new(alpha_star(1).high, alpha_star(6).high)?;
+    let window = Interval::new(alpha_star(1), alpha_star(6))?;
     let grid = Grid { x: Interval::new(0.1, 1.0)?, y: window, columns: SIDE, rows: SIDE };
     let image = || basin_raster(grid, |_| ControlFlow::Continue(()));
     let undecided =

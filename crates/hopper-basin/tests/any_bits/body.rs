@@ -3,15 +3,15 @@
 
 use basin_of_attraction::{Grid, Interval, Refinement};
 use hopper_asymptotics::{
-    Coefficients, Decay, Form, Left, Right, interval_length, ladder, small_hop_loss,
+    Coefficients, Decay, Form, LeftExpansion, RightExpansion, trap_length_series, fixed_point_series, small_hop_loss,
 };
 use hopper_basin::{
-    Fates, HopperFate, Trap, basin_columns, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, reach,
-    recovery, rising_window, shares,
+    Fates, HopperFate, Trap, basin_columns, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, immediate_basin,
+    recovery, rising_window, basin_fractions,
 };
 use hybrid_system::{Execution, Limits};
 use passive_hopper::{
-    Flight, HalfFlight, Hopper, HopperState, LiftOffMap, LocalFlight, MassRatio, Phase, PhysicalHopper, alpha_star,
+    FixedPointSpeed, Flight, HalfFlight, Hopper, HopperState, LiftOffMap, LocalFlight, MassRatio, Phase, PhysicalHopper, alpha_star,
     contact_flow, contact_time, energy, index_below, landing_loss, lift_off_energy, printed_image,
 };
 
@@ -58,14 +58,14 @@ pub fn try_all(words: [u64; 6]) {
 }
 
 fn functions_of_numbers(n: u64, values: [f64; 5]) {
-    let star = alpha_star(n);
-    assert!(star.high.is_finite());
+    let star = FixedPointSpeed::new(n);
+    assert!(star.value().is_finite());
     let _ = (rising_window(n), rising_window(n % 10));
     let _ = (crisis(n), grounding(n), crisis(n % 1000), grounding(n % 1000));
     for value in values {
         let _ = (star.compare(value), star.offset_of(value));
         if let Ok(index) = index_below(value) {
-            assert!(alpha_star(index).high <= value || index == 0);
+            assert!(alpha_star(index) <= value || index == 0);
         }
         let half = HalfFlight::at(value);
         let _ = (half.w(), half.start_speed(values[0]), half.closing_speed(values[0]), half.start_speed_slope(values[0]));
@@ -74,8 +74,8 @@ fn functions_of_numbers(n: u64, values: [f64; 5]) {
 
 /// Every value with a bound is finite, and so is the bound.
 fn asymptotics(n: u64, ratio: MassRatio, [b, c, d]: [f64; 3]) {
-    let mut values = vec![ladder(n).ok(), interval_length(n, ratio).ok(), small_hop_loss(ratio, b).ok()];
-    if let (Ok(right), Ok(left), Ok(law)) = (Right::new(n, ratio), Left::new(n, ratio), Decay::new(n, ratio)) {
+    let mut values = vec![fixed_point_series(n).ok(), trap_length_series(n, ratio).ok(), small_hop_loss(ratio, b).ok()];
+    if let (Ok(right), Ok(left), Ok(law)) = (RightExpansion::new(n, ratio), LeftExpansion::new(n, ratio), Decay::new(n, ratio)) {
         for delta in [b, c, d] {
             values.extend([right.displacement(delta).ok(), right.loss(delta).ok()]);
             values.extend([left.displacement(delta).ok(), left.loss(delta).ok()]);
@@ -93,7 +93,7 @@ fn asymptotics(n: u64, ratio: MassRatio, [b, c, d]: [f64; 3]) {
 
 fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
     let (from, to, few) = (n % 3, n % 5, (n % 40) as usize);
-    let _ = shares(ratio, from, to, few);
+    let _ = basin_fractions(ratio, from, to, few);
     if let (Ok(x), Ok(y)) = (Interval::new(b, c), Interval::new(d, e))
         && y.right < 1e3
         && x.left > 1e-3
@@ -115,30 +115,30 @@ fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
         let all = found.basins.measure_of(|_| true);
         assert!(all.lower <= all.value && all.value <= all.upper, "{all:?}");
     }
-    let _ = (reach(&fates, from, b.abs().max(1e-2)), recovery(from, b.abs().max(0.1), 20.0));
+    let _ = (immediate_basin(&fates, from, b.abs().max(1e-2)), recovery(from, b.abs().max(0.1), 20.0));
 }
 
 fn hops(ratio: MassRatio, alpha: f64, n: u64, delta: f64) {
     let map = LiftOffMap::new(ratio);
     let mut many: Vec<_> = (0..20).map(|k| Some(alpha + delta * f64::from(k))).collect();
     let _ = map.images(&mut many);
-    let _ = LiftOffMap::images_of_each(&mut [(&map, Some(delta)); 17]);
+    let _ = LiftOffMap::images_of_pairs(&mut [(&map, Some(delta)); 17]);
     if let Ok(hop) = map.hop(alpha) {
-        assert!(hop.radicand <= alpha * alpha, "{hop:?}");
+        assert!(hop.next_speed_squared <= alpha * alpha, "{hop:?}");
         assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");
         assert!(hop.loss.is_none_or(|loss| loss >= 0.0), "{hop:?}");
         assert_eq!(hop.next.is_some(), hop.loss.is_some());
         let _ = map.slopes(alpha);
         let _ = printed_image(ratio, alpha);
     }
-    if let Ok(hop) = map.hop_about(n, delta) {
+    if let Ok(hop) = map.hop_near_fixed_point(n, delta) {
         assert!(hop.next.is_none_or(|next| next <= delta), "{hop:?} from {delta:e}");
     }
     if alpha < 1e3 {
         let fate = Fates::new(ratio).and_then(|fates| fates.fate_within(alpha, 1000));
         // An attractor that is named lies below the start.
         if let Ok((HopperFate::Incessant { n }, _)) = fate {
-            assert!(alpha_star(n).high <= alpha, "{n} from {alpha}");
+            assert!(alpha_star(n) <= alpha, "{n} from {alpha}");
         }
     }
 }

@@ -260,8 +260,8 @@ pub(crate) fn ends(hops: &mut Hops, count: usize) {
         let sum =
             Sum { squares: squares[k], error: errors[k], half_time: 0.0, flights: flights[k] };
         let (decided, sure) = sum.end(alpha[k], mu[k]);
-        let again = decided.radicand > 0.0;
-        let root = if again { decided.radicand } else { 0.0 }.sqrt();
+        let again = decided.next_speed_squared > 0.0;
+        let root = if again { decided.next_speed_squared } else { 0.0 }.sqrt();
         let known = if again { root } else { -1.0 };
         next[k] = if sure { known } else { 0.0 };
     }

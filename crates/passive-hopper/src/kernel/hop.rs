@@ -34,7 +34,7 @@ pub(crate) struct Decided {
     /// μ Σ Γ².
     pub(crate) taken: f64,
     /// α′² = α² − μ Σ Γ².
-    pub(crate) radicand: f64,
+    pub(crate) next_speed_squared: f64,
 }
 
 impl Sum {
@@ -61,10 +61,10 @@ impl Sum {
     pub(crate) fn end(&self, alpha: f64, mu: f64) -> (Decided, bool) {
         let taken = mu * self.squares;
         let square = alpha * alpha;
-        let radicand = square - taken;
+        let next_speed_squared = square - taken;
         let rounding = LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * square;
-        let decided = radicand.abs() > rounding + mu * self.error;
-        (Decided { sum: *self, taken, radicand }, decided)
+        let decided = next_speed_squared.abs() > rounding + mu * self.error;
+        (Decided { sum: *self, taken, next_speed_squared }, decided)
     }
 }
 

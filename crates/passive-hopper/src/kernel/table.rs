@@ -80,8 +80,7 @@ static NO_CELL: Cell = Cell::EMPTY;
 /// α*_n, rounded: what the pieces are counted from.
 pub(crate) type Stars = [f64; CELLS];
 
-static STARS: LazyLock<Stars> =
-    LazyLock::new(|| std::array::from_fn(|n| alpha_star(n as u64).high));
+static STARS: LazyLock<Stars> = LazyLock::new(|| std::array::from_fn(|n| alpha_star(n as u64)));
 
 /// α*_n, for all cells with a table.
 #[inline(always)]
@@ -163,7 +162,7 @@ impl Cell {
 
     #[cold]
     fn new(n: u64) -> Box<Self> {
-        let star = DoubleDouble::from(alpha_star(n).high);
+        let star = DoubleDouble::from(alpha_star(n));
         let end = |turns: u64| (DoubleDouble::multiple_of_pi(turns as f64) - star).high.abs();
         let mut cell = Box::new(Cell::EMPTY);
         for (side, sign, turns) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {

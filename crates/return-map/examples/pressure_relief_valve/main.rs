@@ -71,7 +71,7 @@ mod tests {
         let arcs: Vec<_> =
             Execution::new(&valve, Mode::Open, start, limits).collect::<Result<_, _>>().unwrap();
         let rests = arcs.iter().filter(|arc| arc.mode == Mode::Closed).count();
-        let ends = arcs.iter().filter(|arc| matches!(arc.end, ArcEnd::Accumulation { .. })).count();
+        let ends = arcs.iter().filter(|arc| matches!(arc.end, ArcEnd::Zeno { .. })).count();
         assert!(rests > 0 && ends == rests, "{rests} {ends}");
         for pair in arcs.windows(2).filter(|pair| pair[0].mode == Mode::Closed) {
             assert_eq!((pair[1].mode, pair[1].start), (Mode::Open, Vector3::new(0.0, 0.0, 10.0)));

@@ -9,7 +9,7 @@ use crate::State;
 /// 10⁻⁵ suffice.
 /// The limits are those of the geometric series.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Accumulation<const N: usize> {
+pub struct ZenoLimit<const N: usize> {
     /// When it is: the sum of all durations.
     pub time: f64,
     /// Bound on the error of `time`, given that the factor stays between those seen and that each event was
@@ -77,7 +77,7 @@ impl<const N: usize> History<N> {
         time: f64,
         events: usize,
         hidden: bool,
-    ) -> Option<Accumulation<N>> {
+    ) -> Option<ZenoLimit<N>> {
         // The common case first: the last arc is no small part of all.
         if self.arcs == 0 || !(self.durations[KEPT - 1] < 1e-3 * time) {
             return None;
@@ -88,7 +88,7 @@ impl<const N: usize> History<N> {
         Some(limit)
     }
 
-    fn with_period(&self, period: usize, time: f64, hidden: bool) -> Option<Accumulation<N>> {
+    fn with_period(&self, period: usize, time: f64, hidden: bool) -> Option<ZenoLimit<N>> {
         let (periods, left, apart) = if hidden {
             (PERIODS_WHEN_HIDDEN, LEFT_WHEN_HIDDEN, APART_WHEN_HIDDEN)
         } else {
@@ -114,7 +114,7 @@ impl<const N: usize> History<N> {
         }
         let now = self.states[KEPT - 1];
         let step = now - self.states[KEPT - 1 - period];
-        Some(Accumulation {
+        Some(ZenoLimit {
             time: time + rest(ratio),
             time_error: rest(highest) - rest(lowest),
             state: now + step * (ratio / (1.0 - ratio)),

@@ -17,9 +17,9 @@ struct Term {
 /// so that its first zero can be found with [certainty](crate::Certainty::Certain).
 ///
 /// ```
-/// use hybrid_system::{Direction, FirstCrossing, Signal};
+/// use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial};
 /// // A parabola meets a sine: t²/2 − 4t + 5 sin t.
-/// let height = Signal::polynomial(&[0.0, -4.0, 0.5]) + Signal::sine(5.0, 1.0);
+/// let height = QuasiPolynomial::polynomial(&[0.0, -4.0, 0.5]) + QuasiPolynomial::sine(5.0, 1.0);
 /// let FirstCrossing::At { time, .. } = height.first_crossing(Direction::Falling, 20.0)? else {
 ///     panic!("it falls")
 /// };
@@ -27,24 +27,26 @@ struct Term {
 /// # Ok::<(), hybrid_system::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Signal {
+pub struct QuasiPolynomial {
     terms: Vec<Term>,
 }
 
-impl Signal {
+impl QuasiPolynomial {
     /// A polynomial, lowest power first.
     pub fn polynomial(coefficients: &[f64]) -> Self {
-        Signal { terms: vec![Term { omega: 0.0, cos: coefficients.to_vec(), sin: Vec::new() }] }
+        QuasiPolynomial {
+            terms: vec![Term { omega: 0.0, cos: coefficients.to_vec(), sin: Vec::new() }],
+        }
     }
 
     /// amplitude · sin ωt.
     pub fn sine(amplitude: f64, omega: f64) -> Self {
-        Signal { terms: vec![Term { omega, cos: Vec::new(), sin: vec![amplitude] }] }
+        QuasiPolynomial { terms: vec![Term { omega, cos: Vec::new(), sin: vec![amplitude] }] }
     }
 
     /// amplitude · cos ωt.
     pub fn cosine(amplitude: f64, omega: f64) -> Self {
-        Signal { terms: vec![Term { omega, cos: vec![amplitude], sin: Vec::new() }] }
+        QuasiPolynomial { terms: vec![Term { omega, cos: vec![amplitude], sin: Vec::new() }] }
     }
 
     /// This signal times a number.
@@ -64,7 +66,7 @@ impl Signal {
     /// g′.
     #[must_use]
     pub fn derivative(&self) -> Self {
-        Signal { terms: self.terms.iter().map(Term::derivative).collect() }
+        QuasiPolynomial { terms: self.terms.iter().map(Term::derivative).collect() }
     }
 
     /// Whether all coefficients are finite numbers.
@@ -142,7 +144,7 @@ fn horner(coefficients: &[f64], time: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * time + c)
 }
 
-impl std::ops::Add for Signal {
+impl std::ops::Add for QuasiPolynomial {
     type Output = Self;
     fn add(mut self, other: Self) -> Self {
         for term in other.terms {
@@ -165,25 +167,25 @@ fn accumulate(sum: &mut Vec<f64>, other: &[f64]) {
     }
 }
 
-impl std::ops::Neg for Signal {
+impl std::ops::Neg for QuasiPolynomial {
     type Output = Self;
     fn neg(self) -> Self {
         self.scaled(-1.0)
     }
 }
 
-impl std::ops::Sub for Signal {
+impl std::ops::Sub for QuasiPolynomial {
     type Output = Self;
     fn sub(self, other: Self) -> Self {
         self + -other
     }
 }
 
-impl std::ops::Mul for Signal {
+impl std::ops::Mul for QuasiPolynomial {
     type Output = Self;
     /// By the addition theorems.
     fn mul(self, other: Self) -> Self {
-        let mut product = Signal::default();
+        let mut product = QuasiPolynomial::default();
         for a in &self.terms {
             for b in &other.terms {
                 let (cc, ss) = (times(&a.cos, &b.cos), times(&a.sin, &b.sin));
@@ -204,8 +206,9 @@ impl std::ops::Mul for Signal {
                     cos: half(&cc, &ss, -1.0),
                     sin: half(&sc, &cs, 1.0),
                 };
-                product =
-                    product + Signal { terms: vec![difference] } + Signal { terms: vec![total] };
+                product = product
+                    + QuasiPolynomial { terms: vec![difference] }
+                    + QuasiPolynomial { terms: vec![total] };
             }
         }
         product
@@ -230,7 +233,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn signals() -> impl Strategy<Value = Signal> {
+    fn signals() -> impl Strategy<Value = QuasiPolynomial> {
         let coefficients = || proptest::collection::vec(-3.0..3.0f64, 0..4);
         let term = (0..4i32, coefficients(), coefficients()).prop_map(|(k, cos, sin)| Term {
             omega: 0.7 * f64::from(k),
@@ -238,9 +241,9 @@ mod tests {
             sin,
         });
         proptest::collection::vec(term, 0..4).prop_map(|terms| {
-            terms
-                .into_iter()
-                .fold(Signal::default(), |sum, term| sum + Signal { terms: vec![term] })
+            terms.into_iter().fold(QuasiPolynomial::default(), |sum, term| {
+                sum + QuasiPolynomial { terms: vec![term] }
+            })
         })
     }
 
