@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-use passive_hopper::{Error, LiftOffMap, MassRatio, alpha_star, printed_image};
+use passive_hopper::{Error, FixedPointSpeed, LiftOffMap, MassRatio, alpha_star, printed_image};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -207,8 +207,8 @@ proptest! {
         let sin_pi = (n as f64 * PI).sin() * if n.is_multiple_of(2) { -1.0 } else { 1.0 };
         let after_turn = n >= 1 && beyond(n as f64 * PI, sin_pi);
         let index = if after_turn { n } else { n.saturating_sub(1) };
-        let star = alpha_star(index);
-        let sudden = index >= 1 && !beyond(star.high, star.low);
+        let star = FixedPointSpeed::new(index);
+        let sudden = index >= 1 && !beyond(star.value(), star.rest());
         prop_assert_eq!(first.sudden, sudden);
     }
 
