@@ -44,6 +44,7 @@ mod column;
 mod crisis;
 mod error;
 mod fate;
+mod five_humps;
 mod hump;
 mod intervals;
 mod itinerary;
@@ -60,6 +61,7 @@ pub use basin::{Shares, basin_columns, basin_levels, basin_raster, branches, sha
 pub use crisis::{Crisis, crisis, grounding};
 pub use error::Error;
 pub use fate::{Fates, HOP_BUDGET, HopperFate};
+pub use five_humps::five_humps;
 pub use intervals::{HopperBasins, hopper_basins};
 pub use reach::{Reach, ReachEdge, reach, recovery};
 pub use trap::{Trap, TrapEdge};
