@@ -44,6 +44,7 @@ mod column;
 mod crisis;
 mod error;
 mod fate;
+mod five_humps;
 mod hump;
 mod intervals;
 mod itinerary;
@@ -62,6 +63,7 @@ pub use basin::{
 pub use crisis::{Crisis, crisis, grounding};
 pub use error::Error;
 pub use fate::{Fates, HOP_BUDGET, HopperFate};
+pub use five_humps::five_humps;
 pub use intervals::{HopperBasins, hopper_basins};
 pub use reach::{ImmediateBasin, ImmediateBasinEdge, immediate_basin, recovery};
 pub use trap::{Trap, TrapEdge};
