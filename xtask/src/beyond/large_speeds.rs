@@ -1,10 +1,12 @@
 //! Final-state uncertainty at large speeds, and whether the basins are riddled.
 
-use super::{Finding, Job, Table, estimate, fates, hump, is_incessant, label};
+use super::{
+    Finding, FractionWithBar, Job, Table, estimate, fates, hump, is_incessant, label, percent,
+};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, palette};
-use basin_of_attraction::{Estimate, random_fractions, uncertain_fraction};
+use basin_of_attraction::{random_fractions, uncertain_fraction};
 
 const M: f64 = 0.2;
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
@@ -42,7 +44,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     for (k, n) in HUMPS.into_iter().enumerate() {
         let window = hump(n)?;
         let rows = &scan[k * DECADES..(k + 1) * DECADES];
-        let points: Vec<(f64, Estimate)> =
+        let points: Vec<(f64, FractionWithBar)> =
             rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
         data.extend(rows.iter().map(|row| {
             std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()
@@ -73,7 +75,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         table.row([
             format!("{n}"),
             format!("{:.1}", window.left),
-            incessant.get(&1).map_or("0".into(), super::percent),
+            incessant.get(&1).map_or("0".into(), |&share| percent(&share.into())),
             cell(2),
             cell(4),
             cell(6),

@@ -12,7 +12,7 @@ use crate::Error;
 use crate::checkpoint::{Checkpoint, program_digest};
 use crate::figures::Figure;
 use crate::progress::Progress;
-use basin_of_attraction::{Estimate, Interval};
+use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{MassRatio, alpha_star};
 use std::path::{Path, PathBuf};
@@ -158,19 +158,46 @@ fn by_humps(place: f64) -> f64 {
     left + (right - left) * (place - whole as f64)
 }
 
+/// A fraction as it is drawn and printed: a value with a bar, which is a 95 % confidence interval or certain bounds.
+#[derive(Debug, Clone, Copy)]
+struct FractionWithBar {
+    value: f64,
+    lower: f64,
+    upper: f64,
+}
+
+impl FractionWithBar {
+    fn half_width(&self) -> f64 {
+        0.5 * (self.upper - self.lower)
+    }
+}
+
+impl From<ConfidenceInterval> for FractionWithBar {
+    fn from(fraction: ConfidenceInterval) -> Self {
+        let ConfidenceInterval { value, lower, upper } = fraction;
+        FractionWithBar { value, lower, upper }
+    }
+}
+
+impl From<EquallySpacedFraction> for FractionWithBar {
+    fn from(EquallySpacedFraction { value, bounds }: EquallySpacedFraction) -> Self {
+        FractionWithBar { value, lower: bounds.lower, upper: bounds.upper }
+    }
+}
+
 /// Three numbers of a scan: value, lower and upper end.
-fn estimate(three: &[f64]) -> Estimate {
-    Estimate { value: three[0], lower: three[1], upper: three[2] }
+fn estimate(three: &[f64]) -> FractionWithBar {
+    FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
 }
 
 /// A share with its interval, in per cent.
-fn percent(share: &Estimate) -> String {
+fn percent(share: &FractionWithBar) -> String {
     let digits = if share.half_width() > 5e-4 { 2 } else { 4 };
     format!("{:.digits$} ± {:.digits$} %", 100.0 * share.value, 100.0 * share.half_width())
 }
 
 /// A range with certain ends, in per cent.
-fn bounds(share: &Estimate) -> String {
+fn bounds(share: &FractionWithBar) -> String {
     format!("{:.5} … {:.5} %", 100.0 * share.lower, 100.0 * share.upper)
 }
 
