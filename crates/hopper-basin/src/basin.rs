@@ -100,12 +100,13 @@ fn strip_width(grid: &Grid) -> usize {
 /// An empty range has no columns.
 ///
 /// # Errors
-/// As [`basin_raster`]; [`basin_of_attraction::Error::BadRaster`] for columns that the grid has not.
+/// As [`basin_raster`]; [`basin_of_attraction::Error::BadColumnRange`] for columns that the grid has not.
 pub fn basin_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<u16>>, Error> {
     check_speeds(grid)?;
     grid.pixels()?;
     if columns.end > grid.columns {
-        let bad = basin_of_attraction::Error::BadRaster { columns: columns.end, rows: grid.rows };
+        let (start, end, columns) = (columns.start, columns.end, grid.columns);
+        let bad = basin_of_attraction::Error::BadColumnRange { start, end, columns };
         return Err(bad.into());
     }
     let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();

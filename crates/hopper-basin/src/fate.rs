@@ -1,7 +1,7 @@
 //! The fate of a lift-off speed.
 
 use crate::{Error, Trap};
-use basin_of_attraction::{Fate, Reason, classify};
+use basin_of_attraction::{Fate, UndecidedReason, classify};
 use passive_hopper::{LiftOffMap, MassRatio, index_below};
 use std::sync::OnceLock;
 
@@ -18,7 +18,7 @@ pub enum HopperFate {
     /// After some landing the lower mass never lifts off again.
     Grounded,
     /// Not known, and why.
-    Undecided(Reason),
+    Undecided(UndecidedReason),
 }
 
 impl HopperFate {
@@ -42,10 +42,10 @@ impl HopperFate {
             HopperFate::Decaying => 0,
             HopperFate::Incessant { n } if n <= Self::LARGEST_LABEL => n as u16,
             HopperFate::Grounded => Self::GROUNDED,
-            HopperFate::Undecided(Reason::Precision { .. }) => Self::UNDECIDED_PRECISION,
-            HopperFate::Undecided(Reason::Map { .. }) => Self::UNDECIDED_HOP,
+            HopperFate::Undecided(UndecidedReason::Precision { .. }) => Self::UNDECIDED_PRECISION,
+            HopperFate::Undecided(UndecidedReason::Map { .. }) => Self::UNDECIDED_HOP,
             HopperFate::Incessant { .. } => Self::BEYOND_LABELS,
-            HopperFate::Undecided(Reason::Budget) => Self::UNDECIDED,
+            HopperFate::Undecided(UndecidedReason::Budget) => Self::UNDECIDED,
         }
     }
 

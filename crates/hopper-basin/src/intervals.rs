@@ -29,7 +29,7 @@ pub struct HopperBasins {
 /// let refinement = Refinement { shortest: 1e-6, ..Refinement::default() };
 /// let found = hopper_basins(&fates, 1, 2, 200, refinement)?;
 /// // On the first hump only the trap and its preimages go to α*_1: 4.6 % of it.
-/// let share = found.basins.measure(1).value / found.basins.window().length();
+/// let share = found.basins.resolved_length(1) / found.basins.window().length();
 /// assert!((share - 0.0463).abs() < 1e-4);
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```

@@ -175,8 +175,8 @@ fn interval_basins_have_the_known_measures() {
             let hump = Interval::new(alpha_star(n), alpha_star(n + 1)).unwrap();
             let part = found.within(hump);
             let share = |length: f64| length / hump.length() / 5.0;
-            incessant += share(part.measure_of(|label| (1..100).contains(&label)).value);
-            to_first += share(part.measure(1).value);
+            incessant += share(part.resolved_length_of(|label| (1..100).contains(&label)));
+            to_first += share(part.resolved_length(1));
             open += share(part.undecided());
         }
         assert!(
@@ -270,11 +270,11 @@ fn grounding_is_not_found_below_its_onset() {
 /// Labels that say why: each reason, and fixed points beyond the labels.
 #[test]
 fn labels_say_why() {
-    use basin_of_attraction::Reason;
+    use basin_of_attraction::UndecidedReason;
     let labels = [
-        HopperFate::Undecided(Reason::Budget),
-        HopperFate::Undecided(Reason::Precision { at: 1.0 }),
-        HopperFate::Undecided(Reason::Map { at: 1.0 }),
+        HopperFate::Undecided(UndecidedReason::Budget),
+        HopperFate::Undecided(UndecidedReason::Precision { at: 1.0 }),
+        HopperFate::Undecided(UndecidedReason::Map { at: 1.0 }),
         HopperFate::Grounded,
         HopperFate::Decaying,
         HopperFate::Incessant { n: 3 },
@@ -290,9 +290,9 @@ fn labels_say_why() {
     let fates = fates(0.2);
     let alpha = alpha_star(2).next_down();
     let (fate, _) = fates.fate_within(alpha, 5).unwrap();
-    assert_eq!(fate, HopperFate::Undecided(Reason::Precision { at: alpha }));
+    assert_eq!(fate, HopperFate::Undecided(UndecidedReason::Precision { at: alpha }));
     let (fate, hops) = fates.fate_within(alpha - 1e-9, 5).unwrap();
-    assert_eq!((fate, hops), (HopperFate::Undecided(Reason::Budget), 5));
+    assert_eq!((fate, hops), (HopperFate::Undecided(UndecidedReason::Budget), 5));
 }
 
 #[test]

@@ -40,7 +40,7 @@ pub fn try_all(words: [u64; 6]) {
     let _ = (contact_flow(ratio, &state, e), energy(ratio, &state), landing_loss(ratio, e));
     let _ = (contact_time(ratio, b, c), lift_off_energy(ratio, b, c));
     for form in [Form::Printed, Form::Corrected] {
-        let _ = Coefficients::new(n, ratio, form).map(|local| (local.delta(), local.image(b)));
+        let _ = Coefficients::new(n, ratio, form).map(|local| (local.trap_length(), local.image(b)));
     }
     let _ = (Trap::new(n, ratio).map(|trap| trap.contains(b)), Trap::new(n % 100, ratio));
     asymptotics(n, ratio, [b, c, d]);
@@ -112,8 +112,8 @@ fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
     let _ = basin_levels(&fates, from, to, 2, few);
     let refinement = Refinement { shortest: b.abs().max(1e-2), undecided: c, levels: few, intervals: 1000 };
     if let Ok(found) = hopper_basins(&fates, from, to, few, refinement) {
-        let all = found.basins.measure_of(|_| true);
-        assert!(all.lower <= all.value && all.value <= all.upper, "{all:?}");
+        let (all, resolved) = (found.basins.basin_length_of(|_| true), found.basins.resolved_length_of(|_| true));
+        assert!(all.lower <= resolved && resolved <= all.upper, "{all:?} {resolved}");
     }
     let _ = (immediate_basin(&fates, from, b.abs().max(1e-2)), recovery(from, b.abs().max(0.1), 20.0));
 }

@@ -1,13 +1,12 @@
 //! What the boundary of the basins is: countable, of dimension one quarter.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{estimate, fates, hump, label};
+use super::humps_of_window::{FractionWithBar, estimate, fates, hump, label};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    Estimate, IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law,
-    uncertain_fraction,
+    IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law, uncertain_fraction,
 };
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::hopper_basins;
@@ -226,15 +225,15 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         let share = uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
         Ok(vec![epsilon, share.value, share.lower, share.upper])
     })?;
-    let sampled: Vec<(f64, Estimate)> =
+    let sampled: Vec<(f64, FractionWithBar)> =
         rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
     let mut widest: f64 = 0.0;
     let exact: Vec<(f64, f64)> = (0..=16)
         .map(|k| {
             let epsilon = pxfm::f_exp10(-10.0 + 0.5 * f64::from(k));
             let share = basins.uncertain_fraction(epsilon, RESOLUTION)?;
-            widest = widest.max(share.half_width() / share.value);
-            Ok((epsilon, share.value))
+            widest = widest.max(share.half_width() / share.middle());
+            Ok((epsilon, share.middle()))
         })
         .collect::<Result<_, Error>>()?;
     let law = power_law(&exact)?;

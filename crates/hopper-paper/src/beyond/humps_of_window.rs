@@ -1,7 +1,7 @@
 //! Starts on the humps of the paper's window, their fates, and shares as text.
 
 use crate::error::Error;
-use basin_of_attraction::{Estimate, Interval};
+use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{MassRatio, alpha_star};
 
@@ -34,19 +34,45 @@ pub(super) fn by_humps(place: f64) -> f64 {
     left + (right - left) * (place - whole as f64)
 }
 
+/// A fraction as it is drawn and printed: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FractionWithBar {
+    pub(super) value: f64,
+    pub(super) lower: f64,
+    pub(super) upper: f64,
+}
+
+impl FractionWithBar {
+    pub(super) fn half_width(&self) -> f64 {
+        0.5 * (self.upper - self.lower)
+    }
+}
+
+impl From<ConfidenceInterval> for FractionWithBar {
+    fn from(ConfidenceInterval { value, lower, upper }: ConfidenceInterval) -> Self {
+        FractionWithBar { value, lower, upper }
+    }
+}
+
+impl From<EquallySpacedFraction> for FractionWithBar {
+    fn from(EquallySpacedFraction { value, bounds }: EquallySpacedFraction) -> Self {
+        FractionWithBar { value, lower: bounds.lower, upper: bounds.upper }
+    }
+}
+
 /// Three numbers of a scan: value, lower and upper end.
-pub(super) fn estimate(three: &[f64]) -> Estimate {
-    Estimate { value: three[0], lower: three[1], upper: three[2] }
+pub(super) fn estimate(three: &[f64]) -> FractionWithBar {
+    FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
 }
 
 /// A share with its interval, in per cent.
-pub(super) fn percent(share: &Estimate) -> String {
+pub(super) fn percent(share: &FractionWithBar) -> String {
     let digits = if share.half_width() > 5e-4 { 2 } else { 4 };
     format!("{:.digits$} ± {:.digits$} %", 100.0 * share.value, 100.0 * share.half_width())
 }
 
 /// A range with certain ends, in per cent.
-pub(super) fn bounds(share: &Estimate) -> String {
+pub(super) fn bounds(share: &FractionWithBar) -> String {
     format!("{:.5} … {:.5} %", 100.0 * share.lower, 100.0 * share.upper)
 }
 

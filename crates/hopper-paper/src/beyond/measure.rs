@@ -2,14 +2,15 @@
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{
-    FROM, TO, bounds, by_humps, estimate, fates, geometric, hump, is_incessant, label, percent,
+    FROM, FractionWithBar, TO, bounds, by_humps, estimate, fates, geometric, hump, is_incessant,
+    label, percent,
 };
 use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    Estimate, Interval, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
+    Bounds, Interval, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
     random_fractions, wilson_interval,
 };
 use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
@@ -33,7 +34,7 @@ const ALL: u16 = HopperFate::UNDECIDED - 10;
 /// Labels in the order of the data.
 const LABELS: [u16; 8] = [1, 2, 3, 4, 5, ALL, 0, HopperFate::GROUNDED];
 
-type BasinFractions = BTreeMap<u16, Estimate>;
+type BasinFractions = BTreeMap<u16, FractionWithBar>;
 
 /// The window as one interval, each hump one unit of it.
 fn window() -> Result<Interval, Error> {
@@ -51,10 +52,12 @@ fn basin_fractions(mass_ratio: f64) -> Result<BasinFractions, Error> {
     let together = |place: f64| if is_incessant(at(place)) { ALL } else { 0 };
     let all = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, together)?;
     shares.extend(all.get(&ALL).map(|&share| (ALL, share)));
+    let mut shares: BasinFractions =
+        shares.into_iter().map(|(label, share)| (label, share.into())).collect();
     // A label that no point has may still have a share.
     let unseen = wilson_interval(0, POINTS * REPLICATES)?;
     LABELS.into_iter().for_each(|label| {
-        shares.entry(label).or_insert(unseen);
+        shares.entry(label).or_insert(unseen.into());
     });
     Ok(shares)
 }
@@ -67,17 +70,18 @@ fn interval_shares(fates: &Fates, shortest: f64) -> Result<BasinFractions, Error
     for n in FROM..TO {
         let part = found.within(hump(n)?);
         let scale = 1.0 / (part.window().length() * (TO - FROM) as f64);
-        let mut add = |label: u16, measure: Estimate| {
-            let share =
-                shares.entry(label).or_insert(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
-            share.value += scale * measure.value;
-            share.lower += scale * measure.lower;
-            share.upper += scale * measure.upper;
+        let mut add = |label: u16, resolved: f64, length: Bounds| {
+            let none = FractionWithBar { value: 0.0, lower: 0.0, upper: 0.0 };
+            let share = shares.entry(label).or_insert(none);
+            share.value += scale * resolved;
+            share.lower += scale * length.lower;
+            share.upper += scale * length.upper;
         };
         for label in LABELS.into_iter().filter(|&label| label != ALL) {
-            add(label, part.measure(label));
+            add(label, part.resolved_length(label), part.basin_length(label));
         }
-        add(ALL, part.measure_of(is_incessant));
+        let all = (part.resolved_length_of(is_incessant), part.basin_length_of(is_incessant));
+        add(ALL, all.0, all.1);
     }
     Ok(shares)
 }
@@ -164,7 +168,7 @@ fn curve(
     color: &'static str,
     width: f64,
 ) {
-    let found: Vec<(f64, Estimate)> = all
+    let found: Vec<(f64, FractionWithBar)> = all
         .iter()
         .filter_map(|(m, shares)| Some((*m, *shares.get(&label)?)))
         .filter(|(_, share)| share.value > frame.y.0)
@@ -208,7 +212,9 @@ fn three_ways() -> Result<Table, Error> {
         "random, 50 000",
         "low discrepancy, 16 × 3125",
     ]);
-    let share_of = |shares: &BasinFractions| shares.get(&ALL).map_or("0".into(), percent);
+    fn share_of<F: Copy + Into<FractionWithBar>>(shares: &BTreeMap<u16, F>) -> String {
+        shares.get(&ALL).map_or("0".into(), |&share| percent(&share.into()))
+    }
     for m in [0.1, 0.15, 0.2, 0.3, 0.5, 0.8] {
         let fates = fates(m)?;
         let together = |place: f64| {

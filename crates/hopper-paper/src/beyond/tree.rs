@@ -27,7 +27,7 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
         own.filter(|part| part.interval.length() >= SHORTEST).count()
     };
     let levels = basins.levels(1);
-    let total = basins.measure(1);
+    let (resolved, total) = (basins.resolved_length(1), basins.basin_length(1));
     let window = Interval::new(alpha_star(FROM), alpha_star(TO))?;
     let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
     let all = branches(&fates, FROM, TO, 400)?;
@@ -70,14 +70,14 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
                 format!("{count}"),
                 format!("{length:.3e}"),
                 format!("{sum:.9}"),
-                format!("{:.5} %", 100.0 * sum / total.value),
+                format!("{:.5} %", 100.0 * sum / resolved),
             ]);
         }
     }
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame::linear(70.0, 20.0, 480.0, 350.0, (0.0, DRAWN as f64), (1e-8, 1.0)).log_y();
     let left: Vec<_> =
-        rows.iter().map(|row| (row.0 as f64, (total.value - row.3).max(1e-8))).collect();
+        rows.iter().map(|row| (row.0 as f64, (resolved - row.3).max(1e-8))).collect();
     frame.clipped(&mut svg, |svg| frame.polyline(svg, &left, Pen::solid("#0072b2", 1.5)));
     for row in &rows {
         svg.marker(frame.at((row.0 as f64, row.2.max(1e-8))), Marker::Disc, 6.0, "#000000");

@@ -101,7 +101,7 @@ fn stability() -> Result<Claim, Error> {
         for n in INDICES {
             let ratio = MassRatio::new(m)?;
             let local = Coefficients::new(n, ratio, Form::Corrected)?;
-            let largest = (0.3 * local.delta()).min(1e-3);
+            let largest = (0.3 * local.trap_length()).min(1e-3);
             let right = probe(n, ratio, Side::Right, largest, 20);
             let left = probe(n, ratio, Side::Left, largest, 20);
             wrong += usize::from(right.stability != Stability::Attracting);

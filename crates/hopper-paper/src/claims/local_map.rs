@@ -71,8 +71,8 @@ fn lambda() -> Result<Claim, Error> {
 }
 
 fn delta() -> Result<Claim, Error> {
-    let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?.delta();
-    let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?.delta();
+    let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?.trap_length();
+    let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?.trap_length();
     let exact = Trap::new(1, MassRatio::ONE)?.delta;
     let far = (printed / exact, corrected / exact);
     Ok(Claim::new("Sec. IV A, Eq. 20", "Δ, the interval of attraction")

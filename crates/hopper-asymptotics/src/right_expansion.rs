@@ -1,19 +1,9 @@
-//! The right side of a fixed point, to five orders.
+//! The map on the right of a fixed point, to five orders.
 
-use crate::{Coefficients, Error, Form};
+use crate::coefficients::{Coefficients, Form};
+use crate::error::Error;
+use crate::expansion_value::ExpansionValue;
 use passive_hopper::MassRatio;
-
-/// A value of an expansion.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExpansionValue {
-    /// The truncated sum.
-    pub value: f64,
-    /// Bound on its distance from the exact map: the first neglected term, with its coefficient
-    /// measured, and the rounding of the sum.
-    pub error: f64,
-    /// Exponent of the first neglected term, in the variable of the expansion.
-    pub neglected_exponent: f64,
-}
 
 /// δ′ = δ − λδ^{4/3} [1 + ℓ₅δ^{1/3} + ℓ₆δ^{2/3} + ℓ₇δ + ℓ₈δ^{4/3}] + O(δ³), δ > 0.
 ///
@@ -34,16 +24,17 @@ pub struct ExpansionValue {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RightExpansion {
-    /// λ, corrected.
+    /// λ, in the [corrected](Form::Corrected) form.
     pub lambda: f64,
-    /// ℓ₅, ℓ₆, ℓ₇, ℓ₈.
-    pub l: [f64; 4],
+    /// ℓ₅, ℓ₆, ℓ₇, ℓ₈ of the equation above.
+    pub coefficients: [f64; 4],
 }
 
-/// Largest δ at which the error was measured.
+/// The largest δ for which the error was measured, and for which [`RightExpansion`] has values.
 pub const RIGHT_RANGE: f64 = 0.1;
 
-/// |ℓ₉| and what follows: at most 0.44 for n = 1…100, M = 10⁻³…10³, δ up to the range.
+/// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|. Measured against the exact map for n = 1…100, M = 10⁻³…10³, δ up to
+/// [`RIGHT_RANGE`]: at most 0.44. Outside that range the error may be larger than stated.
 const NEGLECTED: f64 = 0.5;
 
 impl RightExpansion {
@@ -57,6 +48,7 @@ impl RightExpansion {
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
         let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
         let (a, b, mu) = (local.alpha_star, local.beta, mass_ratio.mu());
+        // The equations above, divided by powers of a² so that no number grows with n.
         let square = a * a;
         let cube = b * b * b;
         let l5 = b / a;
@@ -64,7 +56,8 @@ impl RightExpansion {
         let l7 = -(24.0 - 43.0 / square) / (12.0 * a * (1.0 + 1.0 / square));
         let bracket = cube * (25_200.0 * mu + 144.0) - (29_400.0 * cube + 403_200.0) / square
             + 83_825.0 * cube / (square * square);
-        Ok(RightExpansion { lambda: local.lambda, l: [l5, l6, l7, b * bracket / 403_200.0] })
+        let l8 = b * bracket / 403_200.0;
+        Ok(RightExpansion { lambda: local.lambda, coefficients: [l5, l6, l7, l8] })
     }
 
     /// δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`].
@@ -73,11 +66,12 @@ impl RightExpansion {
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let loss = self.loss(delta)?;
+        // One ulp of δ for the rounding of the difference.
         let error = loss.error + f64::EPSILON * delta;
         Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
     }
 
-    /// The loss δ − δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`], without cancellation.
+    /// The loss δ − δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`], without the cancellation of a difference.
     ///
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
@@ -87,7 +81,9 @@ impl RightExpansion {
         }
         let root = pxfm::f_cbrt(delta);
         let leading = self.lambda * delta * root;
-        let series = self.l.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
+        // Horner: ((ℓ₈ v + ℓ₇) v + …) v with v = δ^{1/3}.
+        let series = self.coefficients.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
+        // Eight ulps cover the roundings of λ, the root, the products and the series.
         let rounding = 8.0 * f64::EPSILON * leading;
         let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
         let neglected_exponent = Self::NEGLECTED_EXPONENT;

@@ -1,22 +1,25 @@
-//! The left side of a fixed point, to three orders.
+//! The map on the left of a fixed point, to three orders.
 
-use crate::{Coefficients, Error, ExpansionValue, Form, LEFT_FACTOR};
+use crate::coefficients::{Coefficients, Form};
+use crate::error::Error;
+use crate::expansion_value::ExpansionValue;
+use crate::local_map::LEFT_FACTOR;
 use passive_hopper::MassRatio;
 
 /// δ′ = δ − 10λ|δ|^{4/3} [1 + c₁|δ|^{1/3} + c₂|δ|^{2/3}] + O(|δ|^{7/3}), δ < 0.
 ///
-/// The first landing has stretch 1 + x, x ≈ α*β|δ|^{1/3}, and speed V ≈ −α*: the spring pulls the
-/// lower mass off for a flight of τ = 3x/α*, which ends at 1 − 2x with three times the closing speed.
-/// So 1 + 3² = 10 times as much is lost as on the right. To the next orders, with a = α*,
+/// The first landing has stretch 1 + x, x ≈ α*β|δ|^{1/3}, and speed V ≈ −α*. The spring pulls the lower mass off
+/// again, for a flight of τ = 3x/α*. That flight ends at stretch 1 − 2x, with three times the first closing speed.
+/// The hop therefore loses 1 + 3² = 10 times as much as on the right. To the next orders, with a = α* and
 /// κ = M/(1+M):
 ///
 /// ```text
 ///   c₁ = −β/a        c₂ = −β² (34/25 + 31/(80a²) − 9κ/10)
 /// ```
 ///
-/// c₁ mirrors ℓ₅ of the right side. With the exact local forms of `passive_hopper::LocalFlight` for the
-/// first landing and h₂ = 3x/(2a) + … from (h − V) D + S u = x S² for the second, both as series in
-/// t = τ − 2a,
+/// c₁ is −ℓ₅ of the right side. For the derivation write both landings as series in t = τ − 2a: the first from the
+/// exact local forms of `passive_hopper::LocalFlight`, the second from (h − V) D + S u = x S² with
+/// h₂ = 3x/(2a) + …. The sum of the squared closing speeds is then
 ///
 /// ```text
 ///   Γ₁² + Γ₂² = (5/2) a² t⁴ [1 + (9κ/10 − 107/75 − 283/(240a²)) t² + O(t³)]
@@ -24,16 +27,18 @@ use passive_hopper::MassRatio;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LeftExpansion {
-    /// λ, corrected; the leading coefficient is ten times it.
+    /// λ, in the [corrected](Form::Corrected) form. The leading coefficient is 10λ.
     pub lambda: f64,
-    /// c₁, c₂.
-    pub c: [f64; 2],
+    /// c₁, c₂ of the equation above.
+    pub coefficients: [f64; 2],
 }
 
-/// Largest |δ| (1 + λ³) at which the error was measured: beyond, the second flight is no longer short.
+/// The largest |δ| (1 + λ³) for which the error was measured, and for which [`LeftExpansion`] has values. Beyond it
+/// the second flight is no longer short.
 pub const LEFT_RANGE: f64 = 1e-3;
 
-/// |c₃| and what follows, for n = 1…100, M = 10⁻³…10³.
+/// Bound on |c₃ + c₄|δ|^{1/3} + …|/(1 + λ). Chosen by measurement against the exact map for n = 1…100,
+/// M = 10⁻³…10³. Outside that range the error may be larger than stated.
 const NEGLECTED: f64 = 12.0;
 
 impl LeftExpansion {
@@ -47,11 +52,12 @@ impl LeftExpansion {
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
         let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
         let (a, b, kappa) = (local.alpha_star, local.beta, mass_ratio.kappa());
-        let second = -b * b * (34.0 / 25.0 + 31.0 / (80.0 * a * a) - 0.9 * kappa);
-        Ok(LeftExpansion { lambda: local.lambda, c: [-b / a, second] })
+        let c1 = -b / a;
+        let c2 = -b * b * (34.0 / 25.0 + 31.0 / (80.0 * a * a) - 0.9 * kappa);
+        Ok(LeftExpansion { lambda: local.lambda, coefficients: [c1, c2] })
     }
 
-    /// The largest |δ| that is answered: [`LEFT_RANGE`]/(1 + λ³).
+    /// The largest |δ| with a value: [`LEFT_RANGE`]/(1 + λ³).
     pub fn range(&self) -> f64 {
         LEFT_RANGE / (1.0 + self.lambda * self.lambda * self.lambda)
     }
@@ -62,11 +68,12 @@ impl LeftExpansion {
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let loss = self.loss(delta)?;
+        // One ulp of δ for the rounding of the difference.
         let error = loss.error + f64::EPSILON * delta.abs();
         Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
     }
 
-    /// The loss δ − δ′ for −[`range`](Self::range) ≤ δ ≤ 0, without cancellation.
+    /// The loss δ − δ′ for −[`range`](Self::range) ≤ δ ≤ 0, without the cancellation of a difference.
     ///
     /// # Errors
     /// [`Error::OutsideRange`] elsewhere.
@@ -78,7 +85,9 @@ impl LeftExpansion {
         let size = delta.abs();
         let root = pxfm::f_cbrt(size);
         let leading = LEFT_FACTOR * self.lambda * size * root;
-        let series = (self.c[0] + self.c[1] * root) * root;
+        let [c1, c2] = self.coefficients;
+        let series = (c1 + c2 * root) * root;
+        // Eight ulps cover the roundings of λ, the root, the products and the series.
         let rounding = 8.0 * f64::EPSILON * leading;
         let neglected = NEGLECTED * (1.0 + self.lambda) * leading * size;
         Ok(ExpansionValue {

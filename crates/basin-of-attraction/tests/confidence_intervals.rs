@@ -1,8 +1,10 @@
-//! Shares by points: 95 % intervals cover in 95 of 100 cases.
+//! Basin fractions from sample points: 95 % intervals contain the true fraction in 95 of 100 samples.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use basin_of_attraction::{Interval, low_discrepancy_fractions, random_fractions};
+use basin_of_attraction::{
+    ConfidenceInterval, Interval, low_discrepancy_fractions, random_fractions, wilson_interval,
+};
 
 fn interval(left: f64, right: f64) -> Interval {
     Interval::new(left, right).unwrap()
@@ -22,9 +24,9 @@ fn cantor_label(x: f64, colours: u16) -> u16 {
     colours
 }
 
-/// 95 % intervals hold the truth in 93 to 97 of 100 cases.
+/// Of 1000 intervals of 95 %, 930 to 970 contain the true fraction.
 #[test]
-fn intervals_cover_as_often_as_they_say() {
+fn intervals_cover_as_often_as_stated() {
     let unit = interval(0.0, 1.0);
     let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
     let wide = interval(-1.5, 0.5);
@@ -32,8 +34,8 @@ fn intervals_cover_as_often_as_they_say() {
     let cases: [(&str, Interval, Label<'_>, u16, f64); 2] =
         [("B1", unit, &|x| cantor_label(x, 2), 0, 0.6), ("B4", wide, &step, 1, 0.5)];
     for (name, window, label, basin, truth) in cases {
-        let covered = |shares: &dyn Fn(u64) -> basin_of_attraction::Estimate| {
-            (0..1000).filter(|&seed| shares(seed).covers(truth)).count()
+        let covered = |fraction: &dyn Fn(u64) -> ConfidenceInterval| {
+            (0..1000).filter(|&seed| fraction(seed).covers(truth)).count()
         };
         let random = covered(&|seed| random_fractions(window, 400, seed, label).unwrap()[&basin]);
         assert!((930..=970).contains(&random), "{name}, random: {random}");
@@ -45,23 +47,23 @@ fn intervals_cover_as_often_as_they_say() {
 }
 
 #[test]
-fn rare_labels_are_covered_too() {
-    // A basin that one point in fifty thousand hits: replicates mostly agree on none, or on one.
+fn intervals_of_rare_labels_cover_too() {
+    // One point in fifty thousand lies in the basin. Most replicates have none; all together often have one.
     let unit = interval(0.0, 1.0);
     let truth = 2e-5;
     let covered = (0..300u64)
         .filter(|&seed| {
             let label = |x: f64| u16::from(x > 0.3 && x < 0.3 + truth);
-            let shares = low_discrepancy_fractions(unit, 1000, 16, seed, label).unwrap();
-            let none = basin_of_attraction::wilson_interval(0, 16_000).unwrap();
-            shares.get(&1).copied().unwrap_or(none).covers(truth)
+            let fractions = low_discrepancy_fractions(unit, 1000, 16, seed, label).unwrap();
+            let none = wilson_interval(0, 16_000).unwrap();
+            fractions.get(&1).copied().unwrap_or(none).covers(truth)
         })
         .count();
     assert!(covered >= 279, "{covered} of 300");
 }
 
 #[test]
-fn low_discrepancy_is_sharper_than_chance() {
+fn low_discrepancy_intervals_are_shorter_than_random_ones() {
     let window = interval(-1.5, 0.5);
     let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
     let random = random_fractions(window, 20_000, 1, label).unwrap()[&1];
