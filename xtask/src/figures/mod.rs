@@ -22,6 +22,7 @@ pub(crate) use peers::peers_figure;
 pub(crate) use work_precision::work_precision_figure;
 
 use crate::Error;
+use crate::plot::Svg;
 use crate::progress::Progress;
 
 /// A figure with everything the report says of it.
@@ -35,8 +36,8 @@ pub struct Figure {
     pub paper: String,
     /// What we chose where the paper's details are lost, and what is to be seen.
     pub notes: String,
-    /// The drawing, with fonts.
-    pub svg: String,
+    /// The drawing.
+    pub svg: Svg,
     /// Its data.
     pub data: Vec<DataFile>,
 }
