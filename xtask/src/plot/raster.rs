@@ -136,6 +136,10 @@ fn paint(css: &str) -> Result<Paint<'static>, String> {
 /// Red, green and blue of `#rgb` or `#rrggbb`.
 fn rgb(css: &str) -> Option<[u8; 3]> {
     let digits = css.strip_prefix('#')?;
+    // `from_str_radix` would accept a sign.
+    if !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+        return None;
+    }
     let value = u32::from_str_radix(digits, 16).ok()?;
     let byte = |shift: u32| (value >> shift) as u8;
     match digits.len() {
