@@ -1,13 +1,13 @@
 //! Curves that stay smooth at any zoom.
 
-use std::fmt::Write;
+use crate::path::{Path, Segment};
 
 /// A path of cubic Bézier pieces through points that follow a smooth parametrisation in equal
 /// steps: each tangent is the central difference of the neighbours.
-pub fn smooth(points: &[(f64, f64)]) -> String {
-    let mut d = String::new();
-    let Some(&(x, y)) = points.first() else { return d };
-    let _ = write!(d, "M{x:.3} {y:.3}");
+pub fn smooth(points: &[(f64, f64)]) -> Path {
+    let mut path = Path::default();
+    let Some(&(x, y)) = points.first() else { return path };
+    path.push(Segment::Move((x, y)));
     let last = points.len() - 1;
     let tangent = |k: usize| {
         // One-sided differences of second order at the ends.
@@ -26,18 +26,13 @@ pub fn smooth(points: &[(f64, f64)]) -> String {
     for k in 0..last {
         let (p, q) = (points[k], points[k + 1]);
         let (s, t) = (tangent(k), tangent(k + 1));
-        let _ = write!(
-            d,
-            "C{:.3} {:.3} {:.3} {:.3} {:.3} {:.3}",
-            p.0 + s.0 / 3.0,
-            p.1 + s.1 / 3.0,
-            q.0 - t.0 / 3.0,
-            q.1 - t.1 / 3.0,
-            q.0,
-            q.1
-        );
+        path.push(Segment::Cubic(
+            (p.0 + s.0 / 3.0, p.1 + s.1 / 3.0),
+            (q.0 - t.0 / 3.0, q.1 - t.1 / 3.0),
+            q,
+        ));
     }
-    d
+    path
 }
 
 /// The graph of a function between neighbouring cuts, as pieces of `count` + 1 points each.
@@ -101,6 +96,6 @@ mod tests {
     fn a_parabola_is_drawn_exactly() {
         let points: Vec<_> = (0..5).map(|k| (f64::from(k), f64::from(k * k))).collect();
         // The Bézier form of y = x² on [0, 1].
-        assert!(smooth(&points).starts_with("M0.000 0.000C0.333 0.000 0.667 0.333 1.000 1.000"));
+        assert!(smooth(&points).data().starts_with("M0 0C0.333 0 0.667 0.333 1 1"));
     }
 }

@@ -39,10 +39,14 @@
 pub mod axes;
 mod curve;
 mod data;
+mod document;
 mod error;
+pub mod font;
 pub mod label;
 mod marker;
 pub mod palette;
+mod path;
+mod raster;
 mod render;
 mod svg;
 
@@ -52,5 +56,6 @@ pub use data::{DataFile, csv_file, csv_text};
 pub use error::Error;
 pub use label::html;
 pub use marker::Marker;
+pub use path::{Path, Point};
 pub use render::{Rendered, indexed_png, render};
 pub use svg::{Anchor, Pen, Svg, base64};

@@ -126,7 +126,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
                     closed set has no part that is a Cantor set. It accumulates at $α$^{∗}_{n} from the left \
                     along $k$^{−3}, a set of box dimension 1/4, and at the preimages of that."
                 .replace("**", ""),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("boundary.csv", &["hump", "box_size", "boxes", "local_slope"], data)?],
         },
         table,
@@ -305,7 +305,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
                  between them go unseen. The shares from intervals are known to {:.0e} of themselves.",
                 widest
             ),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("uncertainty.csv", &["epsilon", "share"], data)?],
         },
         table,

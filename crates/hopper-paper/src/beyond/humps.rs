@@ -85,7 +85,7 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
                     below in similar ways. The share of a hump's own fixed point falls with its trap, like \
                     $n$^{−3}."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("humps.csv", &["hump", "fixed_point", "share_lower", "share_upper"], data)?],
         },
         table,

@@ -106,7 +106,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
                     continuous and fates are continuous across its jumps. Every basin is a union of intervals, \
                     and the curves must fall where $ε$ is smaller than most of them."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("large_speeds.csv", &["hump", "epsilon", "share", "lower", "upper"], data)?],
         },
         table,

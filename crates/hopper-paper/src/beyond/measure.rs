@@ -153,7 +153,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                  of it is back; what is missing beyond, a thousandth and less, falls through needles in the \
                  sudden windows."
             ),
-            svg: svg.finish(),
+            svg,
             data: vec![data],
         },
         table: three_ways()?,
@@ -304,7 +304,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
                     The measure at 1/$M$ is up to three times that at $M$, or down to half of it. For $M$ > 1/3 up to \
                     half of all starts have another fate: mostly it is decaying against grounded."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file(
                 "asymmetry.csv",
                 &[

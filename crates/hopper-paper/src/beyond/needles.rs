@@ -88,7 +88,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
                     up to 400 and then by halving; a point on its dashed line, which is what the contact part \
                     alone would say, means that no fall was found in the window."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("needles.csv", &["hump", "width", "fall_at", "none_at"], data)?],
         },
         table,

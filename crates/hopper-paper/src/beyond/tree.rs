@@ -104,7 +104,7 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
                  number of intervals of a level grows {growth}.",
                 total.lower, total.upper
             ),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("tree.csv", &["level", "intervals", "length", "sum"], data)?],
         },
         table,

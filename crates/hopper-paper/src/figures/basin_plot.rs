@@ -66,7 +66,7 @@ pub(super) fn basin_figure(
 }
 
 /// The drawing of an image with axes and legend.
-pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<String, Error> {
+pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Error> {
     let (x, y) = (window.mass_ratio, window.alpha);
     let pixels = png(window.name, image)?;
     let mut svg = Svg::new(580.0, 560.0);
@@ -88,7 +88,7 @@ pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<String,
         svg.text(x1 + 5.0, y1 - 5.0, Anchor::Start, 11.5, name);
     }
     legend(&mut svg, frame.left, image);
-    Ok(svg.finish())
+    Ok(svg)
 }
 
 /// One entry a colour: fixed points beyond the last colour share it.

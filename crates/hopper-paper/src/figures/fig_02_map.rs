@@ -77,7 +77,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
              up to $α$^{{∗}}_{{5}} = {top:.3}. At $M$ = 1 gaps open in which the hopper is grounded; \
              between $nπ$ and $α$^{{∗}}_{{n}} the first landing is sudden."
         ),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("fig_02_map.csv", &["mass_ratio", "alpha", "alpha_next"], rows)?],
     })
 }

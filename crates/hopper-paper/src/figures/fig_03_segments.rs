@@ -132,7 +132,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
              displacements of $m$_{{2}}$g$/$k$. Elsewhere on $α$_{{R}} hops may also die out without end (the decaying fate).",
             segments[0].alpha, segments[1].alpha, segments[2].alpha, segments[3].alpha
         ),
-        svg: svg.finish(),
+        svg,
         data: vec![
             csv_file(
                 "fig_03_map.csv",

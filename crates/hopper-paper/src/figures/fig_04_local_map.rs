@@ -73,7 +73,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 On the left, which the paper does not give, the loss is ten times as steep. Sampled \
                 at 162 points."
             .into(),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("fig_04_local_map.csv", &["alpha", "exact", "printed", "corrected"], rows)?],
     })
 }

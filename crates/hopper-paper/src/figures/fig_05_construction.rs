@@ -97,7 +97,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
              preimages (box dimension 1/4).",
             counts.join(", ")
         ),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("fig_05_levels.csv", &["level", "left", "right"], rows)?],
     })
 }

@@ -78,7 +78,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 elsewhere the two maps differ by rounding only (differences of exactly zero are \
                 drawn at the foot, marked 0)."
             .into(),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("invariance.csv", &["alpha", "next_light", "next_heavy"], rows)?],
     })
 }

@@ -75,7 +75,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 printed $λ$ by one third. Errors beyond the frame are drawn on it. A printed form that errs by \
                 more than all of the loss has gained energy."
             .into(),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("printed_against_stable.csv", &columns, data)?],
     })
 }

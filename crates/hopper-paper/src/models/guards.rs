@@ -91,7 +91,7 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         title: "How a guard along a flow can meet zero".into(),
         paper: "Not in the paper.".into(),
         notes: "Falling guards as signals; what the search returns is marked.".into(),
-        svg: svg.finish(),
+        svg,
         data: Vec::new(),
     })
 }
