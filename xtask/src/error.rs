@@ -1,18 +1,18 @@
-//! What can stop a command.
+//! The reasons why a command fails.
 
 use std::path::PathBuf;
 use thiserror::Error;
 
-/// Why a command failed.
+/// The reason why a command failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum Error {
     /// A file or folder could not be read or written.
     #[error("{path}: {source}")]
     File {
-        /// Which.
+        /// The file or folder.
         path: PathBuf,
-        /// What the system said.
+        /// The answer of the system.
         source: std::io::Error,
     },
     /// A line of a reference file could not be understood.
@@ -22,66 +22,67 @@ pub enum Error {
         path: PathBuf,
         /// The line, from one.
         line: usize,
-        /// What is wrong with it.
+        /// The defect.
         reason: String,
     },
-    /// A finished piece of a job that cannot be used.
-    #[error("{path}: {reason}; remove it, or give another folder")]
-    Piece {
-        /// Its file.
+    /// A job on disk cannot go on.
+    #[error(transparent)]
+    Job(#[from] resumable_job::Error),
+    /// A file of reference values that holds none, or none that can be compared.
+    #[error("{path}: this file holds no reference value; a check of it would check nothing")]
+    NoReference {
+        /// The file.
         path: PathBuf,
-        /// What is wrong with it.
-        reason: &'static str,
     },
     /// Reference values of the repository that lack something.
     #[error("the reference values: {reason}")]
     Reference {
-        /// What.
+        /// The missing value or field.
         reason: String,
     },
     /// A name that does not exist.
     #[error("there is no {kind} '{name}'; there are: {known}")]
     UnknownName {
-        /// What was named.
+        /// The kind of thing that was named: a figure, a result, a command.
         kind: &'static str,
         /// The name given.
         name: String,
-        /// Those that exist.
+        /// The names that exist.
         known: String,
     },
-    /// The dynamics refused.
+    /// An error of `hopper-basin`.
     #[error(transparent)]
     Basin(#[from] hopper_basin::Error),
-    /// The hopper refused.
+    /// An error of `passive-hopper`.
     #[error(transparent)]
     Hopper(#[from] passive_hopper::Error),
-    /// The basin tools refused.
+    /// An error of `basin-of-attraction`.
     #[error(transparent)]
     Interval(#[from] basin_of_attraction::Error),
-    /// The asymptotics refused.
+    /// An error of `hopper-asymptotics`.
     #[error(transparent)]
     Asymptotics(#[from] hopper_asymptotics::Error),
-    /// An execution failed.
+    /// An error of `hybrid-system`.
     #[error(transparent)]
     Execution(#[from] hybrid_system::Error),
-    /// A return map failed.
+    /// An error of `return-map`.
     #[error(transparent)]
     ReturnMap(#[from] return_map::Error),
     /// A drawing could not be rendered or encoded.
     #[error("cannot render {what}: {reason}")]
     Render {
-        /// What was drawn.
+        /// The name of the drawing or file.
         what: String,
-        /// What the library said.
+        /// The answer of the library.
         reason: String,
     },
-    /// Other people's software could not be run.
+    /// The software of other people could not be run.
     #[error("the peers cannot be compared with: {reason}")]
     Peers {
-        /// Why.
+        /// The reason.
         reason: String,
     },
-    /// Something that was checked does not hold; the details have been printed.
+    /// A check failed; the command has printed the details.
     #[error("{0}")]
     CheckFailed(String),
 }

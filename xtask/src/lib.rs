@@ -1,9 +1,8 @@
 //! The workspace's tasks: `cargo xtask --help`.
 //!
-//! The only code here that prints, draws or writes files; the libraries compute.
+//! The libraries compute. Only this code prints and draws; it writes files through `resumable-job`.
 
 pub mod beyond;
-pub mod checkpoint;
 pub mod claims;
 pub mod commands;
 mod error;

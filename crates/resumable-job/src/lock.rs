@@ -7,7 +7,7 @@
 use crate::error::Error;
 use crate::open_file::is_named;
 use std::fs::{File, OpenOptions, TryLockError};
-use std::io::Write;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -56,7 +56,7 @@ impl Lock {
                     std::thread::sleep(SECOND_TRY_AFTER);
                 }
                 Err(TryLockError::WouldBlock) => {
-                    let holder = holder(&path);
+                    let holder = holder(&file);
                     return Err(Error::AtWork { folder: folder.into(), part: part.into(), holder });
                 }
                 Err(TryLockError::Error(source)) => {
@@ -85,8 +85,12 @@ impl Drop for Lock {
 }
 
 /// The number in a lock file. `None` if it cannot be read: on Windows a lock keeps others from reading, too.
-fn holder(path: &Path) -> Option<u32> {
-    std::fs::read_to_string(path).ok()?.trim().parse().ok()
+///
+/// The open file is read, not its name: its holder may end just now and remove the name.
+fn holder(mut file: &File) -> Option<u32> {
+    let mut text = String::new();
+    file.read_to_string(&mut text).ok()?;
+    text.trim().parse().ok()
 }
 
 #[cfg(test)]

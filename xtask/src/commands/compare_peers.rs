@@ -7,6 +7,7 @@ use crate::peers::{Python, csv, markdown, measure};
 use crate::plot::render::render;
 use crate::progress::Progress;
 use crate::work_precision::table::replace_block;
+use resumable_job::Lock;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -27,6 +28,8 @@ pub struct Options {
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
     let folder = super::results_folder_named(options.out.as_deref(), "peers")?;
+    // Two runs would install into the same environment and read each other's results.
+    let _lock = Lock::take(folder.path(), "compare-peers")?;
     let python = Python::with_packages(&options.python, folder.path())?;
     let peers = measure(&python, folder.path(), &Progress)?;
     let rendered = render("peers", &peers_figure(&peers), 2.0)?;

@@ -3,10 +3,11 @@
 use super::{all_hold, line, make_figure, results_folder};
 use crate::claims::{self, Claim};
 use crate::figures::{self, Figure};
-use crate::output::{Folder, digest, read, repository};
+use crate::output::{Folder, read, repository};
 use crate::plot::render::Rendered;
 use crate::progress::Progress;
 use crate::{Error, report};
+use resumable_job::digest;
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
