@@ -87,7 +87,7 @@ fn assert_is_refused(output: &Output, folder: &Path, holder: u32) {
 #[test]
 fn of_two_runs_at_once_one_wins_and_the_other_names_it() {
     let (whole, folder) = (undisturbed("at_once_whole"), Folder::new("at_once"));
-    for _ in 0..3 {
+    for _ in 0..2 {
         let runs = [(); 4].map(|()| raster(&folder.0).spawn().unwrap());
         let ids = runs.each_ref().map(Child::id);
         let outputs = runs.map(|run| run.wait_with_output().unwrap());
@@ -165,7 +165,7 @@ fn pairs_that_are_killed_at_random_never_leave_a_wrong_result() {
         (state >> 40) as f64 / (1u64 << 24) as f64
     };
     let mut finished = 0;
-    for _ in 0..12 {
+    for _ in 0..8 {
         let mut pair = [(); 2].map(|()| raster(&folder.0).spawn().unwrap());
         for run in &mut pair {
             std::thread::sleep(longest.mul_f64(0.4 * share()));

@@ -115,7 +115,7 @@ pub fn remove_leftovers(folder: &Path) {
         let path = entry.path();
         // Opened for writing, because some network file systems lock nothing else.
         let Ok(file) = OpenOptions::new().write(true).open(&path) else { continue };
-        if file.try_lock().is_ok() {
+        if file.try_lock().is_ok() && is_named(&file, &path).unwrap_or(false) {
             // The lock is held during the removal: a writer that created this file just now sees it (`create`).
             let _ = std::fs::remove_file(&path);
         }
