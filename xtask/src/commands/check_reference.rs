@@ -69,6 +69,10 @@ pub fn run(options: &Options) -> Result<(), Error> {
         for (class, tally) in judge(&lines, options.limit) {
             compared += tally.lines - tally.skipped;
             write!(out, "{name}: {class}: {} lines, ", tally.lines).map_err(write)?;
+            if tally.skipped > 0 {
+                write!(out, "{} of them without an answer to compare with, ", tally.skipped)
+                    .map_err(write)?;
+            }
             if !tally.worst_place.is_empty() {
                 write!(out, "worst K = {:.2} ({}), ", tally.worst, tally.worst_place)
                     .map_err(write)?;
