@@ -6,8 +6,8 @@ use crate::figure::Figure;
 use basin_of_attraction::{Grid, Interval, LabelImage};
 use hopper_basin::basin_raster;
 use journal_figures::{Anchor, DataFile, Frame, Pen, Svg, indexed_png, ticks};
-use ndarray_npy::WriteNpyExt;
 use repository_tools::Progress;
+use resumable_job::{Order, npy_header};
 use std::ops::ControlFlow;
 
 /// (M, α) ranges of the figure that enlarges a part, and its number.
@@ -56,7 +56,7 @@ pub(super) fn basin_figure(
         ),
         svg,
         data: vec![
-            DataFile { name: format!("{}.npy", window.name), bytes: npy(window.name, &image)? },
+            DataFile { name: format!("{}.npy", window.name), bytes: npy(&image) },
             DataFile {
                 name: format!("{}_labels.png", window.name),
                 bytes: png(window.name, &image)?,
@@ -138,13 +138,9 @@ fn png(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
     Ok(indexed_png(name, image.grid.columns, image.grid.rows, &colors, &pixels)?)
 }
 
-/// The labels as a NumPy array, rows from the lowest α up.
-fn npy(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
-    let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
-    let shape = (image.grid.rows, image.grid.columns);
-    let array = ndarray::Array2::from_shape_vec(shape, image.labels.clone())
-        .map_err(|e| fail(e.to_string()))?;
-    let mut bytes = Vec::new();
-    array.write_npy(&mut bytes).map_err(|e| fail(e.to_string()))?;
-    Ok(bytes)
+/// The labels as a NumPy file; rows start from the lowest α.
+fn npy(image: &LabelImage) -> Vec<u8> {
+    let mut bytes = npy_header(Order::C, image.grid.rows, image.grid.columns);
+    bytes.extend(image.labels.iter().flat_map(|label| label.to_le_bytes()));
+    bytes
 }
