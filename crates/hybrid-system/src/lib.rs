@@ -90,26 +90,22 @@
 //! Numer. Algorithms 53 (2010).
 
 mod arc;
-mod bracketed_root;
-mod certain_crossing;
 mod crossing;
-mod enclosure;
 mod error;
 mod execution;
 mod guard;
 #[cfg(feature = "ode")]
 mod ode;
-mod quasi_polynomial;
 mod sensitivity;
 mod simultaneous;
+mod state;
 mod system;
 mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
-pub use bracketed_root::bracketed_root;
-pub use certain_crossing::FirstCrossing;
-pub use crossing::{Certainty, Crossing};
-pub use enclosure::Enclosure;
+pub use crossing::{
+    Certainty, Crossing, Enclosure, FirstCrossing, QuasiPolynomial, bracketed_root,
+};
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard};
@@ -117,9 +113,9 @@ pub use guard::{Direction, Guard};
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
 };
-pub use quasi_polynomial::QuasiPolynomial;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
-pub use system::{HybridSystem, Reset, State, VectorField};
+pub use state::State;
+pub use system::{HybridSystem, Reset, VectorField};
 pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]
