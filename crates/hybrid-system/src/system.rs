@@ -6,7 +6,7 @@ use crate::guard::Guard;
 use crate::state::State;
 use std::fmt::Debug;
 
-/// What happens at an event.
+/// The result of an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reset<M, const N: usize> {
     /// The execution continues in `mode` from `state`.

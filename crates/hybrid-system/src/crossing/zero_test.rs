@@ -1,6 +1,6 @@
 //! The answer of a test for zeros on one interval of time.
 
-/// What bounds say about the zeros of a function on one interval.
+/// The answer of bounds about the zeros of a function on one interval.
 ///
 /// The tests themselves are statements (2) and (3) of [mathematics](crate::mathematics).
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -18,7 +18,8 @@ pub(super) fn first_step<V: Vector>(
 ) -> f64 {
     let (size, rate) =
         (in_tolerances(start, start, tolerances), in_tolerances(slope, start, tolerances));
-    // An explicit Euler step that moves the state by a hundredth of its size. Near zero that says nothing: a small step.
+    // An explicit Euler step that moves the state by a hundredth of its size. A state or a rate near zero gives no scale:
+    // then a small step.
     let euler = if size > 1e-5 && rate > 1e-5 { 0.01 * size / rate } else { 1e-6 };
     let mut ahead = *start;
     ahead.add(euler, slope);
@@ -26,7 +27,7 @@ pub(super) fn first_step<V: Vector>(
     let mut bend = field(euler, &ahead);
     bend.add(-1.0, slope);
     let worst = rate.max(in_tolerances(&bend, start, tolerances) / euler);
-    // hᵖ max(|x′|, |x″|) = 0.01 with p = `order`. A field that is almost zero says nothing about the step.
+    // hᵖ max(|x′|, |x″|) = 0.01 with p = `order`. A field that is almost zero gives no scale.
     let refined = if worst > 1e-15 {
         pxfm::f_pow(0.01 / worst, 1.0 / f64::from(order))
     } else {

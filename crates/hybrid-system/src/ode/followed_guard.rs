@@ -34,7 +34,7 @@ const SHORTER: f64 = 0.01;
 const DIFFERENCE_REACH: f64 = 1e-8;
 
 /// A guard has a rate at the start if its change over both sides exceeds this multiple of its bend. Where the bend is as
-/// large as the change, one side may rise while the other falls, and the sign of the difference says nothing.
+/// large as the change, the guard may fall on one side and rise on the other, and the difference has no meaning.
 const STRAIGHT: f64 = 1.0;
 
 /// A step is passed over if the guard's smallest distance from zero is more than one half of its variation.
@@ -53,7 +53,7 @@ pub(super) struct FollowedGuard {
     start_rounding: f64,
 }
 
-/// What one step holds.
+/// The result of the search on one step.
 pub(super) enum StepOutcome {
     /// A crossing.
     Crossing {

@@ -1,4 +1,4 @@
-//! What a polynomial through a guard's values says about the zeros of the guard.
+//! A test for zeros of a guard, by the polynomial through its values.
 //!
 //! On an interval, with u ∈ [−1, 1] for the time, the guard is represented by the polynomial Σ cₖ Tₖ(u) through its values
 //! at 16 Chebyshev nodes. |Tₖ| ≤ 1 and |Tₖ′| ≤ k². So, with ν a bound on the neglected coefficients and on rounding,
@@ -127,7 +127,7 @@ pub(super) fn test_leaving_zero(
     let mut divided = values.map(|value| value - start);
     let mut noise = COEFFICIENT_ROUNDING * largest + rounding + start.abs();
     for _order in 1..=HIGHEST_ORDER {
-        // A quotient of something that is not zero at the start has a pole there: its polynomial means nothing.
+        // If the numerator is not zero at the start, the quotient has a pole there, and a polynomial cannot represent it.
         if !starts_at_zero(&divided, noise) {
             break;
         }

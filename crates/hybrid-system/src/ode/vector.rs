@@ -1,4 +1,4 @@
-//! What the integrator needs of a state.
+//! The operations on states that the integrator needs.
 
 use super::scheme::ALL_STAGES;
 use super::tolerances::Tolerances;
