@@ -50,8 +50,8 @@ pub enum Stop {
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
-/// The iterator ends at a limit, at a terminal event, at a Zeno limit after which the model names no mode, when no event
-/// can follow, or after an error. [`stop`](Self::stop) tells which.
+/// The iterator ends at a limit, at a terminal event, at a Zeno limit after which the model names no mode, when no
+/// event can follow, or after an error. [`stop`](Self::stop) tells which.
 #[derive(Debug, Clone)]
 pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     system: &'a T,
@@ -68,8 +68,8 @@ pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     pending: Vec<T::Surface>,
 }
 
-/// Most events in a row without time passing. A few are normal where several guards are crossed together; more mean that
-/// the resets lead back to each other. The execution then ends with [`Error::TimelessChain`].
+/// Most events in a row without time passing. A few are normal where several guards are crossed together; more mean
+/// that the resets lead back to each other. The execution then ends with [`Error::TimelessChain`].
 const MOST_TIMELESS: usize = 1000;
 
 impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {

@@ -64,20 +64,21 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! More: [the mathematics](mathematics), [which certainty do I have?](certainty), and
-//! [a model of your own in 40 lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on
-//! another one and are released.
+//! More: [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 40
+//! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
+//! released.
 //!
 //! # Accuracy
-//! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given as a
-//! [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed. A start at zero is left by its
-//! derivatives. If rounding hides the answer, the result is an error. Along integrated flows guards are searched on
-//! polynomials, to the tolerances of the flow. A crossing found by sampling says so in its [`Certainty`].
+//! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard
+//! given as a [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed. A start at
+//! zero is left by its derivatives. If rounding hides the answer, the result is an error. Along integrated flows
+//! guards are searched on polynomials, to the tolerances of the flow. A crossing found by sampling says so in its
+//! [`Certainty`].
 //!
 //! # Speed
-//! Executions of fixed dimension with integrated modes allocate nothing, up to eight guards a mode. Quasi-polynomials
-//! allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost of an event for each kind of
-//! guard.
+//! Executions of fixed dimension with integrated modes allocate nothing, up to eight guards a mode.
+//! Quasi-polynomials allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost
+//! of an event for each kind of guard.
 //!
 //! # Not here
 //! Stiff integrators, differential-algebraic equations, sliding along surfaces (a model can have a mode for that). The

@@ -1,7 +1,7 @@
 //! How a small change of the start is carried through arcs and events: state transition and saltation matrices.
 //!
-//! Along an arc δx(t) = Φ(t) δx₀. An orbit with another start reaches the surface of an event earlier or later. Compared at
-//! the same time after the event,
+//! Along an arc δx(t) = Φ(t) δx₀. An orbit with another start reaches the surface of an event earlier or later.
+//! Compared at the same time after the event,
 //!
 //! ```text
 //!   δx⁺ = Ξ δx⁻      Ξ = DR + (f⁺ − DR f⁻) ∇gᵀ/(∇g·f⁻)
@@ -38,8 +38,8 @@ pub trait Differentiable<const N: usize>: VectorField<N> {
 /// [`Error::GrazingSensitivity`].
 const SMALLEST_RATE: f64 = 1e-12;
 
-/// The matrix from a small change of the start of `arc` to the change after the event that ends the arc, compared at the
-/// same time. If no event ends the arc, the change at its end.
+/// The matrix from a small change of the start of `arc` to the change after the event that ends the arc, compared
+/// at the same time. If no event ends the arc, the change at its end.
 ///
 /// ```
 /// use hybrid_system::*;
@@ -84,8 +84,8 @@ const SMALLEST_RATE: f64 = 1e-12;
 ///         Matrix2::new(0.0, 0.0, 0.0, -0.5)
 ///     }
 /// }
-/// // From the floor upwards with speed v the ball lands after 2v and leaves with v/2. A start that is faster by δ leaves
-/// // faster by δ/2 and later by 2δ. Compared at the same time it is faster by δ/2 + 2δ.
+/// // From the floor upwards with speed v the ball lands after 2v and leaves with v/2. A start that is faster by
+/// // δ leaves faster by δ/2 and later by 2δ. Compared at the same time it is faster by δ/2 + 2δ.
 /// let start = Vector2::new(0.0, 3.0);
 /// let arc = Execution::new(&Ball, (), start, Limits::new(100.0, 1)).next().expect("an arc")?;
 /// let change = arc_sensitivity(&Ball, &arc)? * Vector2::new(0.0, 1.0);
@@ -114,12 +114,13 @@ where
     Ok((reset - jump * arrival) * along)
 }
 
-/// The matrices from a small change of the start of `arc` to the change of the state right after the event that ends the
-/// arc, and to the change of the time τ of that event: (∂x⁺/∂x₀, ∂τ/∂x₀). States are compared at the event, not at the
-/// same time.
+/// The matrices from a small change of the start of `arc` to the change of the state right after the event that
+/// ends the arc, and to the change of the time τ of that event: (∂x⁺/∂x₀, ∂τ/∂x₀). States are compared at the
+/// event, not at the same time.
 ///
 /// # Errors
-/// Those of [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the event ends the execution.
+/// Those of [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the event ends the
+/// execution.
 pub fn event_sensitivity<T, const N: usize>(
     system: &T,
     arc: &Arc<T::Mode, T::Surface, N>,

@@ -1,8 +1,9 @@
 //! Events at the same instant.
 //!
-//! Of guards that are crossed together, the one listed first is the event. The state after its reset decides about the
-//! others. A guard that is still at its surface, and goes on through it to the other side, is an event at the same instant.
-//! A guard that the reset turned back is none. This is statement (9) of [mathematics](crate::mathematics).
+//! Of guards that are crossed together, the one listed first is the event. The state after its reset decides about
+//! the others. A guard that is still at its surface, and goes on through it to the other side, is an event at the
+//! same instant. A guard that the reset turned back is none. This is statement (9) of
+//! [mathematics](crate::mathematics).
 
 use crate::arc::Arc;
 use crate::crossing::guard_rounding;
@@ -10,28 +11,29 @@ use crate::guard::Direction;
 use crate::state::State;
 use crate::system::HybridSystem;
 
-/// Two events are at the same instant if their times differ by this many ulps at most. A crossing is moved up to some ulps
-/// past its root, and each guard has its own rounding. A larger number would join events that are distinct; a smaller one
-/// would lose an event: the next arc would start beyond its surface.
+/// Two events are at the same instant if their times differ by this many ulps at most. A crossing is moved up to
+/// some ulps past its root, and each guard has its own rounding. A larger number would join events that are
+/// distinct; a smaller one would lose an event: the next arc would start beyond its surface.
 const SAME_INSTANT_ULPS: f64 = 16.0;
 
-/// Largest value of a guard at the end of an arc, relative to its values at both ends, for which the flow is evaluated once
-/// more. Within 16 ulps of the duration a guard moves that far only if its slope there is 10⁸ times its mean slope.
+/// Largest value of a guard at the end of an arc, relative to its values at both ends, for which the flow is
+/// evaluated once more. Within 16 ulps of the duration a guard moves that far only if its slope there is 10⁸ times
+/// its mean slope.
 const NEAR_SURFACE: f64 = 1e-6;
 
-/// Number of times at which a guard is looked at after a reset, to see to which side it goes: LONGEST_LOOK · 2⁻³⁹, 2⁻³⁸, …
-/// 1. The shortest, 2·10⁻¹², is near the rounding of a guard that moves at a rate of 1.
+/// Number of times at which a guard is looked at after a reset, to see to which side it goes: LONGEST_LOOK · 2⁻³⁹,
+/// 2⁻³⁸, … 1. The shortest, 2·10⁻¹², is near the rounding of a guard that moves at a rate of 1.
 const LOOKS: i32 = 40;
 
-/// The longest of these times, if the limit on time is not before it: one unit of time, because the scale of the model is
-/// not known.
+/// The longest of these times, if the limit on time is not before it: one unit of time, because the scale of the
+/// model is not known.
 const LONGEST_LOOK: f64 = 1.0;
 
 /// A guard has left its surface when its value is this many times its rounding error.
 const LEFT_SURFACE: f64 = 4.0;
 
-/// The other guards, besides the one that was `crossed`, that are at their surfaces at the end of an arc and come from the
-/// side from which a crossing counts.
+/// The other guards, besides the one that was `crossed`, that are at their surfaces at the end of an arc and come
+/// from the side from which a crossing counts.
 pub(crate) fn also_at_surface<T, const N: usize>(
     system: &T,
     arc: &Arc<T::Mode, T::Surface, N>,
@@ -63,8 +65,8 @@ fn may_cross_from(direction: Direction, value: f64) -> bool {
     direction.admits(value, -value)
 }
 
-/// The next event at the same instant: the first of the `pending` surfaces, in the order of the guards of `mode`, that the
-/// state is still on and goes through; `None` if there is none.
+/// The next event at the same instant: the first of the `pending` surfaces, in the order of the guards of `mode`,
+/// that the state is still on and goes through; `None` if there is none.
 pub(crate) fn next_at_same_instant<T, const N: usize>(
     system: &T,
     mode: T::Mode,

@@ -22,10 +22,10 @@ pub enum Reset<M, const N: usize> {
 
 /// A hybrid dynamical system.
 ///
-/// In mode m the state follows x(t) = φ_m(t; x₀). When a guard of the mode is crossed, a reset gives the next mode and
-/// state. Four methods are required; parameters are fields of the implementing type. A model that can solve its own
-/// crossings overrides [`first_crossing`](Self::first_crossing) and says in the result how sure it is. In a mode without
-/// closed form, `integrated_flow` and `integrated_crossing` (feature `ode`) provide both methods.
+/// In mode m the state follows x(t) = φ_m(t; x₀). When a guard of the mode is crossed, a reset gives the next mode
+/// and state. Four methods are required; parameters are fields of the implementing type. A model that can solve its
+/// own crossings overrides [`first_crossing`](Self::first_crossing) and says in the result how sure it is. In a
+/// mode without closed form, `integrated_flow` and `integrated_crossing` (feature `ode`) provide both methods.
 pub trait HybridSystem<const N: usize> {
     /// The discrete states.
     type Mode: Copy + Eq + Debug;
@@ -38,8 +38,9 @@ pub trait HybridSystem<const N: usize> {
 
     /// The guards watched in `mode`.
     ///
-    /// Of guards that are crossed at the same instant, within a few ulps, the one listed first is the event. Another one
-    /// is an event at the same instant, after it, if the state after the first reset goes on through its surface.
+    /// Of guards that are crossed at the same instant, within a few ulps, the one listed first is the event.
+    /// Another one is an event at the same instant, after it, if the state after the first reset goes on through
+    /// its surface.
     fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
 
     /// The function g whose zero set is the surface.
@@ -76,11 +77,11 @@ pub trait HybridSystem<const N: usize> {
         None
     }
 
-    /// An interval that holds dᵏ/dtᵏ g(φ(t; x₀)), k = `order`, at all times in [`from`, `to`], roundings included. Order 0
-    /// is the guard itself.
+    /// An interval that holds dᵏ/dtᵏ g(φ(t; x₀)), k = `order`, at all times in [`from`, `to`], roundings included.
+    /// Order 0 is the guard itself.
     ///
-    /// Bounds of orders 0 and 1 for every interval are enough to find crossings with certainty. Order 2 makes the search
-    /// faster. A start at which the derivatives below order k are zero needs the orders up to k.
+    /// Bounds of orders 0 and 1 for every interval are enough to find crossings with certainty. Order 2 makes the
+    /// search faster. A start at which the derivatives below order k are zero needs the orders up to k.
     ///
     /// Provided: `None`.
     fn guard_enclosure(
@@ -106,10 +107,10 @@ pub trait HybridSystem<const N: usize> {
     /// [`Certainty::Sampled`](crate::Certainty::Sampled).
     ///
     /// # Errors
-    /// [`Error::Grazing`] if a guard under bounds comes so close to zero that rounding hides whether it crosses, and the
-    /// errors of [`QuasiPolynomial::first_crossing`]; [`Error::NoSamplingInterval`] if a guard must be sampled and there is
-    /// no interval; [`Error::UndecidedStart`] if a sampled guard is zero at the start and beyond its surface at the first
-    /// sample.
+    /// [`Error::Grazing`] if a guard under bounds comes so close to zero that rounding hides whether it crosses,
+    /// and the errors of [`QuasiPolynomial::first_crossing`]; [`Error::NoSamplingInterval`] if a guard must be
+    /// sampled and there is no interval; [`Error::UndecidedStart`] if a sampled guard is zero at the start and
+    /// beyond its surface at the first sample.
     fn first_crossing(
         &self,
         mode: Self::Mode,

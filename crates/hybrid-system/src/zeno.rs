@@ -7,10 +7,10 @@ use crate::state::State;
 
 /// The limit of infinitely many events in finite time.
 ///
-/// An execution recognises it by the durations of its last arcs. Over five periods the durations must shrink by the same
-/// factor, to one per cent of the factor, and the sum of all further durations must be below 10⁻¹² of the time so far. If
-/// rounding hides the next event, two periods, ten per cent and 10⁻⁵ are enough. The limit is that of the geometric
-/// series.
+/// An execution recognises it by the durations of its last arcs. Over five periods the durations must shrink by the
+/// same factor, to one per cent of the factor, and the sum of all further durations must be below 10⁻¹² of the time
+/// so far. If rounding hides the next event, two periods, ten per cent and 10⁻⁵ are enough. The limit is that of
+/// the geometric series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ZenoLimit<const N: usize> {
     /// Time of the limit: the sum of all durations.
@@ -39,23 +39,23 @@ struct Criterion {
 }
 
 /// The usual case. The remainder is the error of stopping early: far below every tolerance of the model, and far above
-/// the rounding of the time, 10⁻¹⁶. Five factors within one per cent do not occur by chance in a motion that continues.
+/// the rounding of the time, 10⁻¹⁶. Five factors within one per cent are unlikely by chance.
 const USUAL: Criterion = Criterion { periods: 5, spread: 0.01, remainder: 1e-12 };
 
-/// If rounding hides the next event, the execution cannot continue in any other way. The last durations are rounded then,
-/// and so the factors differ more. A guard at a surface of size 1 hides a bounce of duration t if its height, of order t²,
-/// is below 10⁻¹⁶: the remainder may be as large as about 10⁻⁷, for large coordinates more.
+/// If rounding hides the next event, the execution cannot continue in any other way. The last durations are rounded
+/// then, and so the factors differ more. A guard at a surface of size 1 hides a bounce of duration t if its height,
+/// of order t², is below 10⁻¹⁶: the remainder may be as large as about 10⁻⁷, for large coordinates more.
 const NEXT_EVENT_HIDDEN: Criterion = Criterion { periods: 2, spread: 0.1, remainder: 1e-5 };
 
-/// Longest period that is looked for, in events. A longer one costs more arcs before the limit is recognised, and a longer
-/// history.
+/// Longest period that is looked for, in events. A longer one costs more arcs before the limit is recognised, and a
+/// longer history.
 const LONGEST_PERIOD: usize = 4;
 
 /// Number of arcs kept: one period more than the factors that must agree, because a factor compares two periods.
 const KEPT: usize = (USUAL.periods + 1) * LONGEST_PERIOD;
 
-/// The longest last arc, relative to the time so far, that may be followed by a Zeno limit. This test makes the usual arc
-/// cheap; it only delays the recognition of a limit whose factor is below 10⁻⁹.
+/// The longest last arc, relative to the time so far, that may be followed by a Zeno limit. This test makes the
+/// usual arc cheap; it only delays the recognition of a limit whose factor is below 10⁻⁹.
 const LONGEST_LAST_ARC: f64 = 1e-3;
 
 /// The last arcs: their durations, and the states after them, the newest last.
@@ -85,8 +85,8 @@ impl<const N: usize> History<N> {
 
     /// The Zeno limit that the last arcs lead to; `None` if they do not.
     ///
-    /// `time` is the time of the last event, `events` the number of all events so far. `next_event_hidden` says that the
-    /// search for the next event failed because of rounding.
+    /// `time` is the time of the last event, `events` the number of all events so far. `next_event_hidden` says
+    /// that the search for the next event failed because of rounding.
     pub(crate) fn zeno_limit(
         &self,
         time: f64,

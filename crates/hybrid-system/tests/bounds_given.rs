@@ -74,7 +74,8 @@ fn diffeqgpu_540_at_the_end_time() {
     assert_eq!(arcs.last().unwrap().end, ArcEnd::TimeLimit);
 }
 
-/// A guard e^(−t) − 1/10 with enclosures, alone, and together with a guard that must be sampled: the weaker certainty counts.
+/// A guard e^(−t) − 1/10 with enclosures, alone, and together with a guard that must be sampled: the weaker
+/// certainty counts.
 #[test]
 fn the_weakest_certainty_counts() {
     struct Decay {

@@ -1,5 +1,5 @@
-//! Events along integrated flows: each is found once, without a limit on the size of steps. Names of tests say where a case
-//! comes from.
+//! Events along integrated flows: each is found once, without a limit on the size of steps. Names of tests say
+//! where a case comes from.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -233,8 +233,8 @@ fn a_flow_that_does_not_exist_is_an_error() {
 }
 
 proptest! {
-    /// Random roots, also close together and close to the start: each is found once, in order. Roots that rounding hides
-    /// are reported as errors.
+    /// Random roots, also close together and close to the start: each is found once, in order. Roots that rounding
+    /// hides are reported as errors.
     #[test]
     fn planted_roots_are_found_in_order(mut roots in proptest::collection::vec(1e-3..5.0f64, 1..7), twin in -7.5..-3.0f64) {
         let twin = 10f64.powf(twin);

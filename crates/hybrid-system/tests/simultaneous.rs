@@ -57,7 +57,8 @@ fn run(corner: &Corner, start: State<4>) -> (Vec<Wall>, State<4>) {
     (walls, end)
 }
 
-/// From many places on the diagonal of the corner, with rounded numbers: both walls reverse the point, the left one first.
+/// From many places on the diagonal of the corner, with rounded numbers: both walls reverse the point, the left one
+/// first.
 #[test]
 fn both_walls_of_a_corner() {
     for bounds in [true, false] {

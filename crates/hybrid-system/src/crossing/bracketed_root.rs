@@ -1,8 +1,8 @@
 //! The root of a function on a bracket that is already certain.
 //!
 //! This is the only file that calls the `roots` crate. It works around two properties of that crate's
-//! `find_root_brent`: the function decides signs by products, which underflow for values around 1e-166, and it may return
-//! an iterate that is older than its last bracket.
+//! `find_root_brent`: the function decides signs by products, which underflow for values around 1e-166, and it may
+//! return an iterate that is older than its last bracket.
 
 use crate::error::Error;
 use roots::{Convergency, SearchError, find_root_brent};
@@ -12,8 +12,9 @@ use roots::{Convergency, SearchError, find_root_brent};
 /// search ends with [`Error::NoConvergence`].
 const MOST_ITERATIONS: usize = 1200;
 
-/// Smaller values, relative to the larger end value, are replaced by this one with their sign. The product of two of them
-/// is 1e-300, which does not underflow. It is far below every rounding error, so that only signs are affected.
+/// Smaller values, relative to the larger end value, are replaced by this one with their sign. The product of two
+/// of them is 1e-300, which does not underflow. It is far below every rounding error, so that only signs are
+/// affected.
 const SMALLEST_VALUE: f64 = 1e-150;
 
 /// Stops at an exact zero or when the bracket is two ulps wide.
@@ -64,8 +65,8 @@ pub fn bracketed_root(
     }
 
     let scale = at_left.abs().max(at_right.abs());
-    // Invariant: the function has opposite signs at `low` and `high` (or is zero at `high`), and no point seen lies between them. So the sign
-    // changes between these two neighbours, even if the function jumps.
+    // Invariant: the function has opposite signs at `low` and `high` (or is zero at `high`), and no point seen lies
+    // between them. So the sign changes between these two neighbours, even if the function jumps.
     let mut low = (left, at_left);
     let mut high = (right, at_right);
     let mut not_finite = None;

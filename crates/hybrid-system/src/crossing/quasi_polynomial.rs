@@ -102,9 +102,9 @@ impl QuasiPolynomial {
 
     /// Bound on the rounding error of [`value`](Self::value) for |t| ≤ `time`.
     ///
-    /// In units of ε times the bound of each term: two roundings for each coefficient (Horner's product and sum) and two
-    /// for each term of the sum; four for the sine, the cosine and the two products with them; |ωt| for the rounding of
-    /// the phase, which moves a sine by that much.
+    /// In units of ε times the bound of each term: two roundings for each coefficient (Horner's product and sum)
+    /// and two for each term of the sum; four for the sine, the cosine and the two products with them; |ωt| for the
+    /// rounding of the phase, which moves a sine by that much.
     pub(crate) fn rounding(&self, time: f64) -> f64 {
         let of_term = |term: &Term| {
             let terms = (term.cos.len() + term.sin.len() + self.terms.len()) as f64;

@@ -24,8 +24,8 @@ use crate::guard::Direction;
 /// hides, for the report of a grazing: a larger number makes the reported stretch longer, not the search less certain.
 const CLEAR: f64 = 4.0;
 
-/// Highest order of a zero at the start that is tried. The tests go to order 8; the limit only bounds the array of lower
-/// terms. A zero of higher order is [`Error::UndecidedSign`].
+/// Highest order of a zero at the start that is tried. The tests go to order 8; the limit only bounds the array of
+/// lower terms. A zero of higher order is [`Error::UndecidedSign`].
 const HIGHEST_ORDER: u32 = 16;
 
 /// Most intervals that are tested, a guard against a search that takes too long. Every oscillation up to the horizon
@@ -51,8 +51,8 @@ impl QuasiPolynomial {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for coefficients that are not finite; [`Error::BadLimit`] unless `horizon` is finite and not
-    /// negative; [`Error::UndecidedSign`] if rounding hides the side to which the function leaves zero;
+    /// [`Error::NotFinite`] for coefficients that are not finite; [`Error::BadLimit`] unless `horizon` is finite
+    /// and not negative; [`Error::UndecidedSign`] if rounding hides the side to which the function leaves zero;
     /// [`Error::NoConvergence`] after a million intervals.
     pub fn first_crossing(
         &self,

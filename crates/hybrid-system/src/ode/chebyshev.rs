@@ -30,8 +30,8 @@ impl Transform {
         Transform { nodes, weights }
     }
 
-    /// The first K Chebyshev coefficients of the polynomial with these values at the nodes: numbers, or states component by
-    /// component.
+    /// The first K Chebyshev coefficients of the polynomial with these values at the nodes: numbers, or states
+    /// component by component.
     pub(super) fn coefficients<T, const K: usize>(&self, values: &[T; NODES]) -> [T; K]
     where
         T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,

@@ -18,8 +18,8 @@ pub(super) fn first_step<V: Vector>(
 ) -> f64 {
     let (size, rate) =
         (in_tolerances(start, start, tolerances), in_tolerances(slope, start, tolerances));
-    // An explicit Euler step that moves the state by a hundredth of its size. A state or a rate near zero gives no scale:
-    // then a small step.
+    // An explicit Euler step that moves the state by a hundredth of its size. A state or a rate near zero gives no
+    // scale: then a small step.
     let euler = if size > 1e-5 && rate > 1e-5 { 0.01 * size / rate } else { 1e-6 };
     let mut ahead = *start;
     ahead.add(euler, slope);

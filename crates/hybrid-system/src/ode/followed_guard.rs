@@ -7,34 +7,36 @@ use crate::error::Error;
 use crate::guard::Direction;
 use crate::state::State;
 
-/// Depth of halving of one step, and so the length of the list of open intervals, which is kept on the stack. 53 halvings
-/// reach the rounding of times in the middle of a step; near time zero doubles are denser, and more would be possible. An
-/// interval at this depth is treated as one that rounding hides.
+/// Depth of halving of one step, and so the length of the list of open intervals, which is kept on the stack. 53
+/// halvings reach the rounding of times in the middle of a step; near time zero doubles are denser, and more would
+/// be possible. An interval at this depth is treated as one that rounding hides.
 const MOST_HALVINGS: usize = 64;
 
 /// Most intervals of one step that are tested, a guard against a search without end. The search then ends with
 /// [`Error::NoConvergence`].
 const MOST_INTERVALS: usize = 100_000;
 
-/// Rounding error of an interpolant, in units of that of the largest state on its step: its weights are large and of both
-/// signs, so that digits cancel. The value is an estimate, not derived. If it is too small, rounding is taken for a crossing; if it
-/// is too large, grazings are reported too early.
+/// Rounding error of an interpolant, in units of that of the largest state on its step: its weights are large and
+/// of both signs, so that digits cancel. The value is an estimate, not derived. If it is too small, rounding is
+/// taken for a crossing; if it is too large, grazings are reported too early.
 const INTERPOLANT_ROUNDING: f64 = 64.0;
 
-/// A shorter first step is tried if the rounding of the guard on the step exceeds that at the start by this factor, four
-/// times the one that every step has. Below it a shorter step could not show more.
+/// A shorter first step is tried if the rounding of the guard on the step exceeds that at the start by this factor,
+/// four times the one that every step has. Below it a shorter step could not show more.
 const COARSE: f64 = 4.0 * INTERPOLANT_ROUNDING;
 
-/// Length of the shorter first step, relative to the one that was too long. The rounding shrinks with it, by two digits at
-/// a time.
+/// Length of the shorter first step, relative to the one that was too long. The rounding shrinks with it, by two
+/// digits at a time.
 const SHORTER: f64 = 0.01;
 
-/// How far the state is moved along its rate, relative to its size, to see the rate of a guard at the start: about √ε, as
-/// for finite differences. The rounding of the difference is 1e-8 of it, and so is the effect of the guard's bend.
+/// How far the state is moved along its rate, relative to its size, to see the rate of a guard at the start: about
+/// √ε, as for finite differences. The rounding of the difference is 1e-8 of it, and so is the effect of the guard's
+/// bend.
 const DIFFERENCE_REACH: f64 = 1e-8;
 
-/// A guard has a rate at the start if its change over both sides exceeds this multiple of its bend. Where the bend is as
-/// large as the change, the guard may fall on one side and rise on the other, and the difference has no meaning.
+/// A guard has a rate at the start if its change over both sides exceeds this multiple of its bend. Where the bend
+/// is as large as the change, the guard may fall on one side and rise on the other, and the difference has no
+/// meaning.
 const STRAIGHT: f64 = 1.0;
 
 /// A step is passed over if the guard's smallest distance from zero is more than one half of its variation.
@@ -67,8 +69,8 @@ pub(super) enum StepOutcome {
         /// Value of the guard there.
         value: f64,
     },
-    /// Rounding hides what the guard does after its start. Either it starts too close to zero for a step of this length,
-    /// or it left zero to one side and is found on the other.
+    /// Rounding hides what the guard does after its start. Either it starts too close to zero for a step of this
+    /// length, or it left zero to one side and is found on the other.
     HiddenByRounding {
         /// End of the hidden time.
         until: f64,
@@ -101,8 +103,8 @@ impl FollowedGuard {
         Ok(FollowedGuard { direction, side, rate, start: value, start_rounding: rounding })
     }
 
-    /// True if the guard stays on its side along a step, as far as these values show: the smallest distance from zero is
-    /// more than half of the difference between the largest and the smallest.
+    /// True if the guard stays on its side along a step, as far as these values show: the smallest distance from
+    /// zero is more than half of the difference between the largest and the smallest.
     ///
     /// This is no bound. A dip to zero and back shows in the values if it takes an eighth of the step.
     pub(super) fn stays_away(&self, values: impl Iterator<Item = f64>) -> bool {
@@ -137,8 +139,8 @@ impl FollowedGuard {
         if coarse && may_cross && self.start.abs() <= LEFT_ZERO * rounding_near(step.from) {
             return hidden();
         }
-        // Invariant: no crossing in (step.from, left], and the guard is on `side` just after `left`. The rest is divided
-        // into intervals; the first `open` entries of `ends` are their right ends, the nearest one last.
+        // Invariant: no crossing in (step.from, left], and the guard is on `side` just after `left`. The rest is
+        // divided into intervals; the first `open` entries of `ends` are their right ends, the nearest one last.
         let mut left = step.from;
         let mut ends = [until; MOST_HALVINGS];
         let mut open = 1;

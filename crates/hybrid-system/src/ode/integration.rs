@@ -9,9 +9,9 @@ use super::vector::Vector;
 use crate::error::Error;
 use crate::state::State;
 
-// The step-size controller: h_new = h · clamp(SAFETY · error^(−1/order), SMALLEST_FACTOR, LARGEST_FACTOR), with the error
-// in units of the tolerance. Its constants are the usual ones (Hairer, Nørsett, Wanner, II.4). They trade rejected steps
-// for shorter steps and never affect whether a step meets its tolerance.
+// The step-size controller: h_new = h · clamp(SAFETY · error^(−1/order), SMALLEST_FACTOR, LARGEST_FACTOR), with the
+// error in units of the tolerance. Its constants are the usual ones (Hairer, Nørsett, Wanner, II.4). They trade
+// rejected steps for shorter steps and never affect whether a step meets its tolerance.
 
 /// Safety factor of the step-size controller. Steps of exactly the predicted size would often be rejected.
 const SAFETY: f64 = 0.9;
@@ -34,8 +34,8 @@ const MOST_TRIALS: usize = 100;
 /// A solution of ẋ = f(t, x), followed step by step.
 ///
 /// The scheme is Verner's pair of orders 9 and 8, or of orders 8 and 7 for relative tolerances from 2e-11 on. The
-/// tolerance bounds the estimated error of each step. The flow carries these errors on, and they add up. The results are
-/// the same on every machine if those of the field are. Nothing is allocated.
+/// tolerance bounds the estimated error of each step. The flow carries these errors on, and they add up. The
+/// results are the same on every machine if those of the field are. Nothing is allocated.
 ///
 /// ```
 /// use hybrid_system::{Integration, Tolerances};
@@ -112,11 +112,11 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         self.inner.inside()
     }
 
-    /// States along the last step that cost no evaluation of the field: those of its stages, and nine of the cubic through
-    /// both ends with their slopes, an eighth of the step apart.
+    /// States along the last step that cost no evaluation of the field: those of its stages, and nine of the cubic
+    /// through both ends with their slopes, an eighth of the step apart.
     ///
-    /// They follow the shape of the orbit, not its digits: the stages are of low order, and the error of the cubic is of
-    /// order h⁴. They serve to see that a guard stays far from zero.
+    /// They follow the shape of the orbit, not its digits: the stages are of low order, and the error of the cubic
+    /// is of order h⁴. They serve to see that a guard stays far from zero.
     pub(super) fn samples(&self) -> impl Iterator<Item = State<N>> {
         let Steps { before, state, slopes, slope, last, stages, scheme, .. } = &self.inner;
         let cubic = (0..=8).map(move |k| {
@@ -249,8 +249,8 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
 
     /// The state at a time in the last step, by a separate step that ends there.
     ///
-    /// Unlike the interpolant, whose coefficients are large and cancel, this loses no digits. Its stages overwrite those
-    /// of the last step.
+    /// Unlike the interpolant, whose coefficients are large and cancel, this loses no digits. Its stages overwrite
+    /// those of the last step.
     pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
         let size = time - self.from;
         let mut state = self.before;

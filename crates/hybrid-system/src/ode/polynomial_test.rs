@@ -1,7 +1,8 @@
 //! A test for zeros of a guard, by the polynomial through its values.
 //!
-//! On an interval, with u ∈ [−1, 1] for the time, the guard is represented by the polynomial Σ cₖ Tₖ(u) through its values
-//! at 16 Chebyshev nodes. |Tₖ| ≤ 1 and |Tₖ′| ≤ k². So, with ν a bound on the neglected coefficients and on rounding,
+//! On an interval, with u ∈ [−1, 1] for the time, the guard is represented by the polynomial Σ cₖ Tₖ(u) through its
+//! values at 16 Chebyshev nodes. |Tₖ| ≤ 1 and |Tₖ′| ≤ k². So, with ν a bound on the neglected coefficients and on
+//! rounding,
 //!
 //! ```text
 //!   |c₀| > Σ|cₖ| + ν         no zero on the interval
@@ -14,8 +15,8 @@ use super::chebyshev::{CHEBYSHEV, NODES};
 use crate::error::Error;
 
 /// The neglected coefficients are taken to add up to this many times the last two, |c₁₄| + |c₁₅|. That holds for
-/// coefficients that decay like ρᵏ with ρ²/(1 − ρ²) ≤ 8, ρ ≤ 0.94. Slower decay makes the last coefficients large, so that
-/// the test fails and the interval is halved. A factor that is too small would let a zero pass unseen.
+/// coefficients that decay like ρᵏ with ρ²/(1 − ρ²) ≤ 8, ρ ≤ 0.94. Slower decay makes the last coefficients large,
+/// so that the test fails and the interval is halved. A factor that is too small would let a zero pass unseen.
 const NEGLECTED: f64 = 8.0;
 
 /// Relative rounding error of a coefficient: a product and a sum for each of the 16 values.
@@ -30,8 +31,8 @@ const SLOPE_OF_ONES: f64 = 1240.0;
 /// hold the next crossing already.
 pub(super) const LEFT_ZERO: f64 = 1000.0;
 
-/// Highest order of a zero at the start. Each order divides by τ ≥ 0.0024, and so multiplies the noise by up to 415: after
-/// four divisions a noise of 32ε is 2·10⁻⁴ of the values, after a fifth one it would be a tenth of them.
+/// Highest order of a zero at the start. Each order divides by τ ≥ 0.0024, and so multiplies the noise by up to
+/// 415: after four divisions a noise of 32ε is 2·10⁻⁴ of the values, after a fifth one it would be a tenth of them.
 const HIGHEST_ORDER: usize = 4;
 
 /// The answer of the test.
@@ -104,8 +105,8 @@ fn starts_at_zero(values: &[f64; NODES], noise: f64) -> bool {
 
 /// Tests how a guard leaves a zero at the left end of the interval.
 ///
-/// With τ ∈ (0, 1) for the time, the guard leaves zero with the sign of (g(t) − g(0))/τᵏ, if that quotient has no zero on
-/// the interval and the quotients for smaller k start at zero.
+/// With τ ∈ (0, 1) for the time, the guard leaves zero with the sign of (g(t) − g(0))/τᵏ, if that quotient has no
+/// zero on the interval and the quotients for smaller k start at zero.
 pub(super) fn test_leaving_zero(
     along: impl Fn(f64) -> f64,
     left: f64,
@@ -127,7 +128,8 @@ pub(super) fn test_leaving_zero(
     let mut divided = values.map(|value| value - start);
     let mut noise = COEFFICIENT_ROUNDING * largest + rounding + start.abs();
     for _order in 1..=HIGHEST_ORDER {
-        // If the numerator is not zero at the start, the quotient has a pole there, and a polynomial cannot represent it.
+        // If the numerator is not zero at the start, the quotient has a pole there, and a polynomial cannot
+        // represent it.
         if !starts_at_zero(&divided, noise) {
             break;
         }

@@ -1,8 +1,8 @@
 //! The Runge–Kutta schemes: J. H. Verner's "efficient" pairs of orders 9(8) and 8(7), with interpolants of order 8.
 //!
-//! The coefficients are the tables `rkv988e` and `rkv878e` of the crate `differential-equations`, which copies them from
-//! Verner's pages. This is the only file that uses that crate, and only for these tables. The tests check the sums that make
-//! a scheme consistent.
+//! The coefficients are the tables `rkv988e` and `rkv878e` of the crate `differential-equations`, which copies them
+//! from Verner's pages. This is the only file that uses that crate, and only for these tables. The tests check the
+//! sums that make a scheme consistent.
 
 use super::chebyshev::{CHEBYSHEV, NODES};
 use differential_equations::tableau::ButcherTableau;
@@ -37,8 +37,9 @@ static NINE: LazyLock<Scheme> =
 static EIGHT: LazyLock<Scheme> =
     LazyLock::new(|| Scheme::new(8, &ButcherTableau::<f64, 13, ALL_STAGES>::rkv878e()));
 
-/// The tolerance below which order nine takes less time. Chosen by measurement, on the pressure relief valve of the crate
-/// `return-map`, whose steps are limited by stability. It affects speed only: both schemes meet every tolerance.
+/// The tolerance below which order nine takes less time. Chosen by measurement, on the pressure relief valve of the
+/// crate `return-map`, whose steps are limited by stability. It affects speed only: both schemes meet every
+/// tolerance.
 const TIGHT: f64 = 2e-11;
 
 impl Scheme {
@@ -104,8 +105,8 @@ fn compensated(c: &[f64], s: f64) -> f64 {
 pub(super) fn inverse_root(x: f64, order: u32) -> f64 {
     /// The bits of 1.0.
     const ONE: u64 = 0x3ff0_0000_0000_0000;
-    // The bits of a double, read as an integer, are a piecewise linear approximation of its logarithm, with 1.0 as zero:
-    // log y = −(log x)/order.
+    // The bits of a double, read as an integer, are a piecewise linear approximation of its logarithm, with 1.0 as
+    // zero: log y = −(log x)/order.
     let parts = u64::from(order);
     // Zero and subnormal numbers do not follow that rule.
     let x = x.max(f64::MIN_POSITIVE);

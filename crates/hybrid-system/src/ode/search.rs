@@ -9,9 +9,9 @@ use crate::error::Error;
 use crate::state::State;
 use crate::system::HybridSystem;
 
-/// How far a crossing is moved at most when it is polished, in units of the step: the least of these that shows a change
-/// of sign. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary slope; a guard that is crossed
-/// slowly needs more. Past the last value the crossing stays where the interpolant has it.
+/// How far a crossing is moved at most when it is polished, in units of the step: the least of these that shows a
+/// change of sign. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary slope; a guard
+/// that is crossed slowly needs more. Past the last value the crossing stays where the interpolant has it.
 const POLISHING_REACHES: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
 
 /// Guards of one mode that are followed without allocating. More guards cost one allocation for each search.
@@ -146,8 +146,8 @@ where
 /// A crossing freed of the rounding of the interpolant, with the state there.
 ///
 /// A separate step from the start of the last step to `time` gives the state without that rounding. The difference
-/// between the two states changes little around `time`; so it is added to the interpolant, and the crossing is found once
-/// more, next to the old one.
+/// between the two states changes little around `time`; so it is added to the interpolant, and the crossing is
+/// found once more, next to the old one.
 fn polished<F, const N: usize>(
     integration: &mut Integration<F, N>,
     step: &Step<N>,

@@ -4,8 +4,8 @@ use super::chebyshev::{CHEBYSHEV, NODES};
 use crate::state::State;
 use std::cell::OnceCell;
 
-/// Chebyshev coefficients that are kept: all of them. The interpolants have degree eight at most, so that the other seven
-/// of the 16 are rounding.
+/// Chebyshev coefficients that are kept: all of them. The interpolants have degree eight at most, so that the other
+/// seven of the 16 are rounding.
 const COEFFICIENTS: usize = 9;
 
 /// The state along one step: component by component a polynomial in u ∈ [−1, 1], t = middle + u·radius.
