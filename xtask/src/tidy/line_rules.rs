@@ -7,7 +7,7 @@ use super::sources::Source;
 /// The file that calls loops compiled for wider vectors, after asking the processor.
 const WITH_UNSAFE_CODE: &str = "crates/passive-hopper/src/kernel/batch/simd.rs";
 /// The file that calls the root finder of the `roots` crate, on brackets that are certain.
-const WITH_ROOTS: &str = "crates/hybrid-system/src/bracketed_root.rs";
+const WITH_ROOTS: &str = "crates/hybrid-system/src/crossing/bracketed_root.rs";
 /// Lines of a file. The numerical crates that were read as examples stay below it; past it a file held more
 /// than one concept each time.
 const LONGEST_FILE: usize = 400;

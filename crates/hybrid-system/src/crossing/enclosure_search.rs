@@ -1,4 +1,4 @@
-//! Guards along a flow by bounds that the model gives: the first zero, with certainty.
+//! The first zero of a guard by bounds that the model gives.
 //!
 //! With enclosures G₀, G₁, G₂ of g, g′ and g″ on an interval with middle m and half length r:
 //!
@@ -7,75 +7,39 @@
 //!   0 ∉ G₁,  or  0 ∉ g′(m) ± r |G₂|     monotone: a zero if and only if its sign changes
 //!   else                                the interval is halved
 //! ```
+//!
+//! These are statements (2) and (3) of [mathematics](crate::mathematics), with the model's bounds.
 
-use crate::certain_crossing::closest;
-use crate::{Direction, Error, FirstCrossing, bracketed_root};
+use super::bracketed_root::bracketed_root;
+use super::closest_approach::closest_approach;
+use super::enclosure::Enclosure;
+use super::first_crossing::FirstCrossing;
+use super::step_past_root::step_past_root;
+use super::zero_test::ZeroTest;
+use crate::error::Error;
+use crate::guard::Direction;
 
-/// An interval that holds a number, or all values of a function, for certain.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Enclosure {
-    /// No value is below.
-    pub low: f64,
-    /// No value is above.
-    pub high: f64,
-}
+/// Highest order of a zero at the start that is tried. A model has a handful of derivatives at most; the limit only
+/// bounds the array of lower terms. A zero of higher order is [`Error::UndecidedSign`].
+const HIGHEST_ORDER: u32 = 16;
 
-impl Enclosure {
-    /// [low, high].
-    pub const fn new(low: f64, high: f64) -> Self {
-        Enclosure { low, high }
-    }
+/// Most intervals that are tested, a guard against a search without end. Enclosures that are too wide to decide
+/// anything reach it: the search then ends with [`Error::NoConvergence`].
+const MOST_INTERVALS: usize = 1_000_000;
 
-    /// A value that may be off by `error`.
-    pub const fn around(value: f64, error: f64) -> Self {
-        Enclosure { low: value - error, high: value + error }
-    }
-
-    /// The sign that all values have, if they have one.
-    pub fn sign(&self) -> Option<f64> {
-        if self.low > 0.0 {
-            Some(1.0)
-        } else if self.high < 0.0 {
-            Some(-1.0)
-        } else {
-            None
-        }
-    }
-
-    fn size(&self) -> f64 {
-        self.low.abs().max(self.high.abs())
-    }
-
-    fn widened(&self, by: f64) -> Self {
-        Enclosure { low: self.low - by, high: self.high + by }
-    }
-}
-
-/// Highest order of a zero at the start.
-const ORDERS: u32 = 16;
-
-/// Most intervals looked at.
-const INTERVALS: usize = 1_000_000;
-
-/// A guard along a flow: its values, and enclosures by order and interval.
-pub(crate) struct Enclosed<V, E> {
+/// A guard along a flow: its values, and its enclosures by order and interval.
+pub(crate) struct EnclosedGuard<V, E> {
     pub(crate) value: V,
     pub(crate) enclosure: E,
 }
 
-/// What an interval holds.
-enum Found {
-    Nothing(f64),
-    Monotone,
-    Unknown,
-}
-
-impl<V, E> Enclosed<V, E>
+impl<V, E> EnclosedGuard<V, E>
 where
     V: Fn(f64) -> f64,
     E: Fn(u32, (f64, f64)) -> Option<Enclosure>,
 {
-    /// The first crossing strictly after time zero, up to `horizon`.
+    /// The first crossing strictly after time zero, up to `horizon`. The value at the start may be wrong by
+    /// `start_error`.
     pub(crate) fn first_crossing(
         &self,
         direction: Direction,
@@ -88,22 +52,25 @@ where
         if horizon == 0.0 {
             return Ok(FirstCrossing::Never);
         }
-        let (mut left, mut side) = self.leave(horizon, start_error)?;
+        // Invariant: no crossing in (0, left], and the guard is on `side` just after `left`. The rest is divided into
+        // intervals; `ends` holds their right ends, the nearest one last.
+        let (mut left, mut side) = self.leave_start(horizon, start_error)?;
         let mut ends = vec![horizon];
-        for _ in 0..INTERVALS {
+        for _ in 0..MOST_INTERVALS {
             let Some(&right) = ends.last() else { return Ok(FirstCrossing::Never) };
             if left >= right {
                 ends.pop();
                 continue;
             }
-            match self.look(left, right)? {
-                Found::Nothing(sign) if sign != side && direction.admits(side, sign) => {
-                    // The zero that rounding hid lies where the intervals meet.
+            match self.test(left, right)? {
+                ZeroTest::NoZero { sign } if sign != side && direction.admits(side, sign) => {
+                    // Rounding hid the zero from both tests. It lies where the two intervals meet.
                     return Ok(FirstCrossing::At { time: left, rising: side < 0.0 });
                 }
-                Found::Nothing(sign) => (left, side) = (right, sign),
-                Found::Monotone => {
-                    // A zero that rounding hides at the end belongs to the next interval, if there is one.
+                ZeroTest::NoZero { sign } => (left, side) = (right, sign),
+                ZeroTest::Monotone { .. } => {
+                    // If rounding hides the sign at the right end, the next interval decides. The last interval has no
+                    // next one: there the computed value decides.
                     let after = match self.at(0, right)?.sign() {
                         Some(sign) => sign,
                         None if right < horizon => side,
@@ -118,52 +85,58 @@ where
                     }
                     left = right;
                 }
-                Found::Unknown => {
+                ZeroTest::Undecided => {
                     let middle = left + 0.5 * (right - left);
                     if middle > left && middle < right {
                         ends.push(middle);
                         continue;
                     }
+                    // Two neighbouring doubles: halving cannot help.
                     let clear =
                         |time| matches!(self.at(0, time), Ok(value) if value.sign().is_some());
                     let ahead = (left, right - left, horizon);
-                    let (time, value) = closest(&self.value, clear, side, ahead);
+                    let (time, value) = closest_approach(&self.value, clear, side, ahead);
                     return Ok(FirstCrossing::Grazing { time, value });
                 }
             }
         }
-        Err(Error::NoConvergence { left, right: horizon, iterations: INTERVALS })
+        Err(Error::NoConvergence { left, right: horizon, iterations: MOST_INTERVALS })
     }
 
-    /// How the guard leaves its start: a time up to which it has no further zero, and its side.
-    fn leave(&self, horizon: f64, start_error: f64) -> Result<(f64, f64), Error> {
+    /// A time up to which the guard has no zero after its start, and its side until then.
+    ///
+    /// Statements (4) and (5) of [mathematics](crate::mathematics): the first derivative whose enclosure at the start
+    /// excludes zero decides, unless the lower ones, which may be zero, can outweigh it too long.
+    fn leave_start(&self, horizon: f64, start_error: f64) -> Result<(f64, f64), Error> {
         if let Some(side) = self.at(0, 0.0)?.widened(start_error).sign() {
             return Ok((0.0, side));
         }
-        // Lower derivatives that may be zero: as long as they could outweigh the first that is not, the guard must be
-        // within its own error at the start.
-        let hidden = self.at(0, 0.0)?.size() + start_error;
-        let (mut lower, mut factorial) = ([0.0; ORDERS as usize + 1], 1.0);
-        for order in 1..=ORDERS {
+        let start_hidden = self.at(0, 0.0)?.magnitude() + start_error;
+        // lower[j] ≥ |g⁽ʲ⁾(0)|/j! for the derivatives that may be zero.
+        let (mut lower, mut factorial) = ([0.0; HIGHEST_ORDER as usize + 1], 1.0);
+        for order in 1..=HIGHEST_ORDER {
             let Some(here) = self.enclosed(order, (0.0, 0.0))? else { break };
             factorial *= f64::from(order);
             if here.sign().is_none() {
-                lower[order as usize] = here.size() / factorial;
+                lower[order as usize] = here.magnitude() / factorial;
                 continue;
             }
             let mut time = horizon;
             while time > 0.0 {
                 let Some(bound) = self.enclosed(order, (0.0, time))? else { break };
                 if let Some(side) = bound.sign() {
+                    // g⁽ᵏ⁾ keeps its sign on [0, time]: |g| ≥ leading tᵏ − Σ lower[j] tʲ.
                     let leading = bound.low.abs().min(bound.high.abs()) / factorial;
-                    let share = |j: u32| f64::from(order) * lower[j as usize] / leading;
+                    let ratio = |j: u32| f64::from(order) * lower[j as usize] / leading;
+                    // From `clear` on each of the fewer than k lower terms is at most leading tᵏ/(2k).
                     let clear = (1..order)
-                        .map(|j| pxfm::f_pow(2.0 * share(j), 1.0 / f64::from(order - j)))
+                        .map(|j| pxfm::f_pow(2.0 * ratio(j), 1.0 / f64::from(order - j)))
                         .fold(0.0, f64::max);
+                    // Until then they must not move the guard by more than its error at the start.
                     let reached: f64 = (1..order)
                         .map(|j| lower[j as usize] * pxfm::f_pow(clear, f64::from(j)))
                         .sum();
-                    if clear < time && reached <= hidden {
+                    if clear < time && reached <= start_hidden {
                         return Ok((time, side));
                     }
                     break;
@@ -175,8 +148,10 @@ where
         Err(Error::UndecidedSign { order: 0, value: (self.value)(0.0) })
     }
 
+    /// The model's enclosure, if it gives one and it is an interval.
     fn enclosed(&self, order: u32, times: (f64, f64)) -> Result<Option<Enclosure>, Error> {
         match (self.enclosure)(order, times) {
+            // Also true for NaN.
             Some(Enclosure { low, high }) if !(low <= high) => {
                 Err(Error::BadEnclosure { order, from: times.0, to: times.1, low, high })
             }
@@ -184,51 +159,48 @@ where
         }
     }
 
-    /// The guard, or its slope, at one time.
+    /// Bounds on the guard, or a derivative, at one time; (−∞, ∞) if the model gives none.
     fn at(&self, order: u32, time: f64) -> Result<Enclosure, Error> {
         let all = Enclosure { low: f64::NEG_INFINITY, high: f64::INFINITY };
         Ok(self.enclosed(order, (time, time))?.unwrap_or(all))
     }
 
-    fn look(&self, left: f64, right: f64) -> Result<Found, Error> {
+    /// The four tests at the head of this file, cheapest first.
+    fn test(&self, left: f64, right: f64) -> Result<ZeroTest, Error> {
         if let Some(sign) = self.enclosed(0, (left, right))?.and_then(|values| values.sign()) {
-            return Ok(Found::Nothing(sign));
+            return Ok(ZeroTest::NoZero { sign });
         }
         let middle = left + 0.5 * (right - left);
-        // Rounded outwards.
+        // The two differences and the product round once each; 4ε is more than these roundings.
         let radius = (right - middle).max(middle - left) * (1.0 + 4.0 * f64::EPSILON);
         let slopes = self.enclosed(1, (left, right))?;
-        if slopes.is_some_and(|slopes| slopes.sign().is_some()) {
-            return Ok(Found::Monotone);
+        if let Some(slope) = slopes.and_then(|slopes| slopes.sign()) {
+            return Ok(ZeroTest::Monotone { slope });
         }
         if let Some(slopes) = slopes
-            && let Some(sign) = self.at(0, middle)?.widened(slopes.size() * radius).sign()
+            && let Some(sign) = self.at(0, middle)?.widened(slopes.magnitude() * radius).sign()
         {
-            return Ok(Found::Nothing(sign));
+            return Ok(ZeroTest::NoZero { sign });
         }
         if let Some(bends) = self.enclosed(2, (left, right))?
-            && self.at(1, middle)?.widened(bends.size() * radius).sign().is_some()
+            && let Some(slope) = self.at(1, middle)?.widened(bends.magnitude() * radius).sign()
         {
-            return Ok(Found::Monotone);
+            return Ok(ZeroTest::Monotone { slope });
         }
-        Ok(Found::Unknown)
+        Ok(ZeroTest::Undecided)
     }
 
     /// The only zero of a monotone stretch that begins on `side`.
     fn root(&self, left: f64, right: f64, side: f64) -> Result<f64, Error> {
+        // The stretch has a zero by the enclosures; the computed values may deny it at either end, within rounding.
+        // Then that end is the zero.
         if (self.value)(left) * side <= 0.0 {
             return Ok(left);
         }
         if (self.value)(right) * side >= 0.0 {
             return Ok(right);
         }
-        let mut time = bracketed_root(&self.value, left, right)?;
-        // A search that goes on from there does not find it again.
-        let mut step = 1;
-        while time < right && (self.value)(time) * side > 0.0 {
-            time = f64::from_bits(time.to_bits() + step).min(right);
-            step *= 2;
-        }
-        Ok(time)
+        let root = bracketed_root(&self.value, left, right)?;
+        Ok(step_past_root(root, right, |time| !((self.value)(time) * side > 0.0)))
     }
 }

@@ -1,17 +1,20 @@
 //! The root of a function on a bracket that is already certain.
 //!
-//! This is the only file that calls the `roots` crate. Two of its habits are kept out: it decides
-//! signs by products, which underflow for values around 1e-166, and it may return an iterate older
-//! than its last bracket.
+//! This is the only file that calls the `roots` crate. It works around two properties of that crate's
+//! `find_root_brent`: the function decides signs by products, which underflow for values around 1e-166, and it may
+//! return an iterate that is older than its last bracket.
 
-use crate::Error;
+use crate::error::Error;
 use roots::{Convergency, SearchError, find_root_brent};
 
-/// Enough for halvings down to the smallest numbers, where a flat root is at zero.
-const ITERATIONS: usize = 1200;
+/// Most iterations. A bracket of length 1 around a root at zero is halved 1074 times until it reaches the smallest
+/// double, and a flat root allows nothing faster than halving. A simple root takes about ten. Beyond this number the
+/// search ends with [`Error::NoConvergence`].
+const MOST_ITERATIONS: usize = 1200;
 
-/// Where values are cut off from below, relative to the larger end value, so that the product of
-/// two of them cannot underflow. Far under any rounding error.
+/// Smaller values, relative to the larger end value, are replaced by this one with their sign. The product of two
+/// of them is 1e-300, which does not underflow. It is far below every rounding error, so that only signs are
+/// affected.
 const SMALLEST_VALUE: f64 = 1e-150;
 
 /// Stops at an exact zero or when the bracket is two ulps wide.
@@ -25,14 +28,14 @@ impl Convergency<f64> for FullPrecision {
         (x1 - x2).abs() <= 2.0 * f64::EPSILON * x1.abs().max(x2.abs())
     }
     fn is_iteration_limit_reached(&mut self, iteration: usize) -> bool {
-        iteration >= ITERATIONS
+        iteration >= MOST_ITERATIONS
     }
 }
 
 /// The root of `function` between `left` and `right`, to about two ulps, by Brent's method.
 ///
 /// The values at the two ends must differ in sign, or one of them must be zero; then that end is
-/// the root. Values of any size are welcome: only their signs and ratios are used.
+/// the root. Values may have any size: only their signs and ratios are used.
 ///
 /// ```
 /// let root = hybrid_system::bracketed_root(|x| x * x - 2.0, 1.0, 2.0)?;
@@ -41,8 +44,8 @@ impl Convergency<f64> for FullPrecision {
 /// ```
 ///
 /// # Errors
-/// [`Error::NoSignChange`] without a sign change, [`Error::NotFinite`] if the function is,
-/// [`Error::NoConvergence`] if 1200 iterations do not suffice.
+/// [`Error::NoSignChange`] if the ends have the same sign, [`Error::NotFinite`] for an end or a value that is not
+/// finite, [`Error::NoConvergence`] after 1200 iterations.
 pub fn bracketed_root(
     mut function: impl FnMut(f64) -> f64,
     left: f64,
@@ -62,16 +65,16 @@ pub fn bracketed_root(
     }
 
     let scale = at_left.abs().max(at_right.abs());
-    // The tightest bracket among all points seen: its ends are neighbours of the sign change, even
-    // where the function jumps.
+    // Invariant: the function has opposite signs at `low` and `high` (or is zero at `high`), and no point seen lies
+    // between them. So the sign changes between these two neighbours, even if the function jumps.
     let mut low = (left, at_left);
     let mut high = (right, at_right);
-    let mut broken = None;
+    let mut not_finite = None;
     let scaled = |x: f64| {
         let value = function(x);
         if !value.is_finite() {
-            broken.get_or_insert((x, value));
-            return 0.0; // ends the search; reported below
+            not_finite.get_or_insert((x, value));
+            return 0.0; // an exact zero ends the search; the error is returned below
         }
         if (low.0.min(high.0)..=low.0.max(high.0)).contains(&x) {
             if value.signum() == low.1.signum() && value != 0.0 {
@@ -84,13 +87,14 @@ pub fn bracketed_root(
         if value == 0.0 { 0.0 } else { y.abs().max(SMALLEST_VALUE).copysign(value) }
     };
     let outcome = find_root_brent(left, right, scaled, &mut FullPrecision);
-    if let Some((at, value)) = broken {
+    if let Some((at, value)) = not_finite {
         return Err(Error::NotFinite { at, value });
     }
     match outcome {
+        // Not the iterate that the crate returns: it may lie outside the last bracket.
         Ok(_) => Ok(if low.1.abs() < high.1.abs() { low.0 } else { high.0 }),
         Err(SearchError::NoConvergency) => {
-            Err(Error::NoConvergence { left, right, iterations: ITERATIONS })
+            Err(Error::NoConvergence { left, right, iterations: MOST_ITERATIONS })
         }
         Err(_) => Err(Error::NoSignChange { left, right, at_left, at_right }),
     }
@@ -116,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn an_end_that_is_a_root_is_returned() {
+    fn a_root_at_an_end_is_returned() {
         assert_eq!(bracketed_root(|x| x, 0.0, 1.0), Ok(0.0));
         assert_eq!(bracketed_root(|x| x - 1.0, 0.0, 1.0), Ok(1.0));
     }
@@ -128,13 +132,13 @@ mod tests {
     }
 
     #[test]
-    fn a_function_that_breaks_down_is_an_error() {
+    fn a_function_that_is_not_finite_is_an_error() {
         let broken = |x: f64| if x > 0.4 && x < 0.6 { f64::NAN } else { x - 0.5 };
         assert!(matches!(bracketed_root(broken, 0.0, 1.0), Err(Error::NotFinite { .. })));
     }
 
     proptest! {
-        /// Planted roots over 600 orders of magnitude, with triple roots among them.
+        /// Simple and triple roots at known places are found to a few ulps.
         #[test]
         fn planted_roots_are_found(root in -1e3..1e3f64, width in 1e-6..10f64, cubic: bool) {
             let f = |x: f64| if cubic { (x - root).powi(3) } else { x - root };

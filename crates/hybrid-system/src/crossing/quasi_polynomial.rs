@@ -1,8 +1,8 @@
-//! Guards along closed-form flows as functions of time: sums of polynomials times sines and cosines.
+//! Guards along closed-form flows as functions of time: quasi-polynomials.
 
-use crate::Error;
+use crate::error::Error;
 
-/// p(t) cos ωt + q(t) sin ωt, with p and q polynomials, lowest power first.
+/// p(t) cos ωt + q(t) sin ωt, with polynomials p and q, lowest power first.
 #[derive(Debug, Clone, PartialEq)]
 struct Term {
     omega: f64,
@@ -10,11 +10,14 @@ struct Term {
     sin: Vec<f64>,
 }
 
-/// g(t) = Σ pₖ(t) cos ωₖt + qₖ(t) sin ωₖt: what a guard becomes along a flow of constant forces,
-/// springs and their like.
+/// A quasi-polynomial: g(t) = Σ pₖ(t) cos ωₖt + qₖ(t) sin ωₖt, a sum of polynomials times sines and cosines.
 ///
-/// It is closed under sums, products and derivatives, and bounds on it over an interval of time follow,
-/// so that its first zero can be found with [certainty](crate::Certainty::Certain).
+/// Quasi-polynomials are the solutions of linear differential equations with constant coefficients whose exponents are
+/// imaginary. A guard is one along the flow of constant forces, undamped springs and harmonic excitation. (In general
+/// the pₖ may also multiply real exponentials; those are not supported.)
+///
+/// Sums, products and derivatives of quasi-polynomials are quasi-polynomials. Their coefficients give bounds over an
+/// interval of time, so that the first zero is found with [certainty](crate::Certainty::Certain).
 ///
 /// ```
 /// use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial};
@@ -49,7 +52,7 @@ impl QuasiPolynomial {
         QuasiPolynomial { terms: vec![Term { omega, cos: vec![amplitude], sin: Vec::new() }] }
     }
 
-    /// This signal times a number.
+    /// This quasi-polynomial times a number.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Self {
         for term in &mut self.terms {
@@ -69,7 +72,7 @@ impl QuasiPolynomial {
         QuasiPolynomial { terms: self.terms.iter().map(Term::derivative).collect() }
     }
 
-    /// Whether all coefficients are finite numbers.
+    /// An error if a coefficient or a frequency is not finite.
     pub(crate) fn check(&self) -> Result<(), Error> {
         for term in &self.terms {
             for &value in term.cos.iter().chain(&term.sin).chain([&term.omega]) {
@@ -81,27 +84,33 @@ impl QuasiPolynomial {
         Ok(())
     }
 
-    /// Bound on |g| over times of size up to `time`.
+    /// Bound on |g(t)| for |t| ≤ `time`: Σ|pᵢ||t|ⁱ + Σ|qᵢ||t|ⁱ, because |cos|, |sin| ≤ 1.
     pub(crate) fn bound(&self, time: f64) -> f64 {
         self.terms.iter().map(|term| term.bound(time)).sum()
     }
 
-    /// Whether its constant term outweighs all others up to `time`: a small swing that never reaches zero,
-    /// however many periods it has.
+    /// True if the constant term is larger than all others together up to `time`: then there is no zero.
+    ///
+    /// One comparison answers for an oscillation about a large constant, however many periods it has. The search by
+    /// intervals would need several for each period.
     pub(crate) fn stays_away(&self, time: f64) -> bool {
-        let still = self.terms.iter().find(|term| term.omega == 0.0);
-        let constant = still.and_then(|term| term.cos.first()).map_or(0.0, |c| c.abs());
+        let polynomial = self.terms.iter().find(|term| term.omega == 0.0);
+        let constant = polynomial.and_then(|term| term.cos.first()).map_or(0.0, |c| c.abs());
+        // The bound contains the constant itself once: |c| > bound − |c|.
         2.0 * constant > self.bound(time) + self.rounding(time)
     }
 
-    /// Bound on the rounding error of [`value`](Self::value) over times of size up to `time`: of the sums,
-    /// and of the phases ωt.
+    /// Bound on the rounding error of [`value`](Self::value) for |t| ≤ `time`.
+    ///
+    /// In units of ε times the bound of each term: two roundings for each coefficient (Horner's product and sum)
+    /// and two for each term of the sum; four for the sine, the cosine and the two products with them; |ωt| for the
+    /// rounding of the phase, which moves a sine by that much.
     pub(crate) fn rounding(&self, time: f64) -> f64 {
-        let of = |term: &Term| {
+        let of_term = |term: &Term| {
             let terms = (term.cos.len() + term.sin.len() + self.terms.len()) as f64;
             (2.0 * terms + 4.0 + term.omega.abs() * time) * term.bound(time)
         };
-        f64::EPSILON * self.terms.iter().map(of).sum::<f64>()
+        f64::EPSILON * self.terms.iter().map(of_term).sum::<f64>()
     }
 }
 
@@ -116,6 +125,8 @@ impl Term {
 
     /// (p cos + q sin)′ = (p′ + ωq) cos + (q′ − ωp) sin.
     fn derivative(&self) -> Self {
+        // The coefficients of p′ + factor·q. Without the sine (ω = 0) the degree goes down; that ends a polynomial's
+        // derivatives at zero.
         let sum = |slope: &[f64], factor: f64, other: &[f64]| {
             let length =
                 slope.len().saturating_sub(1).max(if factor == 0.0 { 0 } else { other.len() });
@@ -140,6 +151,7 @@ impl Term {
     }
 }
 
+/// p(t) by Horner's scheme.
 fn horner(coefficients: &[f64], time: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * time + c)
 }
@@ -150,8 +162,8 @@ impl std::ops::Add for QuasiPolynomial {
         for term in other.terms {
             match self.terms.iter_mut().find(|own| own.omega == term.omega) {
                 Some(own) => {
-                    accumulate(&mut own.cos, &term.cos);
-                    accumulate(&mut own.sin, &term.sin);
+                    add_to(&mut own.cos, &term.cos);
+                    add_to(&mut own.sin, &term.sin);
                 }
                 None => self.terms.push(term),
             }
@@ -160,7 +172,8 @@ impl std::ops::Add for QuasiPolynomial {
     }
 }
 
-fn accumulate(sum: &mut Vec<f64>, other: &[f64]) {
+/// Adds the coefficients of `other` to those of `sum`.
+fn add_to(sum: &mut Vec<f64>, other: &[f64]) {
     sum.resize(sum.len().max(other.len()), 0.0);
     for (own, term) in sum.iter_mut().zip(other) {
         *own += term;
@@ -183,17 +196,22 @@ impl std::ops::Sub for QuasiPolynomial {
 
 impl std::ops::Mul for QuasiPolynomial {
     type Output = Self;
-    /// By the addition theorems.
+    /// By the addition theorems: with a = ω₁t and b = ω₂t,
+    ///
+    /// ```text
+    ///   cos a cos b = ½[cos(a−b) + cos(a+b)]     sin a cos b = ½[sin(a−b) + sin(a+b)]
+    ///   sin a sin b = ½[cos(a−b) − cos(a+b)]     cos a sin b = ½[−sin(a−b) + sin(a+b)]
+    /// ```
     fn mul(self, other: Self) -> Self {
         let mut product = QuasiPolynomial::default();
         for a in &self.terms {
             for b in &other.terms {
                 let (cc, ss) = (times(&a.cos, &b.cos), times(&a.sin, &b.sin));
                 let (cs, sc) = (times(&a.cos, &b.sin), times(&a.sin, &b.cos));
-                // cos a cos b = ½ [cos(a−b) + cos(a+b)], and so on.
+                // ½(x + sign·y)
                 let half = |x: &[f64], y: &[f64], sign: f64| {
                     let mut sum: Vec<f64> = x.iter().map(|c| 0.5 * c).collect();
-                    accumulate(&mut sum, &y.iter().map(|c| 0.5 * sign * c).collect::<Vec<_>>());
+                    add_to(&mut sum, &y.iter().map(|c| 0.5 * sign * c).collect::<Vec<_>>());
                     sum
                 };
                 let difference = Term {
@@ -215,6 +233,7 @@ impl std::ops::Mul for QuasiPolynomial {
     }
 }
 
+/// The coefficients of a product of polynomials.
 fn times(a: &[f64], b: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; (a.len() + b.len()).saturating_sub(1)];
     if a.is_empty() || b.is_empty() {
@@ -233,7 +252,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn signals() -> impl Strategy<Value = QuasiPolynomial> {
+    fn quasi_polynomials() -> impl Strategy<Value = QuasiPolynomial> {
         let coefficients = || proptest::collection::vec(-3.0..3.0f64, 0..4);
         let term = (0..4i32, coefficients(), coefficients()).prop_map(|(k, cos, sin)| Term {
             omega: 0.7 * f64::from(k),
@@ -249,7 +268,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn sums_products_and_derivatives(a in signals(), b in signals(), t in -3.0..3.0f64) {
+        fn sums_products_and_derivatives(a in quasi_polynomials(), b in quasi_polynomials(), t in -3.0..3.0f64) {
             let close = |x: f64, y: f64, size: f64| (x - y).abs() <= 1e-12 * (1.0 + size);
             let size = a.bound(3.0) * b.bound(3.0) + a.bound(3.0) + b.bound(3.0);
             prop_assert!(close((a.clone() + b.clone()).value(t), a.value(t) + b.value(t), size));
@@ -263,7 +282,7 @@ mod tests {
         }
 
         #[test]
-        fn bounds_hold(a in signals(), t in -3.0..3.0f64) {
+        fn bounds_hold(a in quasi_polynomials(), t in -3.0..3.0f64) {
             prop_assert!(a.value(t).abs() <= a.bound(t.abs()) * (1.0 + 1e-14));
         }
     }
