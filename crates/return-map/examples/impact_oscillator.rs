@@ -1,8 +1,8 @@
 //! A periodically forced oscillator that hits a wall, near grazing.
 //!
-//! The motion is ẍ + x = cos φ, φ̇ = ω. At the wall x = σ the velocity is reversed: v → −r v. Without impacts the motion
-//! x = a cos φ with a = 1/(1 − ω²) is periodic. A wall at σ = |a| is grazed by it. For σ < |a| the map from one period
-//! of the force to the next has a square-root singularity (Nordmark 1991): its derivative grows like
+//! The motion is ẍ + x = cos φ, φ̇ = ω. At the wall x = σ the velocity is reversed: v → −r v. Without impacts the
+//! motion x = a cos φ with a = 1/(1 − ω²) is periodic. A wall at σ = |a| is grazed by it. For σ < |a| the map from
+//! one period of the force to the next has a square-root singularity (Nordmark 1991): its derivative grows like
 //! (|a| − σ)^(−1/2). At grazing there is no derivative.
 //!
 //! Run with `cargo run -p return-map --example impact_oscillator`.

@@ -1,8 +1,8 @@
-//! The Lorenz system and its Poincaré section z = 27, crossed downwards. A plain flow is a hybrid system with one guard,
-//! whose reset changes nothing.
+//! The Lorenz system and its Poincaré section z = 27, crossed downwards. A plain flow is a hybrid system with one
+//! guard, whose reset changes nothing.
 //!
-//! The flow is symmetric under (x, y, z) → (−x, −y, z). The shortest periodic orbit returns to the section after half of
-//! its period, with the signs of x and y changed. Newton's method finds it with its multipliers.
+//! The flow is symmetric under (x, y, z) → (−x, −y, z). The shortest periodic orbit returns to the section after
+//! half of its period, with the signs of x and y changed. Newton's method finds it with its multipliers.
 //!
 //! Run with `cargo run -p return-map --example lorenz`.
 
@@ -19,7 +19,7 @@ use return_map::{
 #[derive(Debug, Clone, Copy)]
 struct Lorenz;
 
-/// As small as the integrator allows in `f64`, because the tests compare with published numbers of 15 digits.
+/// Smaller by two orders than the errors that the tests accept.
 const TOLERANCES: Tolerances = Tolerances::both(1e-14);
 
 impl VectorField<3> for Lorenz {
@@ -150,8 +150,8 @@ mod tests {
         let orbit = shortest_orbit(&Vector2::new(-2.1, 2.1)).unwrap();
         let period = 2.0 * next(&orbit.location).unwrap().to.time;
         assert!((period - 1.5586522107161747).abs() < 1e-11, "{period}");
-        // The flow contracts volumes at the rate −(σ + 1 + β). On a periodic orbit the product of the section's multipliers is
-        // the contraction over the period, because the multiplier along the orbit is 1.
+        // The flow contracts volumes at the rate −(σ + 1 + β). The product of the section's multipliers is the
+        // contraction over half a period, because the multiplier along a periodic orbit is 1.
         let product: f64 = orbit.multipliers.iter().map(|m| m.norm()).product();
         let shrink = (-(11.0 + 8.0 / 3.0) * period / 2.0f64).exp();
         assert!((product / shrink - 1.0).abs() < 1e-5, "{product:e} {shrink:e}");

@@ -1,8 +1,8 @@
 //! The rimless wheel (McGeer 1990; Coleman 1998): a point mass on rigid spokes that rolls down a slope.
 //!
-//! On one spoke it is an inverted pendulum, θ̈ = sin θ, with time in units of √(length/gravity). When the spoke is at the
-//! angle γ + α from the vertical, the next spoke hits the ground at γ − α, and the speed is multiplied by cos 2α. So
-//! Ω = θ̇² after a collision is mapped to cos² 2α (Ω + 4 sin γ sin α). Its fixed point is known.
+//! On one spoke it is an inverted pendulum, θ̈ = sin θ, with time in units of √(length/gravity). When the spoke is
+//! at the angle γ + α from the vertical, the next spoke hits the ground at γ − α, and the speed is multiplied by cos
+//! 2α. So Ω = θ̇² after a collision is mapped to cos² 2α (Ω + 4 sin γ sin α). Its fixed point is known.
 //!
 //! Run with `cargo run -p return-map --example rimless_wheel`.
 
@@ -178,7 +178,10 @@ fn main() -> Result<(), Error> {
         let arc = arc?;
         rocks += usize::from(arc.event().is_some());
         if arc.mode == Mode::Standing {
-            println!("below the least speed it rocks {rocks} times and stands from t = {:.9}", arc.time);
+            println!(
+                "below the least speed it rocks {rocks} times and stands from t = {:.9}",
+                arc.time
+            );
         }
     }
     Ok(())

@@ -58,8 +58,8 @@
 //! system. [`fixed_points`] finds what its samples reveal.
 //!
 //! # Poincaré sections of plain flows
-//! A plain flow is a hybrid system with one mode, and a guard whose reset changes nothing. The example `lorenz` shows it
-//! for the Lorenz system, with the derivative.
+//! A plain flow is a hybrid system with one mode, and a guard whose reset changes nothing. The example `lorenz`
+//! shows it for the Lorenz system, with the derivative.
 //!
 //! # Not here
 //! - Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure, and so a

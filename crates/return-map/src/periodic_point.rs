@@ -27,15 +27,15 @@ const NEWTON_STEPS: usize = 50;
 /// not help, the direction is wrong, or the residual is the noise of the map.
 const HALVINGS: usize = 30;
 
-/// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this, relative to
-/// the point. Chosen for return maps of integrated flows, whose noise is far above an ulp. A larger value would accept
-/// points that are not periodic.
+/// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this,
+/// relative to the point. Chosen for return maps of integrated flows, whose noise is far above an ulp. A larger
+/// value would accept points that are not periodic.
 const NOISE: f64 = 1e-10;
 
 /// A point of period `period` of `map`, by damped Newton steps from `start`.
 ///
-/// Derivatives are central differences. For a map of machine precision the multipliers have errors of some 10⁻⁹. They are
-/// meaningless if the map is not differentiable at the point.
+/// Derivatives are central differences. For a map of machine precision the multipliers have errors of some 10⁻⁹.
+/// They are meaningless if the map is not differentiable at the point.
 ///
 /// ```
 /// use nalgebra::Vector2;

@@ -79,8 +79,8 @@ where
     /// executions are compared at the events themselves, not at equal times.
     ///
     /// # Errors
-    /// As [`next`](Self::next), and as [`event_sensitivity`]: a return that grazes a guard, or that passes a Zeno limit,
-    /// has no derivative.
+    /// As [`next`](Self::next), and as [`event_sensitivity`]: a return that grazes a guard, or that passes a Zeno
+    /// limit, has no derivative.
     pub fn next_with_derivative<const K: usize>(
         &self,
         coordinates: &SVector<f64, K>,

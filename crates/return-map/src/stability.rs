@@ -16,8 +16,8 @@ pub enum Stability {
     Attracting,
     /// Every probed point stays on its side and moves away.
     Repelling,
-    /// Some points move closer and others away; or a point changes sides, does not move, or has no image; or no point was
-    /// probed.
+    /// Some points move closer and others away; or a point changes sides, does not move, or has no image; or no
+    /// point was probed.
     Undecided,
 }
 

@@ -63,8 +63,8 @@ mod tests {
         }
     }
 
-    /// Without pressure at the start the impacts end in a Zeno limit. The disc rests on its seat until the pressure equals
-    /// the load.
+    /// Without pressure at the start the impacts end in a Zeno limit. The disc rests on its seat until the pressure
+    /// equals the load.
     #[test]
     fn the_disc_rests_and_is_released() {
         let valve = Valve { flow_rate: 0.2 };

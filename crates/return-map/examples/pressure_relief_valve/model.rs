@@ -1,4 +1,5 @@
-//! A pressure relief valve whose disc hits its seat (Hős, Champneys; parameters from the tutorial of the MPGOS package).
+//! A pressure relief valve whose disc hits its seat (Hős, Champneys; parameters from the tutorial of the MPGOS
+//! package).
 
 use hybrid_system::*;
 use nalgebra::{SVector, Vector2, Vector3};
@@ -135,8 +136,8 @@ impl Section<Valve, 3, 2> for Turns {
 /// The start of every orbit of the tutorial: displacement 0.2 and no pressure.
 pub(crate) const START: Vector2<f64> = Vector2::new(0.2, 0.0);
 
-/// Limits for an orbit of this number of turning points. The time and the number of events between two turning points stay
-/// far below them for all flow rates of the diagram.
+/// Limits for an orbit of this number of turning points. The time and the number of events between two turning
+/// points stay far below them for all flow rates of the diagram.
 fn limits(turns: usize) -> Limits {
     Limits::new(1000.0 * (1 + turns) as f64, 10_000 * (1 + turns))
 }
@@ -160,6 +161,7 @@ pub(crate) fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec
             return Ok(found);
         }
     }
-    let reason = format!("{turn} turning points were found where {} were asked for", transient + kept);
+    let reason =
+        format!("{turn} turning points were found where {} were asked for", transient + kept);
     Err(Error::Model { reason })
 }
