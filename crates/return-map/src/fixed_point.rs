@@ -29,14 +29,14 @@ pub struct FixedPoint {
 const TANGENT_ULPS: f64 = 8.0;
 
 /// A sign change is a crossing if the residual is at most this part of the point's size. At a jump through the diagonal
-/// the residual keeps the size of the jump; smaller jumps than this are not told from crossings. Chosen.
+/// the residual keeps the size of the jump; smaller jumps than this are taken for crossings. Chosen.
 const CROSSING_RESIDUAL: f64 = 1e-8;
 
 /// (√5 − 1)/2: a golden-section search divides its interval in this ratio.
 const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 
 /// Each step multiplies the interval by 0.618, so 120 steps shrink it by 10⁻²⁵: below the spacing of `f64` unless the
-/// extremum is close to 0. Further steps would change nothing.
+/// extremum is close to 0. Further steps would not move it.
 const GOLDEN_SECTION_STEPS: usize = 120;
 
 /// The fixed points of `map` that `samples` equally spaced points of [left, right] reveal, from left to right.

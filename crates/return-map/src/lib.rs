@@ -55,7 +55,7 @@
 //!
 //! # Accuracy
 //! A return is as exact as the crossings that the system computes. Its derivative is as exact as the derivatives of the
-//! system. [`fixed_points`] finds what its samples reveal.
+//! system. [`fixed_points`] finds the fixed points that its samples reveal.
 //!
 //! # Poincaré sections of plain flows
 //! A plain flow is a hybrid system with one mode, and a guard whose reset changes nothing. The example `lorenz`
