@@ -1,6 +1,6 @@
 //! Certain bounds on a number.
 
-/// An interval that certainly contains a number, given what its source states.
+/// An interval that certainly contains a number, under the conditions that its source states.
 ///
 /// For an interval that contains the number with 95 % probability see
 /// [`ConfidenceInterval`](crate::ConfidenceInterval).

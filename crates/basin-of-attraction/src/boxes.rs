@@ -44,7 +44,7 @@ impl BoxCount {
 pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error> {
     let farthest = points.iter().fold(0.0f64, |farthest, x| farthest.max((x - left).abs()));
     // The index of a box is (x − left)/size rounded down. Beyond 2⁵² an f64 index has no fraction, and neighbouring
-    // boxes could not be told apart.
+    // boxes could not be distinguished.
     let above = f64::EPSILON * farthest;
     if !(size > above && size.is_finite() && farthest.is_finite()) {
         return Err(Error::BadBoxSize { size, above, largest: f64::INFINITY });

@@ -109,7 +109,7 @@ impl Branch {
             let value = difference(guess);
             let beyond = holds(value);
             // Illinois: if an end stays for two steps, its value is halved, so that the next guess falls on its
-            // other side. Without it one end could stay for ever.
+            // other side. Without it one end could stay through all steps.
             let again = side.replace(beyond) == Some(beyond);
             let half = if again { 0.5 } else { 1.0 };
             if beyond {
@@ -171,7 +171,7 @@ fn bisect(mut left: f64, mut right: f64, holds: impl Fn(f64) -> bool) -> (f64, f
 const SUSPECT_STEP: f64 = 4.0;
 
 /// A jump keeps more than this fraction of the step's height when the step is halved to neighbouring `f64`. A
-/// continuous map keeps nearly nothing. Chosen.
+/// continuous map keeps a fraction near 0. Chosen.
 const JUMP_FRACTION: f64 = 0.25;
 
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.

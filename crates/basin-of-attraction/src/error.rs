@@ -102,7 +102,8 @@ pub enum Error {
     BadBoxSize {
         /// The size given.
         size: f64,
-        /// The size must be larger than this: so small boxes could not be told apart. Infinite if a point is.
+        /// The size must be larger than this: neighbouring boxes of this size could not be distinguished. Infinite if a
+        /// point is infinite.
         above: f64,
         /// The largest size accepted; infinite if every finite size is.
         largest: f64,

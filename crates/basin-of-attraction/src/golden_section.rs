@@ -16,7 +16,7 @@ pub(crate) fn highest_point(
     mut right: f64,
 ) -> f64 {
     /// Each step multiplies the interval by 0.618, so 100 steps shrink it by 10⁻²¹: below the spacing of `f64`,
-    /// unless the maximum is close to 0. Further steps would change nothing.
+    /// unless the maximum is close to 0. Further steps would not move the result.
     const STEPS: usize = 100;
     let height = |x: f64| height(x).unwrap_or(f64::NEG_INFINITY);
     for _ in 0..STEPS {

@@ -120,7 +120,7 @@ pub fn raster<C>(
 }
 
 /// Rows of the image that are filled together: 32 labels of two bytes are one cache line of 64 bytes. A lower band
-/// would read each line of a column several times. A higher one gains nothing.
+/// would read each line of a column several times. A higher one is no faster.
 const BAND: usize = 32;
 
 /// Labels every pixel of `grid` by its middle. Strips of `width` neighbouring columns are computed in parallel.

@@ -43,7 +43,7 @@ fn cantor_levels(depth: usize) -> IntervalBasins {
 /// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the length before.
 fn extrapolated(levels: &IntervalBasins, colours: usize, label: usize) -> f64 {
     let lengths: Vec<f64> = levels.levels(0).values().map(|(_, length)| *length).collect();
-    // Twelve levels: the rounding of further ones exceeds what they add.
+    // Twelve levels: the rounding errors of further ones exceed their length.
     let own: Vec<f64> = lengths.into_iter().take(12).skip(label).step_by(colours).collect();
     let (value, error) = geometric_limit(&own).unwrap();
     assert!(error < 1e-12, "{error:e}");

@@ -13,9 +13,13 @@ const NEGLECTED: f64 = 5.0;
 
 /// The loss α − f(α) = (32/9) μ α⁵ [1 − (8/5) α²] + O(α⁹) of a small hop.
 ///
-/// With the flight time h = 2α (1 − 4α²/15 + …) and the closing speed Γ = h³/3 (1 + O(h⁴)), μΓ² = (64/9) μ α⁶ (1 − (8/5) α² + …), and
-/// the loss is μΓ²/(α + α′). Hops become
-/// smaller like α_k ~ (128 μk/9)^{−1/4} and never stop.
+/// With the flight time h and the closing speed Γ the loss is μΓ²/(α + α′), where
+///
+/// ```text
+///   h = 2α (1 − 4α²/15 + …)      Γ = h³/3 (1 + O(h⁴))      μΓ² = (64/9) μ α⁶ (1 − (8/5) α² + …)
+/// ```
+///
+/// Hops become smaller like α_k ~ (128 μk/9)^{−1/4} and never stop.
 ///
 /// ```
 /// use hopper_asymptotics::small_hop_loss;
