@@ -1,6 +1,6 @@
-//! In the sudden windows (nπ, α*_n) the map rises, for small mass ratios: proved with intervals.
+//! Proof with intervals: for small mass ratios the map rises in the sudden windows (nπ, α*_n).
 //!
-//! With at most one sudden lift-off (M ≤ 0.9056) and the half time h of the first flight as the parameter,
+//! The parameter is h, half the time of the first flight. With at most one sudden lift-off (M ≤ 0.9056),
 //!
 //! ```text
 //!   b = α − h = Sρ,  x = 2hb,  V = b − h + κΓ,  g = dα/dh = Γ/D,  dΓ/dh = −4bα
@@ -9,17 +9,16 @@
 //!   A = 2(−Γ₂ sin τ₂ − x₂ (1−cos τ₂)),  B = 2(−Γ₂ (1−cos τ₂) − x₂ (τ₂ − sin τ₂))       second flight
 //! ```
 //!
-//! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and so is the second flight's half time in
-//! x and V: ends of intervals are values at ends. A millionth is added for roundings, a thousand times what they
-//! amount to.
+//! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight is
+//! monotone in x and V. So the range of each over an interval is given by its values at the ends. The intervals are not
+//! rounded outwards. Instead the bounds must hold with 10⁻⁶ to spare, a thousand times what the roundings amount to.
 
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+#![allow(clippy::disallowed_methods)]
 
-use hopper_basin::rising_window;
-use passive_hopper::{HalfFlight, LiftOffMap, MassRatio, alpha_star};
-use std::f64::consts::PI;
+use super::*;
+use passive_hopper::{HalfFlight, LiftOffMap, MassRatio};
 
-/// [low, high].
+/// The interval [low, high].
 #[derive(Clone, Copy, Debug)]
 struct Range(f64, f64);
 
@@ -44,14 +43,15 @@ impl Range {
     fn shifted(self, by: f64) -> Self {
         Range(self.0 + by, self.1 + by)
     }
-    /// For a divisor above zero.
+    /// The quotient, for a divisor whose numbers are all positive.
     fn over(self, other: Self) -> Self {
         assert!(other.0 > 0.0);
         self.times(Range(1.0 / other.1, 1.0 / other.0))
     }
 }
 
-/// Half the time of the flight from (x, V), V < π: V(h) increases on (max(V, 0), π).
+/// Half the time of the flight from (x, V), V < π, by bisection: V(h) increases on (max(V, 0), π). Sixty halvings reach
+/// neighbouring `f64`.
 fn second(x: f64, v: f64) -> f64 {
     let (mut left, mut right) = (v.max(0.0), PI);
     for _ in 0..60 {
@@ -61,7 +61,7 @@ fn second(x: f64, v: f64) -> f64 {
     0.5 * (left + right)
 }
 
-/// α′ (dα′/dα)/α over h and M.
+/// The relative slope α′ (dα′/dα)/α over intervals of h and M.
 fn slope(h: Range, m: Range) -> Range {
     let (begin, end) = (HalfFlight::at(h.0), HalfFlight::at(h.1));
     let between = |f: fn(&HalfFlight) -> f64| Range::of(f(&begin), f(&end));
@@ -70,6 +70,7 @@ fn slope(h: Range, m: Range) -> Range {
     let d = between(|half| half.d);
     let closing = between(|half| half.closing_speed(0.0));
     let b = between(|half| half.sin).times(between(|half| half.rho));
+    // b = Sρ ≥ 0 on a window; at its ends rounding may give less.
     let b = Range(b.0.max(0.0), b.1);
     let alpha = between(|half| half.start_speed(0.0));
     let g = between(|half| half.start_speed_slope(0.0));
@@ -79,8 +80,9 @@ fn slope(h: Range, m: Range) -> Range {
     let x_slope = b.scaled(2.0).plus(h.times(g.shifted(-1.0)).scaled(2.0));
     let v_slope = g.shifted(-2.0).minus(kappa.times(b_alpha).scaled(4.0));
     assert!(v.1 < PI);
-    // The second flight.
+    // The second flight. A relative 10⁻⁹ covers the error of the bisection.
     let h2 = Range(second(x.0, v.0) * (1.0 - 1e-9), (second(x.1, v.1) * (1.0 + 1e-9)).min(PI));
+    // At h = 0 the functions divide by zero; 10⁻⁹ changes them by less than the 10⁻⁶ to spare.
     let half = |h: f64| HalfFlight::at(h.max(1e-9));
     let (begin, end) = (half(h2.0), half(h2.1));
     let top = if h2.0 < PI / 2.0 && h2.1 > PI / 2.0 { 1.0 } else { begin.sin.max(end.sin) };
@@ -98,15 +100,17 @@ fn slope(h: Range, m: Range) -> Range {
     mu.times(b.times(d).scaled(4.0).minus(taken)).shifted(1.0)
 }
 
-/// Proves the bounds on a box, or halves it.
+/// Proves the bounds on a box of h and M; a box on which the intervals are too wide is halved.
 fn prove(h: Range, m: Range, (star, steepest): (f64, f64), boxes: &mut usize) {
     *boxes += 1;
+    // Far more boxes than a proof takes: without this limit a false bound would be halved for ever.
     assert!(*boxes < 3_000_000, "no proof at h = {h:?}, M = {m:?}: {:?}", slope(h, m));
     let found = slope(h, m);
     if found.0 > 1e-6 && found.1 + 1e-6 < steepest {
         return;
     }
-    // Lengths against what the slope depends on: the distance from α*_n, and κ times α.
+    // The longer side is halved. Lengths of h count relative to the distance from α*_n, on which the slope depends; the
+    // factor 2 of M was chosen for few boxes.
     if (h.1 - h.0) / (star - h.0).min(0.5) > 2.0 * (m.1 - m.0) {
         let middle = 0.5 * (h.0 + h.1);
         prove(Range(h.0, middle), m, (star, steepest), boxes);
@@ -122,7 +126,7 @@ fn prove(h: Range, m: Range, (star, steepest): (f64, f64), boxes: &mut usize) {
 fn the_map_rises_in_its_windows() {
     for n in 1..=8 {
         let window = rising_window(n).unwrap();
-        // h of the upper end, by A(h) = α: h < α.
+        // h of the upper end solves A(h) = α; A(h) > h on the window.
         let (mut left, mut right) = (n as f64 * PI, alpha_star(n));
         for _ in 0..60 {
             let middle = 0.5 * (left + right);
@@ -136,13 +140,12 @@ fn the_map_rises_in_its_windows() {
         let limits = (alpha_star(n), window.steepest);
         let ratios = Range(0.0, window.largest_mass_ratio);
         prove(Range(n as f64 * PI, right), ratios, limits, &mut boxes);
-        println!("window {n}: {boxes} boxes");
     }
 }
 
-/// The formula is the derivative that the map itself gives.
+/// The formula agrees with the derivative of the map.
 #[test]
-fn the_slope_is_the_maps() {
+fn the_slope_is_that_of_the_map() {
     for k in 0..4000u32 {
         let part = |step: f64| (f64::from(k) * step).fract();
         let n = 1 + u64::from(k % 8);
@@ -161,4 +164,14 @@ fn the_slope_is_the_maps() {
             "M = {m}, α = {alpha}: {found:?} {exact}"
         );
     }
+}
+
+/// Only the eight windows of the proof are given, whatever the index.
+#[test]
+fn other_windows_are_not_proved() {
+    for n in [0, 9, 10, u64::MAX] {
+        assert_eq!(rising_window(n), None);
+    }
+    let window = rising_window(1).unwrap();
+    assert!(window.largest_mass_ratio > 0.9 && window.part.contains(4.0));
 }
