@@ -4,7 +4,7 @@ use super::{Finding, Job, Table, fates};
 use crate::Error;
 use crate::figures::{Figure, csv_file};
 use crate::plot::{Anchor, Frame, Marker, Pen, Svg, decades, palette};
-use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, recovery};
+use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
 
 const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
 /// Up to here falls are looked for.
@@ -17,7 +17,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
     let humps = 3;
     let recoveries = job.scan("recoveries", humps * WIDTHS.len(), |k| {
         let (below, above) =
-            recovery((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
+            upper_crisis_bracket((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
         Ok(vec![below, above])
     })?;
     let mut header = vec!["$M$".to_owned()];
@@ -27,7 +27,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
         let fates = fates(m)?;
         let mut cells = vec![format!("{m}")];
         for width in WIDTHS {
-            let found = immediate_basin(&fates, 1, width)?;
+            let found = immediate_basin(fates.map(), 1, width)?;
             cells.push(match found.edge {
                 ImmediateBasinEdge::Contact | ImmediateBasinEdge::Sudden { .. } => {
                     format!("{:.10}", found.delta)

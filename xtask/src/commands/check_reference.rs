@@ -155,10 +155,11 @@ fn judge_reach(
     limit: f64,
 ) {
     const WIDTH: f64 = 1e-3;
-    let found = match Fates::new(mass_ratio).and_then(|fates| immediate_basin(&fates, n, WIDTH)) {
-        Ok(found) => found,
-        Err(error) => return tally.is_wrong(at, &error.to_string()),
-    };
+    let found =
+        match Fates::new(mass_ratio).and_then(|fates| immediate_basin(fates.map(), n, WIDTH)) {
+            Ok(found) => found,
+            Err(error) => return tally.is_wrong(at, &error.to_string()),
+        };
     let right = match edge {
         Edge::Contact => found.edge == ImmediateBasinEdge::Contact,
         Edge::Sudden => matches!(found.edge, ImmediateBasinEdge::Sudden { .. }),
