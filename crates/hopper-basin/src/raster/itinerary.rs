@@ -33,7 +33,7 @@ pub(crate) struct Itinerary {
 /// and the unit is at most (s + 2) (α/α′) α; a test below checks both. ε = 2⁻⁵².
 const TWO_HOP_ERRORS: f64 = 8.0 * f64::EPSILON;
 
-/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.16 would do (README.md).
+/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.17 would do (README.md).
 const CURVATURE: f64 = 1.25;
 
 /// The largest error bound allowed, relative to α′; the proof of [`CURVATURE`] relies on it. Orbits that come near the

@@ -189,7 +189,7 @@ impl Hump {
         if let (Some(maximum), Some(minimum)) = (end(-1.0), end(1.0)) {
             return Ok(Some((maximum, minimum)));
         }
-        // Newton's method failed: the two roots nearly coincide.
+        // Newton's method failed, mostly because the two roots nearly coincide: a slower and certain search.
         let speed = |t: f64| self.star.value() + self.delta(t);
         Ok(self.critical(mu)?.map(|(maximum, minimum)| (speed(maximum), speed(minimum))))
     }
