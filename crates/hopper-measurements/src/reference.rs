@@ -226,7 +226,10 @@ mod tests {
         for text in ["", "\n", " \n\t\n", "[]", " [ ]\n", undecided] {
             std::fs::write(&path, text).unwrap();
             let error = parse(&path).err().unwrap();
-            assert!(matches!(error, Error::Repository(RowError::NoReference { .. })), "{text:?}: {error}");
+            assert!(
+                matches!(error, Error::Repository(RowError::NoReference { .. })),
+                "{text:?}: {error}"
+            );
             assert!(error.to_string().contains("hopper_reference_"), "{error}");
         }
         std::fs::remove_file(&path).unwrap();

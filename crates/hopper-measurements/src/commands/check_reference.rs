@@ -178,10 +178,11 @@ fn judge_reach(
     // Spacing of the scan for needles in a sudden window. The reference does not state its own. Needles narrower
     // than this are not seen; a smaller spacing costs time in proportion.
     const WIDTH: f64 = 1e-3;
-    let found = match Fates::new(mass_ratio).and_then(|fates| immediate_basin(&fates, n, WIDTH)) {
-        Ok(found) => found,
-        Err(error) => return tally.is_wrong(at, &error.to_string()),
-    };
+    let found =
+        match Fates::new(mass_ratio).and_then(|fates| immediate_basin(fates.map(), n, WIDTH)) {
+            Ok(found) => found,
+            Err(error) => return tally.is_wrong(at, &error.to_string()),
+        };
     let right = match edge {
         Edge::Contact => found.edge == ImmediateBasinEdge::Contact,
         Edge::Sudden => matches!(found.edge, ImmediateBasinEdge::Sudden { .. }),

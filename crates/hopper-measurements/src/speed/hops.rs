@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::reference::{Hop, LIMIT, window_hops};
 use crate::timing::median_seconds;
-use hopper_basin::five_humps;
+use hopper_basin::first_humps;
 use passive_hopper::{LiftOffMap, MassRatio};
 
 /// Mass ratios, and speeds for each, of the set that is timed.
@@ -12,7 +12,7 @@ const SPEEDS: usize = 1024;
 
 /// The paper's window as its class has it: M in [0.05, 20], log-uniform, α in [α*_1, α*_6].
 fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
-    let (low, high) = (five_humps().left, five_humps().right);
+    let (low, high) = (first_humps(5).left, first_humps(5).right);
     let part = |k: usize, step: f64| (k as f64 * step).fract();
     let speed = |k: usize| low + (high - low) * part(k, 0.754_877_666_246_693);
     (1..=MAPS)

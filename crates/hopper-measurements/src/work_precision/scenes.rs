@@ -8,7 +8,7 @@ use crate::text::digit;
 use crate::timing::median_time;
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Decay;
-use hopper_basin::{Fates, HopperFate, Trap, basin_raster, five_humps};
+use hopper_basin::{Fates, HopperFate, Trap, basin_raster, first_humps};
 use hybrid_system::{Execution, Limits};
 use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase};
 use repository_tools::{number, parse_rows, read, repository};
@@ -254,7 +254,7 @@ fn fate() -> Result<Scene, Error> {
 
 fn raster() -> Result<Scene, Error> {
     const SIDE: usize = 256;
-    let grid = Grid { x: Interval::new(0.1, 1.0)?, y: five_humps(), columns: SIDE, rows: SIDE };
+    let grid = Grid { x: Interval::new(0.1, 1.0)?, y: first_humps(5), columns: SIDE, rows: SIDE };
     let image = || basin_raster(grid, |_| ControlFlow::Continue(()));
     let undecided =
         image()?.labels.iter().filter(|&&label| HopperFate::is_undecided(label)).count();

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
-use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, recovery};
+use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
@@ -20,7 +20,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
     let humps = 3;
     let recoveries = job.scan("recoveries", humps * WIDTHS.len(), |k| {
         let (below, above) =
-            recovery((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
+            upper_crisis_bracket((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
         Ok(vec![below, above])
     })?;
     let mut header = vec!["$M$".to_owned()];
@@ -30,7 +30,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
         let fates = fates(m)?;
         let mut cells = vec![format!("{m}")];
         for width in WIDTHS {
-            let found = immediate_basin(&fates, 1, width)?;
+            let found = immediate_basin(fates.map(), 1, width)?;
             cells.push(match found.edge {
                 ImmediateBasinEdge::Contact | ImmediateBasinEdge::Sudden { .. } => {
                     format!("{:.10}", found.delta)

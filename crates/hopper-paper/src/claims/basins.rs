@@ -3,7 +3,7 @@
 use super::claim::Claim;
 use crate::error::Error;
 use basin_of_attraction::monotone_branches;
-use hopper_basin::{BasinFractions, Fates, basin_fractions, branches, crisis, five_humps};
+use hopper_basin::{BasinFractions, Fates, basin_fractions, branches, crisis, first_humps};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 
@@ -24,7 +24,7 @@ fn multimodal() -> Result<Claim, Error> {
         );
     }
     // An independent look: the whole window, sampled, with no theory.
-    let blind = monotone_branches(&fates, five_humps(), 40_001)?;
+    let blind = monotone_branches(&fates, first_humps(5), 40_001)?;
     let blind_turns =
         blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
     Ok(Claim::new("Secs. I, III, Fig. 2", "multimodality")
@@ -117,8 +117,12 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
 /// Changes of fate along α at M = 0.175, in the windows of Figs. 6, 8 and 9.
 fn finer_scales() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.175)?)?;
-    let windows =
-        [(five_humps().left, five_humps().right), (14.066, 20.371), (17.0, 17.8), (17.25, 17.33)];
+    let windows = [
+        (first_humps(5).left, first_humps(5).right),
+        (14.066, 20.371),
+        (17.0, 17.8),
+        (17.25, 17.33),
+    ];
     let mut changes = Vec::new();
     for (left, right) in windows {
         let labels: Result<Vec<u16>, _> = (0..10_000)

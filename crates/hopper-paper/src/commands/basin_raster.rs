@@ -6,7 +6,7 @@
 use crate::error::Error;
 use crate::figures::basin_plot::{Window, draw_basins};
 use basin_of_attraction::{Grid, Interval, LabelImage};
-use hopper_basin::{HopperFate, basin_columns, five_humps};
+use hopper_basin::{HopperFate, basin_columns, first_humps};
 use journal_figures::render;
 use passive_hopper::MassRatio;
 use rayon::prelude::*;
@@ -116,7 +116,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
         [from, to] => Interval::new(from, to).map_err(Error::from),
         _ => Err(Error::CheckFailed("two numbers are needed, from and to".into())),
     };
-    let default = [five_humps().left, five_humps().right];
+    let default = [first_humps(5).left, first_humps(5).right];
     let [columns, rows] = options.pixels[..] else {
         return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
     };
