@@ -65,9 +65,10 @@ mod tests {
     //!   A = 2(−Γ₂ sin τ₂ − x₂ (1−cos τ₂)),  B = 2(−Γ₂ (1−cos τ₂) − x₂ (τ₂ − sin τ₂))       second flight
     //! ```
     //!
-    //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight is
-    //! monotone in x and V. So the range of each over an interval is given by its values at the ends. The intervals are not
-    //! rounded outwards. Instead the bounds must hold with 10⁻⁶ to spare, a thousand times what the roundings amount to.
+    //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight
+    //! is monotone in x and V. So the range of each over an interval is given by its values at the ends. The
+    //! intervals are not rounded outwards. Instead the bounds must hold with 10⁻⁶ to spare, a thousand times what
+    //! the roundings amount to.
 
     #![allow(clippy::disallowed_methods)]
 
@@ -109,8 +110,8 @@ mod tests {
         }
     }
 
-    /// Half the time of the flight from (x, V), V < π, by bisection: V(h) increases on (max(V, 0), π). Sixty halvings reach
-    /// neighbouring `f64`.
+    /// Half the time of the flight from (x, V), V < π, by bisection: V(h) increases on (max(V, 0), π). Sixty
+    /// halvings reach neighbouring `f64`.
     fn second(x: f64, v: f64) -> f64 {
         let (mut left, mut right) = (v.max(0.0), PI);
         for _ in 0..60 {
@@ -168,8 +169,8 @@ mod tests {
         if found.0 > 1e-6 && found.1 + 1e-6 < steepest {
             return;
         }
-        // The longer side is halved. Lengths of h count relative to the distance from α*_n, on which the slope depends; the
-        // factor 2 of M was chosen for few boxes.
+        // The longer side is halved. Lengths of h count relative to the distance from α*_n, on which the slope
+        // depends. How the factor 2 was chosen is not recorded; it changes the number of boxes only.
         if (h.1 - h.0) / (star - h.0).min(0.5) > 2.0 * (m.1 - m.0) {
             let middle = 0.5 * (h.0 + h.1);
             prove(Range(h.0, middle), m, (star, steepest), boxes);

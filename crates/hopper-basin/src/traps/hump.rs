@@ -170,9 +170,9 @@ impl Hump {
         if rest <= 0.0 {
             return Ok(None);
         }
-        let reach = (rest / middle).sqrt();
+        let half_width = (rest / middle).sqrt();
         let end = |sign: f64| {
-            let mut h = middle + sign * reach;
+            let mut h = middle + sign * half_width;
             for _ in 0..NEWTON_STEPS {
                 let half = HalfFlight::at(h);
                 let slope = half.sin * half.cos - h * (1.0 - 2.0 * half.sin * half.sin);
@@ -244,8 +244,8 @@ impl Hump {
             if !(slope < 0.0 && h > self.star.value()) {
                 return None;
             }
-            // One more step, which doubles the six digits, is left to the exact functions. Next to α*_n the cancellation
-            // may prevent six digits; the steps then run out, which costs time and no accuracy.
+            // One more step, which doubles the six digits, is left to the exact functions. Next to α*_n the
+            // cancellation may prevent six digits; the steps then run out, which costs time and no accuracy.
             if step.abs() < 1e-6 * (h - self.star.value()) {
                 break;
             }
