@@ -144,7 +144,9 @@ fn check_file(file: &Path, text: &str, breaches: &mut Vec<Breach>) {
         {
             breach(at, "unsafe code is in passive-hopper/src/kernel/batch/simd.rs alone");
         }
-        if code.contains("roots::") && !name.ends_with("hybrid-system/src/crossing/bracketed_root.rs") {
+        if code.contains("roots::")
+            && !name.ends_with("hybrid-system/src/crossing/bracketed_root.rs")
+        {
             breach(at, "only hybrid-system/src/crossing/bracketed_root.rs uses the roots crate");
         }
     }
