@@ -141,7 +141,7 @@ impl<const W: usize> Long<W> {
 }
 
 /// Newton steps from 50 bits to 64 `words`.
-fn doublings(words: usize) -> u32 {
+const fn doublings(words: usize) -> u32 {
     (64 * words).div_ceil(50).next_power_of_two().trailing_zeros()
 }
 
