@@ -2,21 +2,16 @@
 
 use crate::error::Error;
 use crate::kernel::scalar::hop::{Decided, Masses, hop as fast_hop};
-use crate::landing::error_bound::Doubt;
-use crate::landing::from_ground::Landing;
-use crate::landing::from_ground::TakeOff;
-use crate::landing::from_ground::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
-use crate::map::extended_hop::{Start, WideHop, wide_hop};
+use crate::landing::error_bound::ErrorBound;
+use crate::landing::first_landing::first_landing;
+use crate::landing::flight_ends::{Landing, TakeOff};
+use crate::landing::next_landing::next_landing;
+use crate::map::extended_hop::{ExtendedHop, SUDDEN_LIFT_OFF_BUDGET, Start, extended_hop};
 use crate::map::many_at_once::images;
 use crate::model::mass_ratio::MassRatio;
+use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 use crate::precision::double_double::DoubleDouble;
-use crate::precision::real::Real;
-
-/// Sudden lift-offs that one hop may have before it is given up with an error.
-///
-/// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. A hop
-/// that uses up the budget takes some tenths of a second.
-pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
+use crate::precision::real::Extended;
 
 /// Above this speed, 2²⁸, hops are computed in longer arithmetic at once: an ulp of the phase is 10⁻⁸.
 pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
@@ -176,7 +171,7 @@ impl LiftOffMap {
                 return Ok((hop, None));
             }
         }
-        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
+        let hop = extended_hop(Start::Speed(alpha), self.mass_ratio)?;
         Ok((self.rounded(alpha, &hop), Some(hop.landings)))
     }
 
@@ -184,18 +179,18 @@ impl LiftOffMap {
     fn plain_hop(&self, alpha: f64, mut see: impl FnMut(&Landing)) -> Result<Hop, Error> {
         let landings = self.landings(alpha)?;
         let (mut shares, mut sudden, mut flight_time) = (0.0, 0, 0.0);
-        let mut doubt = Doubt::plain(alpha);
+        let mut error_bound = ErrorBound::of_f64(alpha);
         for landing in landings {
             let landing = landing?;
             let ratio = landing.closing_speed / alpha;
             shares += ratio * ratio;
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
-            doubt.pass(&landing, self.masses.kappa);
+            error_bound.add_flight(&landing, self.masses.kappa);
             see(&landing);
         }
         let t = self.masses.mu * shares;
-        let certain = !doubt.is_real(1.0 - t, self.masses.mu, alpha);
+        let certain = !error_bound.inconclusive(1.0 - t, self.masses.mu, alpha);
         // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
@@ -203,7 +198,7 @@ impl LiftOffMap {
         Ok(Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time, certain })
     }
 
-    fn rounded(&self, alpha: f64, hop: &WideHop) -> Hop {
+    fn rounded(&self, alpha: f64, hop: &ExtendedHop) -> Hop {
         Hop {
             speed: alpha,
             next: hop.next.as_ref().map(|next| next.speed),

@@ -4,9 +4,9 @@
 //! the difference, and as an independent check.
 
 use crate::error::Error;
-use crate::landing::from_ground::TakeOff;
-use crate::landing::from_ground::time_bracket;
-use crate::map::lift_off_map::SUDDEN_LIFT_OFF_BUDGET;
+use crate::landing::flight_ends::TakeOff;
+use crate::landing::printed_bracket::time_bracket;
+use crate::map::extended_hop::SUDDEN_LIFT_OFF_BUDGET;
 use crate::model::mass_ratio::MassRatio;
 use hybrid_system::bracketed_root;
 

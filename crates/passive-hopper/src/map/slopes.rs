@@ -11,8 +11,8 @@
 //! ```
 
 use crate::error::Error;
-use crate::landing::from_ground::Landing;
-use crate::landing::from_ground::TakeOff;
+use crate::landing::flight_ends::TakeOff;
+use crate::landing::flight_jacobian::{FlightJacobian, Variation};
 use crate::map::lift_off_map::LiftOffMap;
 
 /// The derivatives of one hop.
@@ -22,69 +22,6 @@ pub struct Slopes {
     pub by_speed: f64,
     /// ∂α′/∂M.
     pub by_mass_ratio: f64,
-}
-
-/// A small change of a state on the ground.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Variation {
-    pub(crate) excess: f64,
-    pub(crate) velocity: f64,
-}
-
-/// What a flight makes of small changes of its start: of the state after it, and of Γ.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Tangent {
-    sin: f64,
-    cos: f64,
-    /// 1 − cos τ.
-    versine: f64,
-    /// τ − sin τ.
-    delay: f64,
-    closing_speed: f64,
-    excess: f64,
-    kappa: f64,
-    /// V cos τ and Y sin τ: the rate of the stretch at the landing is their difference.
-    rates: (f64, f64),
-}
-
-impl Tangent {
-    pub(crate) fn new(start: TakeOff, landing: &Landing, kappa: f64) -> Self {
-        let tau = landing.time;
-        // All by the half angle: one sine and one cosine.
-        let (sin_half, cos_half) = pxfm::f_sincos(0.5 * tau);
-        let versine = 2.0 * sin_half * sin_half;
-        let (sin, cos) = (2.0 * sin_half * cos_half, 1.0 - versine);
-        Tangent {
-            sin,
-            cos,
-            versine,
-            delay: if tau < 1.0 { -pxfm::f_sinmx(tau) } else { tau - sin },
-            closing_speed: landing.closing_speed,
-            excess: landing.excess,
-            kappa,
-            rates: (start.velocity * cos, (1.0 + start.excess) * sin),
-        }
-    }
-
-    /// The changes after the flight, and that of Γ.
-    pub(crate) fn carry(&self, change: Variation) -> (Variation, f64) {
-        let (dx, dv) = (change.excess, change.velocity);
-        let dt = (self.versine * dx + self.delay * dv) / self.closing_speed;
-        let closing = -self.sin * dx - self.versine * dv - self.excess * dt;
-        let excess = self.cos * dx + self.sin * dv + (self.rates.0 - self.rates.1) * dt;
-        (Variation { excess, velocity: dv - dt + self.kappa * closing }, closing)
-    }
-
-    /// Bounds on these for changes bounded by `change`: every term taken as positive, so that none
-    /// cancels another.
-    pub(crate) fn bound(&self, change: Variation) -> (Variation, f64) {
-        let (dx, dv) = (change.excess, change.velocity);
-        let (sin, cos) = (self.sin.abs(), self.cos.abs());
-        let dt = (self.versine * dx + self.delay.abs() * dv) / self.closing_speed;
-        let closing = sin * dx + self.versine * dv + self.excess.abs() * dt;
-        let excess = cos * dx + sin * dv + (self.rates.0.abs() + self.rates.1.abs()) * dt;
-        (Variation { excess, velocity: dv + dt + self.kappa * closing }, closing)
-    }
 }
 
 impl LiftOffMap {
@@ -117,9 +54,9 @@ impl LiftOffMap {
             if gamma == 0.0 {
                 break; // a lossless landing changes nothing: both slopes stay
             }
-            let tangent = Tangent::new(start, &landing, kappa);
-            let (speed, speed_closing) = tangent.carry(by_speed);
-            let (mut mass, mass_closing) = tangent.carry(by_ratio);
+            let jacobian = FlightJacobian::new(start, &landing, kappa);
+            let (speed, speed_closing) = jacobian.apply(by_speed);
+            let (mut mass, mass_closing) = jacobian.apply(by_ratio);
             mass.velocity += gamma * kappa_slope;
             speed_sum += gamma * speed_closing;
             ratio_sum += gamma * mass_closing;

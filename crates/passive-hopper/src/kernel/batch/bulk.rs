@@ -16,7 +16,8 @@ use crate::kernel::batch::simd;
 use crate::kernel::scalar::flight::{Ground, flight};
 use crate::kernel::scalar::hop::{FLIGHTS, Masses, Sum, ground_after};
 use crate::landing::first_flight_table::{
-    CELLS, Cell as Tables, Eight, First, Place, Stars, stars,
+    EightPolynomials, FirstFlight, FirstFlightTable, FixedPoints, TABLES, TablePosition,
+    fixed_points,
 };
 use std::cell::Cell;
 
@@ -96,7 +97,7 @@ impl Block {
             let (alpha, Masses { mu, kappa }) = from(entry);
             (self.hops.alpha[at], self.hops.mu[at], self.hops.kappa[at]) = (alpha, mu, kappa);
         }
-        simd::places(&mut self.hops, stars(), count);
+        simd::places(&mut self.hops, fixed_points(), count);
         self.first_flights(count);
         let mut now = 0;
         while self.lists[now].slow + self.lists[now].fast > 0 {
@@ -112,14 +113,14 @@ impl Block {
     /// All first flights, and the list of flights that follow at once.
     fn first_flights(&mut self, count: usize) {
         let Block { hops, lists: [list, _], .. } = self;
-        let mut cells = Tables::all();
+        let mut cells = FirstFlightTable::all();
         let mut used = 0u64;
         for (&cell, &piece) in hops.cell.iter().zip(&hops.piece).take(count) {
-            used |= u64::from(piece != Place::NOWHERE.piece) << (cell % CELLS as u64);
+            used |= u64::from(piece != TablePosition::NOWHERE.piece) << (cell % TABLES as u64);
         }
         for (n, cell) in cells.iter_mut().enumerate() {
             if used >> n & 1 == 1 {
-                *cell = Tables::get(n as u64);
+                *cell = FirstFlightTable::get(n as u64);
             }
         }
         list.clear();
@@ -178,15 +179,15 @@ impl Hops {
 
 /// The places of the first `count` speeds, up to whole vectors.
 #[inline(always)]
-pub(crate) fn places(hops: &mut Hops, stars: &Stars, count: usize) {
+pub(crate) fn places(hops: &mut Hops, fixed_points: &FixedPoints, count: usize) {
     let count = count.next_multiple_of(LANES).min(BLOCK);
     let alpha = &hops.alpha[..count];
     let (cell, piece) = (&mut hops.cell[..count], &mut hops.piece[..count]);
     let (at, sudden) = (&mut hops.at[..count], &mut hops.sudden[..count]);
     let (errors, flights) = (&mut hops.errors[..count], &mut hops.flights[..count]);
     for k in 0..count {
-        let place = Place::of(alpha[k], stars);
-        (cell[k], piece[k]) = (place.cell, place.piece);
+        let place = TablePosition::of(alpha[k], fixed_points);
+        (cell[k], piece[k]) = (place.interval, place.piece);
         (at[k], sudden[k]) = (place.at, place.sudden);
         (errors[k], flights[k]) = (0.0, 1.0);
     }
@@ -194,9 +195,9 @@ pub(crate) fn places(hops: &mut Hops, stars: &Stars, count: usize) {
 
 /// The first flights of the first `count` speeds, up to whole vectors, and the list of those that follow.
 #[inline(always)]
-pub(crate) fn first<E: Eight>(
+pub(crate) fn first<E: EightPolynomials>(
     hops: &mut Hops,
-    cells: &[&Tables; CELLS],
+    cells: &[&FirstFlightTable; TABLES],
     list: &mut Flights,
     count: usize,
 ) {
@@ -212,7 +213,7 @@ pub(crate) fn first<E: Eight>(
         let (place, piece, at) = (&places[group], &pieces[group], &ats[group]);
         let mut rows = [cells[0].of_closing_speed(0); LANES];
         for k in 0..LANES {
-            rows[k] = cells[place[k] as usize % CELLS].of_closing_speed(piece[k]);
+            rows[k] = cells[place[k] as usize % TABLES].of_closing_speed(piece[k]);
         }
         let closing_speed = E::polynomials(rows, at);
         for k in 0..LANES {
@@ -233,13 +234,13 @@ pub(crate) fn first<E: Eight>(
             (alpha[k], closing_speed[k], at[k]) =
                 (hops.alpha[from], hops.next[from], hops.at[from]);
             kappa[k] = hops.kappa[from];
-            rows[k] = cells[hops.cell[from] as usize % CELLS].of_beyond(hops.piece[from]);
+            rows[k] = cells[hops.cell[from] as usize % TABLES].of_beyond(hops.piece[from]);
         }
         let beyond = E::polynomials(rows, &at);
         let (mut excess, mut velocity, mut error) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
             let (alpha, beyond, closing_speed) = (alpha[k], beyond[k], closing_speed[k]);
-            let first = First { half_time: alpha - beyond, beyond, closing_speed };
+            let first = FirstFlight { half_time: alpha - beyond, beyond, closing_speed };
             let ground = ground_after(&first, alpha, kappa[k]);
             (excess[k], velocity[k], error[k]) = (ground.excess, ground.velocity, ground.error);
         }

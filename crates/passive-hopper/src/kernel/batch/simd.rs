@@ -6,9 +6,9 @@
 
 use crate::kernel::batch::bulk::{self, Hops};
 use crate::kernel::batch::landings::{self, Flights, Landings};
-use crate::landing::first_flight_table::{CELLS, Cell, OneByOne, Stars};
 #[cfg(target_arch = "x86_64")]
-use crate::landing::first_flight_table::{Eight, Piece};
+use crate::landing::first_flight_table::{EightPolynomials, Piece};
+use crate::landing::first_flight_table::{FirstFlightTable, FixedPoints, OneByOne, TABLES};
 
 #[cfg(target_arch = "x86_64")]
 fn has_avx512() -> bool {
@@ -54,12 +54,12 @@ macro_rules! best {
 best!(
     /// See [`bulk::places`].
     places = bulk::places | bulk::places,
-    (hops: &mut Hops, stars: &Stars, count: usize)
+    (hops: &mut Hops, fixed_points: &FixedPoints, count: usize)
 );
 best!(
     /// See [`bulk::first`].
     first_flights = bulk::first::<OneByOne> | bulk::first::<Turned>,
-    (hops: &mut Hops, cells: &[&Cell; CELLS], list: &mut Flights, count: usize)
+    (hops: &mut Hops, cells: &[&FirstFlightTable; TABLES], list: &mut Flights, count: usize)
 );
 best!(
     /// See [`landings::land_slow`].
@@ -82,7 +82,7 @@ best!(
 struct Turned;
 
 #[cfg(target_arch = "x86_64")]
-impl Eight for Turned {
+impl EightPolynomials for Turned {
     #[inline(always)]
     fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8] {
         // SAFETY: only `first_flights` uses this type, where the processor has these instructions.

@@ -2,7 +2,7 @@
 
 use crate::kernel::scalar::flight::{Ground, Landed, flight};
 use crate::landing::error_bound::LANDING_ULPS;
-use crate::landing::first_flight_table::{First, Place, stars};
+use crate::landing::first_flight_table::{FirstFlight, TablePosition, fixed_points};
 
 /// Flights of a hop here; longer chains are left to the careful path.
 pub(crate) const FLIGHTS: f64 = 64.0;
@@ -40,7 +40,7 @@ pub(crate) struct Decided {
 impl Sum {
     /// After the first flight.
     #[inline(always)]
-    pub(crate) fn first(first: &First) -> Self {
+    pub(crate) fn first(first: &FirstFlight) -> Self {
         let squares = first.closing_speed * first.closing_speed;
         Sum { squares, error: 0.0, half_time: first.half_time, flights: 1.0 }
     }
@@ -70,8 +70,8 @@ impl Sum {
 
 /// The state after a sudden first landing.
 #[inline(always)]
-pub(crate) fn ground_after(first: &First, alpha: f64, kappa: f64) -> Ground {
-    let First { half_time: h, beyond, closing_speed } = *first;
+pub(crate) fn ground_after(first: &FirstFlight, alpha: f64, kappa: f64) -> Ground {
+    let FirstFlight { half_time: h, beyond, closing_speed } = *first;
     let excess = 2.0 * h * beyond;
     let velocity = (beyond - h) + kappa * closing_speed;
     let size = 1.0 + alpha + 2.0 * h + closing_speed;
@@ -81,10 +81,10 @@ pub(crate) fn ground_after(first: &First, alpha: f64, kappa: f64) -> Ground {
 /// The hop from `alpha`; nothing where the careful path must decide.
 #[inline]
 pub(crate) fn hop(alpha: f64, Masses { mu, kappa }: Masses) -> Option<Decided> {
-    let place = Place::of(alpha, stars());
-    let first = place.first(alpha)?;
+    let position = TablePosition::of(alpha, fixed_points());
+    let first = position.first_flight(alpha)?;
     let mut sum = Sum::first(&first);
-    if place.sudden == 1 {
+    if position.sudden == 1 {
         let mut ground = ground_after(&first, alpha, kappa);
         loop {
             let landed = flight(&ground, kappa)?;
