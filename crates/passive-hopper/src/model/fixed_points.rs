@@ -31,9 +31,9 @@ pub fn alpha_star(n: u64) -> f64 {
 /// use std::cmp::Ordering;
 /// let star = FixedPointSpeed::new(1);
 /// assert_eq!(star.value(), alpha_star(1));
-/// // The nearest f64 lies below α*_1; the offset is far smaller than the spacing of f64 there.
-/// assert_eq!(star.compare(star.value()), Ordering::Less);
-/// assert!(star.offset_of(star.value()).abs() < 4.5e-16);
+/// // The nearest f64 lies above α*_1, by far less than the spacing of f64 there, 8.9e-16.
+/// assert_eq!(star.compare(star.value()), Ordering::Greater);
+/// assert!(star.offset_of(star.value()) < 4e-17);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointSpeed(DoubleDouble);
