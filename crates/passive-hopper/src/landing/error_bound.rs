@@ -1,9 +1,9 @@
 //! Whether the verdicts of a hop, and its value, are larger than their rounding errors.
 
+use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::from_ground::Landing;
 use crate::landing::from_ground::TakeOff;
 use crate::landing::from_ground::maximum_test;
-use crate::map::slopes::{Tangent, Variation};
 use std::f64::consts::PI;
 
 /// Roundings of one landing, in ulps of the largest quantity in it.
@@ -90,7 +90,7 @@ impl Doubt {
     fn carry(&self, landing: &Landing, kappa: f64, change: Variation) -> (Variation, f64) {
         let by_excess = Variation { velocity: 0.0, ..change };
         let by_velocity = Variation { excess: 0.0, ..change };
-        let tangent = Tangent::new(self.start, landing, kappa);
+        let tangent = FlightDerivative::new(self.start, landing, kappa);
         let (a, a_closing) = tangent.carry(by_excess);
         let (b, b_closing) = tangent.carry(by_velocity);
         let (most, most_closing) = tangent.bound(change);

@@ -6,11 +6,11 @@
 //! and the same first four bits: an index needs no search. They are counted from α*_n as `f64` has it, so that
 //! a place is exact.
 
-use crate::kernel::scalar::turn::nearest;
 use crate::landing::from_ground;
 use crate::landing::half_flight::HalfFlight;
 use crate::model::fixed_points::alpha_star;
 use crate::precision::double_double::DoubleDouble;
+use crate::precision::nearest_integer::nearest_integer;
 use std::f64::consts::FRAC_1_PI;
 use std::sync::{LazyLock, OnceLock};
 
@@ -97,7 +97,7 @@ impl Place {
     pub(crate) fn of(alpha: f64, stars: &Stars) -> Self {
         const ONE: u64 = 1023 << 52;
         let turns = alpha * FRAC_1_PI;
-        let (n, bits) = nearest(turns - 0.5);
+        let (n, bits) = nearest_integer(turns - 0.5);
         let part = turns - n;
         let cell = bits & (CELLS as u64 - 1);
         let delta = alpha - stars[cell as usize]; // exact

@@ -2,6 +2,7 @@
 
 pub(crate) mod error_bound;
 pub(crate) mod first_flight_table;
+pub(crate) mod flight_derivative;
 pub(crate) mod from_air;
 pub(crate) mod from_ground;
 pub(crate) mod half_flight;

@@ -2,4 +2,5 @@
 
 pub(crate) mod double_double;
 pub(crate) mod long;
+pub(crate) mod nearest_integer;
 pub(crate) mod real;

@@ -1,8 +1,9 @@
 //! A later flight: from (x, V), x > 0, to its landing.
 
 use super::start;
-use crate::kernel::scalar::turn::{Turn, nearest, turned};
+use crate::kernel::scalar::turn::{Turn, turned};
 use crate::landing::error_bound::LANDING_ULPS;
+use crate::precision::nearest_integer::nearest_integer;
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// Steps of order four that a search may take; two suffice for nearly all.
@@ -68,7 +69,7 @@ impl Branch {
     pub(crate) fn fast(ground: &Ground) -> Self {
         let Ground { excess, velocity, error } = *ground;
         let turns = velocity * FRAC_1_PI;
-        let (m, parity) = nearest(turns - 0.5);
+        let (m, parity) = nearest_integer(turns - 0.5);
         let part = turns - m;
         let turn = Turn::near(velocity);
         let test = turned(velocity * turn.cos - (1.0 + excess) * turn.sin, parity);

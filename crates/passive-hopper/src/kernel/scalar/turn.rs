@@ -1,5 +1,6 @@
 //! Sine and cosine of half a flight's time, and what is made of them, without a branch.
 
+use crate::precision::nearest_integer::nearest_integer;
 use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 
 /// S = sin h, C = cos h, D = h − SC, u = hC − S.
@@ -11,9 +12,6 @@ pub(crate) struct Turn {
     pub(crate) d: f64,
     pub(crate) u: f64,
 }
-
-/// Adding and taking it away rounds to a whole number, which stands in the last bits of the sum.
-const ROUNDER: f64 = 6_755_399_441_055_744.0; // 1.5 · 2⁵²
 
 /// π/2 in three parts; the first two have 33 bits, so that their products with up to 2²⁰ are exact.
 const HALF_PI: [f64; 3] =
@@ -39,13 +37,6 @@ const COS: [f64; 6] = [
     -1.138_254_462_340_429_1e-11,
 ];
 
-/// The whole number nearest to `x`, and its last bits; |x| < 2⁵⁰.
-#[inline(always)]
-pub(crate) fn nearest(x: f64) -> (f64, u64) {
-    let sum = x + ROUNDER;
-    (sum - ROUNDER, sum.to_bits())
-}
-
 /// `x` with its sign turned if the last bit of `odd` is set.
 #[inline(always)]
 pub(crate) fn turned(x: f64, odd: u64) -> f64 {
@@ -69,7 +60,7 @@ impl Turn {
     /// The functions of `h`, 0 < h < 2²⁰: S and C to 1.2 ulps, D and u without the cancellation at small h.
     #[inline(always)]
     pub(crate) fn at(h: f64) -> Self {
-        let (quarters, bits) = nearest(h * FRAC_2_PI);
+        let (quarters, bits) = nearest_integer(h * FRAC_2_PI);
         let [a, b, c] = HALF_PI;
         let r = ((h - quarters * a) - quarters * b) - quarters * c; // the products and the first difference are exact
         let z = r * r;
@@ -79,7 +70,7 @@ impl Turn {
     /// The same to eight digits: enough for a first step.
     #[inline(always)]
     pub(crate) fn near(h: f64) -> Self {
-        let (quarters, bits) = nearest(h * FRAC_2_PI);
+        let (quarters, bits) = nearest_integer(h * FRAC_2_PI);
         let r = h - quarters * FRAC_PI_2;
         let z = r * r;
         Turn::reduced(h, (quarters, bits, r), cubic(&SIN, z), cubic(&COS, z))
