@@ -184,25 +184,9 @@ fn left_end(index: usize) -> f64 {
     f64::from_bits((FIRST_OCTAVE << 52) + ((index as u64) << 48))
 }
 
-/// Polynomials of eight places at once.
-pub(crate) trait Eight {
-    /// Those with the coefficients of `rows`, each at its place.
-    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8];
-}
-
-/// One by one.
-pub(crate) struct OneByOne;
-
-impl Eight for OneByOne {
-    #[inline(always)]
-    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8] {
-        std::array::from_fn(|k| polynomial(rows[k], at[k]))
-    }
-}
-
 /// A polynomial of degree seven.
 #[inline(always)]
-fn polynomial(c: &Piece, x: f64) -> f64 {
+pub(crate) fn polynomial(c: &Piece, x: f64) -> f64 {
     let square = x * x;
     let fourth = square * square;
     let low = (c[0] + c[1] * x) + square * (c[2] + c[3] * x);

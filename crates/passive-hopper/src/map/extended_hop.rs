@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::landing::error_bound::Doubt;
 use crate::landing::from_ground::Landing;
 use crate::landing::from_ground::{Cell, TakeOff, next_root};
-use crate::map::lift_off_map::SUDDEN_LIFT_OFF_BUDGET;
+use crate::map::limits::SUDDEN_LIFT_OFF_BUDGET;
 use crate::map::near_fixed_point::WideLocal;
 use crate::model::mass_ratio::MassRatio;
 use crate::precision::double_double::DoubleDouble;
