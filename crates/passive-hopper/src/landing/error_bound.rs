@@ -5,10 +5,10 @@
 //! not larger than the bound on its error. The hop is then computed again in longer arithmetic.
 //!
 //! The error has two parts. Each flight adds the roundings of its own landing. And it propagates the error of its
-//! start to its end, by its Jacobian. The second part grows along a chain of sudden lift-offs.
+//! start to its end, by the derivative of the flight. The second part grows along a chain of sudden lift-offs.
 
+use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::flight_ends::{Landing, TakeOff};
-use crate::landing::flight_jacobian::{FlightJacobian, Variation};
 use crate::landing::next_landing::maximum_test;
 use std::f64::consts::PI;
 
@@ -18,8 +18,8 @@ use std::f64::consts::PI;
 pub(crate) const LANDING_ULPS: f64 = 16.0;
 
 /// The part of the bound without cancellation that is added to the propagated error: it stands for the roundings of the
-/// Jacobian's own coefficients. Not derived: its coefficients are right to some ulps of the time, and 10⁻⁶ is far more.
-const JACOBIAN_ERROR: f64 = 1e-6;
+/// derivative's own coefficients. Not derived: its coefficients are right to some ulps of the time, and 10⁻⁶ is far more.
+const DERIVATIVE_ERROR: f64 = 1e-6;
 
 /// A running bound on the error of the state on the ground.
 ///
@@ -106,11 +106,11 @@ impl ErrorBound {
     fn propagate(&self, landing: &Landing, kappa: f64, change: Variation) -> (Variation, f64) {
         let by_excess = Variation { velocity: 0.0, ..change };
         let by_velocity = Variation { excess: 0.0, ..change };
-        let jacobian = FlightJacobian::new(self.start, landing, kappa);
-        let (a, a_closing) = jacobian.apply(by_excess);
-        let (b, b_closing) = jacobian.apply(by_velocity);
-        let (most, most_closing) = jacobian.bound(change);
-        let part = JACOBIAN_ERROR + 4.0 * f64::EPSILON * landing.time;
+        let derivative = FlightDerivative::new(self.start, landing, kappa);
+        let (a, a_closing) = derivative.carry(by_excess);
+        let (b, b_closing) = derivative.carry(by_velocity);
+        let (most, most_closing) = derivative.bound(change);
+        let part = DERIVATIVE_ERROR + 4.0 * f64::EPSILON * landing.time;
         let after = Variation {
             excess: a.excess.abs() + b.excess.abs() + part * most.excess,
             velocity: a.velocity.abs() + b.velocity.abs() + part * most.velocity,

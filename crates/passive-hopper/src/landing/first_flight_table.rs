@@ -206,25 +206,9 @@ fn left_end(index: usize) -> f64 {
     f64::from_bits((FIRST_OCTAVE << 52) + ((index as u64) << 48))
 }
 
-/// The values of eight polynomials at once: row by row, or by vectors of the processor's own.
-pub(crate) trait EightPolynomials {
-    /// The polynomials with the coefficients of `rows`, each at its own position.
-    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8];
-}
-
-/// One polynomial after the other.
-pub(crate) struct OneByOne;
-
-impl EightPolynomials for OneByOne {
-    #[inline(always)]
-    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8] {
-        std::array::from_fn(|k| polynomial(rows[k], at[k]))
-    }
-}
-
 /// A polynomial of degree seven, by Estrin's scheme: its terms do not wait for each other.
 #[inline(always)]
-fn polynomial(c: &Piece, x: f64) -> f64 {
+pub(crate) fn polynomial(c: &Piece, x: f64) -> f64 {
     let square = x * x;
     let fourth = square * square;
     let low = (c[0] + c[1] * x) + square * (c[2] + c[3] * x);

@@ -1,7 +1,7 @@
 //! When and how does the lower mass land, and how large is the error of the answer?
 //!
 //! ```text
-//!   flight_ends.rs, flight_jacobian.rs    a flight's two ends, and how small changes of one reach the other
+//!   flight_ends.rs, flight_derivative.rs  a flight's two ends, and how small changes of one reach the other
 //!   half_time.rs, half_flight.rs          the closed forms, in half the time of flight; their public face
 //!   half_time_root.rs                     the root search that all landings from the ground share
 //!   fixed_point_interval.rs, first_flight_table.rs, first_landing.rs      after a gradual lift-off
@@ -18,8 +18,8 @@ pub(crate) mod extended_landing;
 pub(crate) mod first_flight_table;
 pub(crate) mod first_landing;
 pub(crate) mod fixed_point_interval;
+pub(crate) mod flight_derivative;
 pub(crate) mod flight_ends;
-pub(crate) mod flight_jacobian;
 pub(crate) mod from_air;
 pub(crate) mod half_flight;
 pub(crate) mod half_time;

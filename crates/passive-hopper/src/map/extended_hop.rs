@@ -11,18 +11,13 @@ use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::landing::flight_ends::{Landing, TakeOff, is_sudden};
 use crate::landing::local_flight::NearFixedPoint;
 use crate::landing::next_landing::{maximum_test, next_root};
+use crate::map::limits::SUDDEN_LIFT_OFF_BUDGET;
 use crate::model::fixed_points::{alpha_star, fixed_point_in};
 use crate::model::mass_ratio::MassRatio;
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
 use crate::precision::real::Extended;
 use std::f64::consts::PI;
-
-/// Sudden lift-offs that one hop may have before it is given up with an error.
-///
-/// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))², which is finite but may be huge; scans find 1013 at
-/// M = 10⁴. The budget bounds the time of a hop: one that uses it up takes some tenths of a second in `f64`.
-pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
 
 /// μ and κ.
 #[derive(Debug, Clone, Copy)]

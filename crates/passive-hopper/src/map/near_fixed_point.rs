@@ -9,7 +9,8 @@ use crate::landing::flight_ends::{Landing, TakeOff};
 use crate::landing::local_flight::NearFixedPoint;
 use crate::landing::next_landing::next_landing;
 use crate::map::extended_hop::{Start, extended_hop};
-use crate::map::lift_off_map::{LARGEST_PLAIN_SPEED, LiftOffMap};
+use crate::map::lift_off_map::LiftOffMap;
+use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::model::fixed_points::{alpha_star, exact_alpha_star, n_pi};
 use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 

@@ -1,18 +1,18 @@
-//! Derivatives of the map along its flights, the landings' shift in time included (saltation).
+//! Derivatives ∂α′/∂α and ∂α′/∂M of the map, from the derivatives of its flights.
 //!
-//! For a flight from stretch 1 + x and speed V to a landing at τ = 2h with closing speed Γ,
+//! Differentiating α′² = α² − μ Σ Γ² gives
 //!
 //! ```text
-//!   dτ  = [(1 − cos τ) dx + (τ − sin τ) dV]/Γ
-//!   dx′ = cos τ dx + sin τ dV + ṡ dτ                  ṡ = V cos τ − Y sin τ
-//!   dΓ  = −sin τ dx − (1 − cos τ) dV − x′ dτ
-//!   dV′ = dV − dτ + κ dΓ + Γ dκ
 //!   α′ dα′ = α dα − μ Σ Γ dΓ − ½ dμ Σ Γ²
+//!   dκ/dM = 1/(1 + M)²        dμ/dM = (1 − M)/(1 + M)³
 //! ```
+//!
+//! [`FlightDerivative`] takes (dx, dV) through each flight and gives dΓ. It holds κ fixed; the change of κ adds
+//! Γ dκ to dV at each landing.
 
 use crate::error::Error;
+use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::flight_ends::TakeOff;
-use crate::landing::flight_jacobian::{FlightJacobian, Variation};
 use crate::map::lift_off_map::LiftOffMap;
 
 /// The derivatives of one hop.
@@ -25,14 +25,14 @@ pub struct Slopes {
 }
 
 impl LiftOffMap {
-    /// ∂α′/∂α and ∂α′/∂M at `alpha`; nothing if the hopper is grounded.
+    /// ∂α′/∂α and ∂α′/∂M at `alpha`; `None` if the hopper is grounded.
     ///
-    /// On the contact intervals ∂α′/∂α = (α/α′)(1 − 4μW). At α*_n both one-sided slopes are 1, with
+    /// On the contact intervals ∂α′/∂α = (α/α′)(1 − 4μW). At α*_n both one-sided derivatives by α are 1, with
     /// f′ = 1 − (4/3)λδ^{1/3} on the right and 1 + (40/3)λ|δ|^{1/3} on the left. Both derivatives
     /// are infinite where α′ falls to zero, and on one side of a grazing.
     ///
     /// # Errors
-    /// As [`image`](Self::image).
+    /// The errors of [`image`](Self::image).
     pub fn slopes(&self, alpha: f64) -> Result<Option<Slopes>, Error> {
         let (hop, landings) = self.path(alpha)?;
         if !hop.certain {
@@ -43,6 +43,7 @@ impl LiftOffMap {
         let (m, mu, kappa) = (ratio.value(), ratio.mu(), ratio.kappa());
         let whole = 1.0 + m;
         let kappa_slope = 1.0 / (whole * whole);
+        // The state on the ground as a function of α, and as a function of M.
         let mut by_speed = Variation { excess: 0.0, velocity: 1.0 };
         let mut by_ratio = Variation { excess: 0.0, velocity: 0.0 };
         // Σ Γ ∂Γ/∂α, Σ Γ ∂Γ/∂M, Σ Γ².
@@ -52,11 +53,12 @@ impl LiftOffMap {
             let gamma = landing.closing_speed;
             square_sum += gamma * gamma;
             if gamma == 0.0 {
-                break; // a lossless landing changes nothing: both slopes stay
+                // A lossless landing: dτ has a factor 1/Γ, which would give NaN. Its Γ dΓ is zero.
+                break;
             }
-            let jacobian = FlightJacobian::new(start, &landing, kappa);
-            let (speed, speed_closing) = jacobian.apply(by_speed);
-            let (mut mass, mass_closing) = jacobian.apply(by_ratio);
+            let flight = FlightDerivative::new(start, &landing, kappa);
+            let (speed, speed_closing) = flight.carry(by_speed);
+            let (mut mass, mass_closing) = flight.carry(by_ratio);
             mass.velocity += gamma * kappa_slope;
             speed_sum += gamma * speed_closing;
             ratio_sum += gamma * mass_closing;

@@ -1,29 +1,29 @@
-//! The Jacobian of a flight: the response of its end to small changes of its start, the change of the landing
-//! time included (saltation).
+//! The derivative of one flight: how a small change of its start changes its landing.
 //!
-//! For a flight from stretch Y = 1 + x and velocity V to a landing at τ = 2h with closing speed Γ,
+//! A flight from stretch 1 + x = Y and speed V lands after τ = 2h with closing speed Γ. A change of the start also
+//! moves the landing in time, by dτ. With the rate of the stretch ṡ at the landing,
 //!
 //! ```text
 //!   dτ  = [(1 − cos τ) dx + (τ − sin τ) dV]/Γ
 //!   dx′ = cos τ dx + sin τ dV + ṡ dτ                  ṡ = V cos τ − Y sin τ
 //!   dΓ  = −sin τ dx − (1 − cos τ) dV − x′ dτ
-//!   dV′ = dV − dτ + κ dΓ + Γ dκ
+//!   dV′ = dV − dτ + κ dΓ
 //! ```
 //!
-//! The term Γ dκ is left to the caller: it is no function of the changes of the start.
+//! The derivatives of the map (`map/slopes.rs`) and the error bounds (`error_bound.rs`) both use it.
 
 use crate::landing::flight_ends::{Landing, TakeOff};
 
-/// A small change of a state on the ground.
+/// A small change (dx, dV) of a state on the ground.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Variation {
     pub(crate) excess: f64,
     pub(crate) velocity: f64,
 }
 
-/// The linear map from a change (dx, dV) of the start to the change (dx′, dV′) after the landing, and to dΓ.
+/// The linear map from a change of a flight's start to the change of the state after it, and of Γ.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct FlightJacobian {
+pub(crate) struct FlightDerivative {
     sin: f64,
     cos: f64,
     /// 1 − cos τ.
@@ -33,22 +33,22 @@ pub(crate) struct FlightJacobian {
     closing_speed: f64,
     excess: f64,
     kappa: f64,
-    /// V cos τ and Y sin τ: the rate of the stretch at the landing is their difference.
+    /// V cos τ and Y sin τ: their difference is ṡ at the landing.
     rates: (f64, f64),
 }
 
-impl FlightJacobian {
+impl FlightDerivative {
     pub(crate) fn new(start: TakeOff, landing: &Landing, kappa: f64) -> Self {
         let tau = landing.time;
-        // All functions of τ from the half angle: one sine and one cosine.
+        // One sine and one cosine, of h = τ/2: 1 − cos τ = 2 sin² h loses no digits at small τ.
         let (sin_half, cos_half) = pxfm::f_sincos(0.5 * tau);
         let versine = 2.0 * sin_half * sin_half;
         let (sin, cos) = (2.0 * sin_half * cos_half, 1.0 - versine);
-        FlightJacobian {
+        FlightDerivative {
             sin,
             cos,
             versine,
-            // Below τ = 1 the difference cancels: τ − sin τ ≈ τ³/6.
+            // Below τ = 1 the plain difference cancels.
             delay: if tau < 1.0 { -pxfm::f_sinmx(tau) } else { tau - sin },
             closing_speed: landing.closing_speed,
             excess: landing.excess,
@@ -57,8 +57,8 @@ impl FlightJacobian {
         }
     }
 
-    /// The change after the flight, and that of Γ.
-    pub(crate) fn apply(&self, change: Variation) -> (Variation, f64) {
+    /// The change of the state after the flight, and of Γ.
+    pub(crate) fn carry(&self, change: Variation) -> (Variation, f64) {
         let (dx, dv) = (change.excess, change.velocity);
         let dt = (self.versine * dx + self.delay * dv) / self.closing_speed;
         let closing = -self.sin * dx - self.versine * dv - self.excess * dt;
@@ -66,8 +66,8 @@ impl FlightJacobian {
         (Variation { excess, velocity: dv - dt + self.kappa * closing }, closing)
     }
 
-    /// Bounds on both for changes bounded by `change`. Every term is taken as positive, so that no term cancels
-    /// another.
+    /// Bounds on what [`carry`](Self::carry) gives for changes bounded by `change`: every term is taken as positive,
+    /// so that no term cancels another.
     pub(crate) fn bound(&self, change: Variation) -> (Variation, f64) {
         let (dx, dv) = (change.excess, change.velocity);
         let (sin, cos) = (self.sin.abs(), self.cos.abs());
