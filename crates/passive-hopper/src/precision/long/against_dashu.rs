@@ -41,7 +41,7 @@ impl Random {
     /// A number with random bits; every fourth has words of zeros or ones, where a carry goes far.
     fn long<const W: usize>(&mut self, exponents: i64) -> Long<W> {
         let mut words = [0; W];
-        let special = self.word() % 4 == 0;
+        let special = self.word().is_multiple_of(4);
         for word in &mut words {
             let bits = self.word();
             *word = match bits % 3 {
@@ -52,7 +52,7 @@ impl Random {
         }
         words[W - 1] |= 1 << 63;
         let exponent = (self.word() % (2 * exponents + 1) as u64) as i64 - exponents;
-        Long { negative: self.word() % 2 == 0, exponent, words }
+        Long { negative: self.word().is_multiple_of(2), exponent, words }
     }
 }
 
@@ -85,7 +85,7 @@ fn operations<const W: usize>(seed: u64, count: usize) {
     let mut random = Random(seed);
     for _ in 0..count {
         // Half of the pairs have nearly the same exponent, so that differences cancel.
-        let range = if random.word() % 2 == 0 { 1 } else { 80 * W as i64 };
+        let range = if random.word().is_multiple_of(2) { 1 } else { 80 * W as i64 };
         let (a, b): (Long<W>, Long<W>) = (random.long(range), random.long(range));
         let (x, y) = (reference(&a), reference(&b));
         let (sum, difference) = (&x + &y, &x - &y);
