@@ -1,7 +1,7 @@
 //! The first flight by tables.
 //!
 //! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone, and it is analytic in δ but for a cube root at
-//! δ = 0 (theory, c). The table cuts the interval into pieces whose length is a 16th of their distance from δ = 0. On each
+//! δ = 0. The table cuts the interval into pieces whose length is a 16th of their distance from δ = 0. On each
 //! of them α − h and Γ are polynomials of degree 7, to an ulp. A piece is the set of numbers δ of one sign with the same
 //! exponent and the same first four bits of the fraction: its index is read from the bits of δ, without a search.
 //! Pieces are counted from the `f64` nearest to α*_n, because the difference of two close `f64` is exact.
@@ -25,7 +25,7 @@ pub(crate) const TABLES: usize = 32;
 /// on pieces of this length its error is about an ulp (measured).
 const COEFFICIENTS: usize = 8;
 
-/// Octaves of |δ| with pieces, from 2⁻¹³ up to 4: |δ| is below π + ½ everywhere. Speeds within 2⁻¹³ of α*_n have no
+/// Octaves of |δ| with pieces, from 2⁻¹³ up to 4; |δ| is at most π. Speeds within 2⁻¹³ of α*_n have no
 /// piece. They are few, and the careful path solves them.
 const OCTAVES: usize = 15;
 /// The exponent field of 2⁻¹³ in an `f64`.

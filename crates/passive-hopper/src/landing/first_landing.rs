@@ -1,4 +1,5 @@
-//! The first landing after a gradual lift-off. It exists and is unique for every α > 0 (theory, b.1).
+//! The first landing after a gradual lift-off. It exists and is unique for every α > 0 (docs/model.md, "The
+//! landing, solved").
 
 use crate::landing::first_flight_table::{TablePosition, fixed_points};
 use crate::landing::fixed_point_interval::FixedPointInterval;

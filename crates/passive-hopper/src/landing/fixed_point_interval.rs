@@ -6,8 +6,8 @@
 //!   (α*_n, (n+1)π) into contact     (α, (n+1)π)      A((n+1)π) = (n+1)π, A(h) − h < 0
 //! ```
 //!
-//! with A(h) the lift-off speed of the flight that lasts 2h, which increases (theory, b.1). For n = 0 only the second
-//! line applies.
+//! with A(h) the lift-off speed of the flight that lasts 2h, which increases (docs/model.md,
+//! "The landing, solved"). For n = 0 only the second line applies.
 
 use crate::model::fixed_points::{exact_alpha_star, n_pi};
 use crate::precision::double_double::DoubleDouble;
@@ -51,8 +51,8 @@ impl FixedPointInterval {
     /// h to a few digits, from an expansion of the inverse of A.
     ///
     /// About α*_n, with δ = α − α*_n, w = (12 δ a²/(1+a²))^{1/3} and a = α*_n, the flight lasts
-    /// 2a + w + w²/(4a) + (4 + 25/a²) w³/240 − (36 − 65/a²) w⁴/(2880 a) + w⁵/1400 + … (theory, c; in the last term
-    /// the parts with 1/a² are left out).
+    /// 2a + w + w²/(4a) + (4 + 25/a²) w³/240 − (36 − 65/a²) w⁴/(2880 a) + w⁵/1400 + …: the inverse series of δ(t) in
+    /// `local_flight.rs`, without the parts of the last term that have 1/a².
     pub(crate) fn half_time_estimate(&self, alpha: f64) -> f64 {
         if self.n == 0 {
             // A(h) = h/2 (1 + h²/15 + …) at 0, hence h ≈ 2α/(1 + 4α²/15). The coefficient 0.01676 makes h = π at

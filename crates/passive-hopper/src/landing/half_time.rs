@@ -6,8 +6,7 @@
 //!   S = sin h,  C = cos h,  D = h − S C,  u = h C − S,  ρ = u/D,  σ = S²/D
 //! ```
 //!
-//! every quantity at the landing is rational in these (theory, b.1 and b.2: put τ = 2h into G(τ) = 0 and G'(τ), and
-//! eliminate V):
+//! every quantity at the landing is rational in these. They follow from τ = 2h in G(τ) = 0 and G'(τ), without V:
 //!
 //! ```text
 //!   speed at the start   V       = h + S ρ − x σ                      (G = 0)

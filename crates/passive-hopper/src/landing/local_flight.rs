@@ -1,12 +1,16 @@
 //! The first flight from near a fixed point, in the offset of its time.
 //!
-//! With a = α*_n, α = a + δ, τ = 2a + t, η = t/2, h = a + η and tan a = a (theory, c), exactly
+//! With a = α*_n, α = a + δ, τ = 2a + t, η = t/2, h = a + η, exactly
 //!
 //! ```text
 //!   δ(t) = N/Q      N = a (t − sin t) + (t²/2 − 1 + cos t)       Q = 2a + t − sin(2a + t) = 2D
 //!   Γ    = 4 b²/(R² Q)        b = (1 + a² + aη) sin η − η cos η          R² = 1 + a²
 //!   S u/D = −2 (a cos η + sin η) b/(R² Q)          dδ/dt = 4 b²/(R² Q²)
 //! ```
+//!
+//! The landing equation α (τ − sin τ) = τ²/2 + cos τ − 1, less a (τ − sin τ) on both sides, is δ Q = N. As tan a = a,
+//! sin 2a = 2a/R² and cos 2a = (1 − a²)/R², hence a sin τ + cos τ = cos t − a sin t, and N has its form. In the same way
+//! cos a = ±1/R and sin a = ±a/R give u = h cos h − sin h = ∓b/R. Γ, S u/D and dδ/dt are those of `half_time.rs`.
 //!
 //! No term cancels another, however small t is. Hence every function keeps its relative accuracy.
 
@@ -68,7 +72,8 @@ impl<R: Real> NearFixedPoint<R> {
 const NEWTON_STEPS: usize = 12;
 
 impl NearFixedPoint<f64> {
-    /// t of δ, by Newton's method from its expansion in δ^{1/3} (theory, c).
+    /// t of δ, by Newton's method from its expansion in δ^{1/3} (`fixed_point_interval.rs` has more
+    /// of its terms).
     ///
     /// As t³ ∝ δ, the method converges quadratically in relative terms, however small δ is. The last step is applied
     /// before the search stops, unlike in extended arithmetic: here one more step is cheaper than one more test.
