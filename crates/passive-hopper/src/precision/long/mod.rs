@@ -23,7 +23,6 @@
 //! others, and numbers that are not `Copy`. So this arithmetic stays, and dashu-float is the reference of its tests: a
 //! million arguments of every function, in `against_dashu.rs`.
 
-#[cfg(test)]
 mod against_dashu;
 mod functions;
 
