@@ -1,12 +1,22 @@
-//! `cargo xtask`.
+//! `cargo xtask`: the repository's commands by short names, and its rules.
+//!
+//! This program has no dependencies, so that `cargo xtask tidy` builds in seconds. A command that computes
+//! is part of a program in `crates/`; `cargo xtask` builds that program and becomes it.
+
+mod commands;
+mod error;
+mod repository;
+mod tidy;
 
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match xtask::run() {
-        Ok(()) => ExitCode::SUCCESS,
+    let arguments: Vec<_> = std::env::args_os().skip(1).collect();
+    match commands::run(&arguments) {
+        Ok(code) => code,
         Err(error) => {
             use std::io::Write;
+            // A closed standard error leaves the status as the only message.
             let _ = writeln!(std::io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }

@@ -1,4 +1,4 @@
-//! What an event costs: in closed form under bounds, by enclosures, by samples, along an integrated flow.
+//! Cost of an event for each kind of guard: quasi-polynomial, enclosures, samples, integrated flow.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
@@ -7,7 +7,7 @@ use hybrid_system::*;
 use nalgebra::Vector2;
 use std::hint::black_box;
 
-/// A swing watched for its zeros.
+/// A harmonic oscillator whose zeros are events.
 struct Swing(Search);
 
 #[derive(Clone, Copy, PartialEq)]
@@ -47,7 +47,7 @@ impl HybridSystem<2> for Swing {
         if self.0 != Search::Enclosure {
             return None;
         }
-        // x⁽ᵏ⁾ moves by no more than the amplitude over a unit of time.
+        // |x⁽ᵏ⁺¹⁾| is at most the amplitude: x⁽ᵏ⁾ changes by no more than amplitude · time. 1e-15 is for rounding.
         let middle = self.flow(mode, x, 0.5 * (from + to));
         let value = [middle[0], middle[1], -middle[0]].get(order as usize).copied()?;
         Some(Enclosure::around(value, x.norm() * (0.5 * (to - from) + 1e-15)))
@@ -57,7 +57,7 @@ impl HybridSystem<2> for Swing {
     }
 }
 
-/// The same, integrated.
+/// The same oscillator, integrated.
 struct Integrated;
 
 impl VectorField<2> for Integrated {
@@ -94,7 +94,7 @@ impl HybridSystem<2> for Integrated {
 
 fn zeros(criterion: &mut Criterion) {
     for (name, search) in [
-        ("signal", Search::QuasiPolynomial),
+        ("quasi-polynomial", Search::QuasiPolynomial),
         ("enclosure", Search::Enclosure),
         ("samples", Search::Samples),
     ] {

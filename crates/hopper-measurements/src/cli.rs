@@ -1,0 +1,36 @@
+//! The command line.
+
+use crate::commands;
+use crate::error::Error;
+use clap::{Parser, Subcommand};
+
+/// Error and speed of the hopper's computations, measured.
+#[derive(Debug, Parser)]
+// Usage lines name what one types: `cargo xtask` starts this program.
+#[command(name = "hopper-measurements", bin_name = "cargo xtask", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compare the map and the fates with files of reference values
+    CheckReference(commands::check_reference::Options),
+    /// Measure time against error of every way to compute a hop
+    WorkPrecision(commands::work_precision::Options),
+    /// Measure how fast hops and rasters are, each after its output was checked
+    Speed(commands::speed::Options),
+    /// Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index
+    ComparePeers(commands::compare_peers::Options),
+}
+
+/// Runs the command line.
+pub fn run() -> Result<(), Error> {
+    match Cli::parse().command {
+        Command::CheckReference(options) => commands::check_reference::run(&options),
+        Command::WorkPrecision(options) => commands::work_precision::run(&options),
+        Command::Speed(options) => commands::speed::run(&options),
+        Command::ComparePeers(options) => commands::compare_peers::run(&options),
+    }
+}

@@ -1,0 +1,46 @@
+//! `compare-peers`: the same hops by heyoka, SciPy, numba and ours.
+
+use crate::error::Error;
+use crate::peers::{Python, csv, markdown, measure, peers_figure};
+use crate::text::replace_block;
+use journal_figures::render;
+use repository_tools::{Folder, Progress, read, repository, results_folder, say};
+use resumable_job::Lock;
+use std::path::PathBuf;
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// The Python that makes the virtual environment for the peers
+    #[arg(long, value_name = "PROGRAM", default_value = "python3")]
+    python: String,
+    /// Folder for the environment and the results [default: target/peers in the repository]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Renew the table and the figure of docs/performance.md with what is measured
+    #[arg(long)]
+    bless: bool,
+}
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let folder = results_folder(options.out.as_deref(), "peers")?;
+    // Two runs would install into the same environment and read each other's results.
+    let _lock = Lock::take(folder.path(), "compare-peers")?;
+    let python = Python::with_packages(&options.python, folder.path())?;
+    let peers = measure(&python, folder.path(), &Progress)?;
+    let rendered = render("peers", &peers_figure(&peers), 2.0)?;
+    folder.write("peers.csv", &csv(&peers)?.bytes)?;
+    folder.write("peers.svg", rendered.svg.as_bytes())?;
+    folder.write("peers.png", &rendered.png)?;
+    let table = markdown(&peers);
+    say(format_args!("{table}\n{}", folder.path().display()))?;
+    if !options.bless {
+        return Ok(());
+    }
+    let docs = Folder::open(&repository().join("docs"))?;
+    let text = read(&docs.path().join("performance.md"))?;
+    docs.write("performance.md", replace_block(&text, "peers", &table)?.as_bytes())?;
+    docs.write("figures/peers.svg", rendered.svg.as_bytes())?;
+    Ok(())
+}

@@ -1,0 +1,24 @@
+//! Measurements of the hopper's computations: their error against reference values of 40 digits, their
+//! speed, and both beside other people's software.
+//!
+//! The program `hopper-measurements` runs the commands; `cargo xtask COMMAND` starts it.
+//!
+//! | module | question |
+//! |---|---|
+//! | [`commands`] | the commands, one file each |
+//! | `reference` | what does a line of a reference file ask and answer? |
+//! | `work_precision` | how much time and error does each way to compute a hop have? |
+//! | `speed` | how fast are hops and rasters, with their output checked first? |
+//! | `peers` | how do heyoka, SciPy and numba compare on the same hops? |
+
+pub mod cli;
+pub mod commands;
+mod error;
+mod peers;
+mod reference;
+mod speed;
+mod text;
+mod timing;
+mod work_precision;
+
+pub use error::Error;

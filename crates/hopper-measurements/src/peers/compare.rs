@@ -1,0 +1,97 @@
+//! The same hops by each program, in one run.
+
+use super::peer::Peer;
+use super::python::Python;
+use crate::error::Error;
+use crate::reference::{Hop, window_hops};
+use crate::work_precision::{Case, Method};
+use repository_tools::Progress;
+use std::path::Path;
+
+/// What a peer says of the hops, in their order.
+#[derive(Debug, Clone, serde::Deserialize)]
+struct Found {
+    name: String,
+    seconds: f64,
+    next: Vec<Option<f64>>,
+}
+
+/// All of them on the paper's window.
+pub(crate) fn measure(
+    python: &Python,
+    folder: &Path,
+    progress: &Progress,
+) -> Result<Vec<Peer>, Error> {
+    let bar = progress.bar("peers", 2);
+    let hops = window_hops()?;
+    let found = theirs(python, folder, &hops)?;
+    bar.set(1);
+    let mut peers: Vec<Peer> = found.into_iter().map(|found| peer(found, false, &hops)).collect();
+    for method in [Method::HybridSearched, Method::HybridExact, Method::Stable, Method::AtOnce] {
+        peers.push(peer(ours(method, &hops), true, &hops));
+    }
+    bar.finish();
+    Ok(peers)
+}
+
+/// The peers' own measurements, in their own process.
+fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Error> {
+    let (input, output) = (folder.join("hops.json"), folder.join("results.json"));
+    let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
+    let understood = |e: serde_json::Error| Error::Peers { reason: e.to_string() };
+    let text = serde_json::to_string(&pairs).map_err(understood)?;
+    resumable_job::write_atomically(&input, text.as_bytes())?;
+    python.run(include_str!("peers.py"), &[&input, &output])?;
+    serde_json::from_str(&repository_tools::read(&output)?).map_err(understood)
+}
+
+/// One of our ways.
+fn ours(method: Method, hops: &[Hop]) -> Found {
+    let cases: Vec<Case> = hops.iter().map(Case::of).collect();
+    let next = |case: &Case| method.hop(case).and_then(|answer| answer.next);
+    Found {
+        name: format!("ours: {}", method.name()),
+        seconds: method.time(&cases.iter().collect::<Vec<_>>()).as_secs_f64(),
+        next: cases.iter().map(next).collect(),
+    }
+}
+
+fn peer(found: Found, ours: bool, hops: &[Hop]) -> Peer {
+    let (mut errors, mut wrong) = (Vec::new(), 0);
+    for (&next, hop) in found.next.iter().zip(hops) {
+        match (next, hop.next) {
+            (Some(next), Some(exact)) => errors.push(((next - exact) / exact).abs()),
+            (None, None) => {}
+            _ => wrong += 1,
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let errors = errors.last().map(|&worst| (errors[errors.len() / 2], worst));
+    let compared = found.next.len();
+    Peer { name: found.name, ours, seconds: found.seconds, compared, wrong, errors }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_and_wrong_verdicts_are_told_apart() {
+        let hops = window_hops().unwrap();
+        let mut next: Vec<_> = hops.iter().map(|hop| hop.next).collect();
+        let grounded = hops.iter().position(|hop| hop.next.is_none()).unwrap();
+        next[grounded] = Some(1.0);
+        let found = Found { name: "a peer".into(), seconds: 1.0, next };
+        let peer = peer(found, false, &hops);
+        assert_eq!((peer.compared, peer.wrong, peer.errors), (1000, 1, Some((0.0, 0.0))));
+    }
+
+    #[test]
+    fn our_ways_are_right() {
+        let hops = window_hops().unwrap();
+        for method in [Method::Stable, Method::AtOnce] {
+            let peer = peer(ours(method, &hops), true, &hops);
+            assert!(peer.wrong == 0 && peer.errors.unwrap().0 < 4e-16, "{peer:?}");
+        }
+    }
+}

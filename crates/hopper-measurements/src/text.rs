@@ -1,0 +1,56 @@
+//! Errors and times as text, and blocks of text in the documents.
+
+use crate::error::Error;
+use std::time::Duration;
+
+/// An error to one digit.
+pub(crate) fn digit(error: f64) -> String {
+    if error == 0.0 { "0".into() } else { format!("{error:.0e}") }
+}
+
+/// Two digits and a unit.
+pub(crate) fn duration(time: Duration) -> String {
+    let seconds = time.as_secs_f64();
+    let (value, unit) = match seconds {
+        s if s < 1e-6 => (s * 1e9, "ns"),
+        s if s < 1e-3 => (s * 1e6, "µs"),
+        s if s < 1.0 => (s * 1e3, "ms"),
+        s => (s, "s"),
+    };
+    let digits = usize::from(value < 9.95);
+    format!("{value:.digits$} {unit}")
+}
+
+/// `text` with what stands between the markers of `name` replaced by `block`.
+pub(crate) fn replace_block(text: &str, name: &str, block: &str) -> Result<String, Error> {
+    let (begin, end) = (format!("<!-- begin {name} -->\n"), format!("<!-- end {name} -->"));
+    let missing = || Error::Render {
+        what: "docs/accuracy.md".to_owned(),
+        reason: format!("it has no markers for '{name}'"),
+    };
+    let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(&end).ok_or_else(missing)?;
+    Ok(format!("{before}{begin}{}\n\n{end}{after}", block.trim_end()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_have_two_digits_and_a_unit() {
+        let text = |seconds: f64| duration(Duration::from_secs_f64(seconds));
+        assert_eq!(text(9.0e-9), "9.0 ns");
+        assert_eq!(text(7.4e-7), "740 ns");
+        assert_eq!(text(2.1e-6), "2.1 µs");
+        assert_eq!(text(0.013), "13 ms");
+    }
+
+    #[test]
+    fn blocks_are_replaced_between_their_markers() {
+        let text = "a\n<!-- begin x -->\nold\n<!-- end x -->\nb";
+        let new = replace_block(text, "x", "new\n").unwrap();
+        assert_eq!(new, "a\n<!-- begin x -->\nnew\n\n<!-- end x -->\nb");
+        assert!(replace_block(text, "y", "new").is_err());
+    }
+}

@@ -1,0 +1,136 @@
+//! The scores as CSV and as tables of `docs/accuracy.md`.
+
+use super::methods::{ALL as METHODS, Method};
+use super::scenes::Scene;
+use super::score::Score;
+use crate::error::Error;
+use crate::text::{digit, duration};
+use journal_figures::{DataFile, csv_text};
+use std::fmt::Write;
+use std::time::Duration;
+
+/// Methods in the tables: not every tolerance.
+fn shown(method: Method) -> bool {
+    !matches!(method, Method::Integrated(k) if k % 3 != 0)
+}
+
+/// One line a class and method.
+pub(crate) fn csv(scores: &[Score], unit: Duration) -> Result<DataFile, Error> {
+    let header = [
+        "class",
+        "method",
+        "cases",
+        "refused",
+        "wrong_verdicts",
+        "median_error",
+        "worst_error",
+        "seconds_per_hop",
+        "sin_cos_per_hop",
+    ];
+    let number = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:e}"));
+    let rows = scores.iter().map(|score| {
+        let seconds = score.time.map(|time| time.as_secs_f64());
+        vec![
+            score.class.clone(),
+            score.method.name(),
+            score.cases.to_string(),
+            score.refused.to_string(),
+            score.wrong.to_string(),
+            number(score.errors.map(|e| e.0)),
+            number(score.errors.map(|e| e.1)),
+            number(seconds),
+            number(seconds.map(|s| s / unit.as_secs_f64())),
+        ]
+    });
+    Ok(csv_text("work_precision.csv", &header, rows)?)
+}
+
+/// The paper's window in full, and the hard classes by their worst errors.
+pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
+    let mut out = String::from(
+        "| on the paper's window | time a hop | in `sin_cos` | median error | worst error | wrong | refused |\n\
+         |---|---:|---:|---:|---:|---:|---:|\n",
+    );
+    for score in scores.iter().filter(|s| s.class == "window" && shown(s.method)) {
+        let (median, worst) = match score.errors {
+            Some((median, worst)) => (digit(median), digit(worst)),
+            None => ("–".into(), "–".into()),
+        };
+        let (time, units) = match score.time {
+            Some(time) => {
+                let units = time.as_secs_f64() / unit.as_secs_f64();
+                let digits = usize::from(units < 9.95);
+                (duration(time), format!("{units:.digits$}"))
+            }
+            None => ("–".into(), "–".into()),
+        };
+        let (wrong, refused) = (score.wrong, score.refused);
+        let name = score.method.name();
+        let _ = writeln!(
+            out,
+            "| {name} | {time} | {units} | {median} | {worst} | {wrong} | {refused} |"
+        );
+    }
+    out.push_str(
+        "\nThe hard classes: worst error, time a hop; then, if any, wrong verdicts and refused inputs.\n\n",
+    );
+    let mut classes: Vec<&str> = Vec::new();
+    for score in scores.iter().filter(|s| s.class != "window") {
+        if !classes.contains(&score.class.as_str()) {
+            classes.push(&score.class);
+        }
+    }
+    let _ = writeln!(out, "| method | {} |", classes.join(" | "));
+    let _ = writeln!(out, "|---|{}", "---|".repeat(classes.len()));
+    for &method in METHODS.iter().filter(|&&method| shown(method)) {
+        let cells = classes.iter().map(|class| {
+            let score = scores.iter().find(|s| s.class == *class && s.method == method);
+            score.map_or(String::new(), cell)
+        });
+        let _ = writeln!(out, "| {} | {} |", method.name(), cells.collect::<Vec<_>>().join(" | "));
+    }
+    out
+}
+
+fn cell(score: &Score) -> String {
+    let (Some((_, worst)), Some(time)) = (score.errors, score.time) else { return "–".into() };
+    let mut text = format!("{}, {}", digit(worst), duration(time));
+    if score.wrong > 0 {
+        let _ = write!(text, ", {} wrong", score.wrong);
+    }
+    if score.refused > 0 {
+        let _ = write!(text, ", {} refused", score.refused);
+    }
+    text
+}
+
+/// Which question needs which model.
+pub(crate) fn scenes(scenes: &[Scene]) -> String {
+    let mut out =
+        String::from("| question | model only | call | time | error |\n|---|---|---|---:|---|\n");
+    for scene in scenes {
+        let Scene { question, model, call, time, per, error } = scene;
+        let time = duration(*time);
+        let _ = writeln!(out, "| {question} | {model} | {call} | {time} {per} | {error} |");
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::replace_block;
+
+    /// The document has the blocks that the command fills, filled with all methods.
+    #[test]
+    fn the_document_is_filled() {
+        let path = repository_tools::repository().join("docs/accuracy.md");
+        let text = repository_tools::read(&path).unwrap();
+        for name in ["methods", "scenes"] {
+            assert!(replace_block(&text, name, "").is_ok());
+        }
+        for method in METHODS.iter().filter(|&&method| shown(method)) {
+            assert!(text.contains(&method.name()), "{}", method.name());
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Starts on the humps of the paper's window, their fates, and shares as text.
+
+use crate::error::Error;
+use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
+use hopper_basin::{Fates, HopperFate};
+use passive_hopper::{MassRatio, alpha_star};
+
+/// The first and the last fixed point of the paper's window.
+pub(super) const FROM: u64 = 1;
+pub(super) const TO: u64 = 6;
+
+pub(super) fn fates(mass_ratio: f64) -> Result<Fates, Error> {
+    Ok(Fates::new(MassRatio::new(mass_ratio)?)?)
+}
+
+/// The label of a start; one of the undecided ones where none can be given.
+pub(super) fn label(fates: &Fates, alpha: f64) -> u16 {
+    fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label)
+}
+
+pub(super) fn is_incessant(label: u16) -> bool {
+    (1..=HopperFate::LARGEST_LABEL as u16).contains(&label)
+}
+
+pub(super) fn hump(n: u64) -> Result<Interval, Error> {
+    Ok(Interval::new(alpha_star(n), alpha_star(n + 1))?)
+}
+
+/// The humps of the window laid side by side, each with length one, as the paper weighs them: the
+/// speed at a place in [0, `TO` − `FROM`].
+pub(super) fn by_humps(place: f64) -> f64 {
+    let whole = (place.floor() as u64).min(TO - FROM - 1);
+    let (left, right) = (alpha_star(FROM + whole), alpha_star(FROM + whole + 1));
+    left + (right - left) * (place - whole as f64)
+}
+
+/// A fraction as it is drawn and printed: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FractionWithBar {
+    pub(super) value: f64,
+    pub(super) lower: f64,
+    pub(super) upper: f64,
+}
+
+impl FractionWithBar {
+    pub(super) fn half_width(&self) -> f64 {
+        0.5 * (self.upper - self.lower)
+    }
+}
+
+impl From<ConfidenceInterval> for FractionWithBar {
+    fn from(ConfidenceInterval { value, lower, upper }: ConfidenceInterval) -> Self {
+        FractionWithBar { value, lower, upper }
+    }
+}
+
+impl From<EquallySpacedFraction> for FractionWithBar {
+    fn from(EquallySpacedFraction { value, bounds }: EquallySpacedFraction) -> Self {
+        FractionWithBar { value, lower: bounds.lower, upper: bounds.upper }
+    }
+}
+
+/// Three numbers of a scan: value, lower and upper end.
+pub(super) fn estimate(three: &[f64]) -> FractionWithBar {
+    FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
+}
+
+/// A share with its interval, in per cent.
+pub(super) fn percent(share: &FractionWithBar) -> String {
+    let digits = if share.half_width() > 5e-4 { 2 } else { 4 };
+    format!("{:.digits$} ± {:.digits$} %", 100.0 * share.value, 100.0 * share.half_width())
+}
+
+/// A range with certain ends, in per cent.
+pub(super) fn bounds(share: &FractionWithBar) -> String {
+    format!("{:.5} … {:.5} %", 100.0 * share.lower, 100.0 * share.upper)
+}
+
+/// `count` values from `first` to `last` in equal factors.
+pub(super) fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
+    let power = |k: usize| k as f64 / (count - 1) as f64;
+    (0..count).map(|k| first * pxfm::f_pow(last / first, power(k))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_on_their_humps() {
+        assert_eq!(by_humps(0.0), alpha_star(1));
+        assert_eq!(by_humps(5.0), alpha_star(6));
+        let middle = by_humps(2.5);
+        assert!(alpha_star(3) < middle && middle < alpha_star(4));
+        let values = geometric(0.02, 50.0, 5);
+        assert!((values[2] - 1.0).abs() < 1e-14 && values[4] == 50.0);
+    }
+}

@@ -1,0 +1,114 @@
+//! Final-state uncertainty at large speeds, and whether the basins are riddled.
+
+use super::finding::{Finding, Table};
+use super::humps_of_window::{
+    FractionWithBar, estimate, fates, hump, is_incessant, label, percent,
+};
+use crate::error::Error;
+use crate::fate_colors;
+use crate::figure::Figure;
+use crate::job::Job;
+use basin_of_attraction::{random_fractions, uncertain_fraction};
+use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
+
+const M: f64 = 0.2;
+const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
+/// Starts on a hump: orbits from far up take thousands of hops.
+fn starts(n: u64) -> usize {
+    if n > 100 { 2_000 } else { 20_000 }
+}
+
+const LOOKS: [Marker; 5] =
+    [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge];
+
+/// The share of uncertain starts against ε, hump by hump.
+pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
+    let fates = fates(M)?;
+    const DECADES: usize = 8;
+    let scan = job.scan("large speeds", HUMPS.len() * DECADES, |k| {
+        let (n, decade) = (HUMPS[k / DECADES], k % DECADES + 1);
+        let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };
+        let epsilon = pxfm::f_exp10(-(decade as f64));
+        let share = uncertain_fraction(hump(n)?, epsilon, starts(n), n, at)?;
+        Ok(vec![epsilon, share.value, share.lower, share.upper])
+    })?;
+    let mut svg = Svg::new(640.0, 430.0);
+    let frame = Frame::linear(70.0, 20.0, 440.0, 350.0, (1e-9, 1e-1), (1e-5, 1.0)).log_x().log_y();
+    let mut table = Table::new(&[
+        "hump $n$",
+        "$α$ about",
+        "incessant (95 %)",
+        "uncertain at $ε$ = 10^{−2}",
+        "at 10^{−4}",
+        "at 10^{−6}",
+        "at 10^{−8}",
+    ]);
+    let mut data = Vec::new();
+    for (k, n) in HUMPS.into_iter().enumerate() {
+        let window = hump(n)?;
+        let rows = &scan[k * DECADES..(k + 1) * DECADES];
+        let points: Vec<(f64, FractionWithBar)> =
+            rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
+        data.extend(rows.iter().map(|row| {
+            std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()
+        }));
+        let color = fate_colors::css(k as u16 + 1);
+        let seen: Vec<_> = points
+            .iter()
+            .filter(|(_, share)| share.value > 0.0)
+            .map(|(epsilon, share)| (*epsilon, share.value))
+            .collect();
+        frame.clipped(&mut svg, |svg| frame.polyline(svg, &seen, Pen::solid(color, 1.2)));
+        for (epsilon, share) in &points {
+            let (low, high) = (share.lower.max(frame.y.0), share.upper.max(frame.y.0));
+            svg.line(frame.at((*epsilon, low)), frame.at((*epsilon, high)), Pen::solid(color, 0.8));
+        }
+        for &point in &seen {
+            svg.marker(frame.at(point), LOOKS[k], 6.5, color);
+        }
+        let y = 250.0 + 17.0 * k as f64;
+        svg.marker((430.0, y), LOOKS[k], 6.5, color);
+        svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("$n$ = {n}"));
+        let incessant =
+            random_fractions(window, starts(n), n, |x| u16::from(is_incessant(label(&fates, x))))?;
+        let cell = |decade: usize| {
+            let share = points[decade - 1].1;
+            format!("{:.2} ± {:.2} %", 100.0 * share.value, 100.0 * share.half_width())
+        };
+        table.row([
+            format!("{n}"),
+            format!("{:.1}", window.left),
+            incessant.get(&1).map_or("0".into(), |&share| percent(&share.into())),
+            cell(2),
+            cell(4),
+            cell(6),
+            cell(8),
+        ]);
+    }
+    frame.axes(
+        &mut svg,
+        &decades(frame.x, 2),
+        &decades(frame.y, 1),
+        "error of the start $ε$",
+        "share of uncertain starts",
+    );
+    Ok(Finding {
+        figure: Figure {
+            name: "beyond_large_speeds",
+            title: "Final-state uncertainty at large speeds; the basins are not riddled, $M$ = 0.2".into(),
+            paper: "Whether the basins are riddled is left open.".into(),
+            notes: "20 000 random starts on a hump (2 000 from hump 1000 on), their fate against that of starts ± $ε$ \
+                    away, 95 % intervals. From hump 100 on an error of 10^{−8} leaves as many starts uncertain \
+                    as any other would: as many as if fates were drawn by lot. The fates there are those of orbits \
+                    rounded to an ulp of $α$, 10^{−13} to 10^{−12}, at every hop, and not of the exact start: \
+                    the final state cannot be predicted from it in f64. Yet no basin is riddled: a point whose orbit \
+                    enters the inside of a trap has a neighbourhood that does too, since the map is piecewise \
+                    continuous and fates are continuous across its jumps. Every basin is a union of intervals, \
+                    and the curves must fall where $ε$ is smaller than most of them."
+                .into(),
+            svg,
+            data: vec![csv_file("large_speeds.csv", &["hump", "epsilon", "share", "lower", "upper"], data)?],
+        },
+        table,
+    })
+}

@@ -1,0 +1,38 @@
+//! What the paper could not say of the basins: new results, each with a figure and a table.
+
+mod boundary;
+mod entropy;
+mod finding;
+mod humps;
+mod humps_of_window;
+mod large_speeds;
+mod measure;
+mod needles;
+mod tree;
+
+pub use finding::{Finding, Table};
+
+use crate::choice;
+use crate::error::Error;
+use crate::job::Job;
+
+/// How a result is made.
+pub type Find = fn(&Job) -> Result<Finding, Error>;
+
+/// All results, by the name that `--only` takes.
+pub const ALL: &[(&str, Find)] = &[
+    ("measure", measure::measure),
+    ("asymmetry", measure::asymmetry),
+    ("boundary", boundary::boundary),
+    ("uncertainty", boundary::uncertainty),
+    ("entropy", entropy::entropy_of_basins),
+    ("humps", humps::nested_basins),
+    ("tree", tree::preimage_tree),
+    ("large-speeds", large_speeds::large_speeds),
+    ("needles", needles::needles),
+];
+
+/// The results with these names; all of them if none is named.
+pub fn named(names: &[String]) -> Result<Vec<(&'static str, Find)>, Error> {
+    choice::named("result", ALL, names)
+}

@@ -1,0 +1,112 @@
+//! The preimage tree of α*_1 at M = 0.2.
+
+use super::finding::{Finding, Table};
+use super::humps_of_window::{FROM, TO, fates};
+use crate::error::Error;
+use crate::figure::Figure;
+use crate::job::Job;
+use basin_of_attraction::{Interval, PreimageTree, Refinement, ResidualSet};
+use hopper_basin::{branches, hopper_basins};
+use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
+use passive_hopper::alpha_star;
+
+const M: f64 = 0.2;
+
+/// Levels drawn, and levels grown without leaving out the short intervals.
+const DRAWN: usize = 20;
+const GROWN: usize = 10;
+const SHORTEST: f64 = 1e-8;
+
+/// Counts and lengths level by level.
+pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
+    let fates = fates(M)?;
+    let refinement = Refinement { shortest: SHORTEST, undecided: 0.0, ..Refinement::default() };
+    let basins = hopper_basins(&fates, FROM, TO, 400, refinement)?.basins;
+    let long = |level: usize| {
+        let own = basins.intervals().iter().filter(|part| part.label == 1 && part.level == level);
+        own.filter(|part| part.interval.length() >= SHORTEST).count()
+    };
+    let levels = basins.levels(1);
+    let (resolved, total) = (basins.resolved_length(1), basins.basin_length(1));
+    let window = Interval::new(alpha_star(FROM), alpha_star(TO))?;
+    let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
+    let all = branches(&fates, FROM, TO, 400)?;
+    let tree = PreimageTree::grow(&fates, &all, trap, window, GROWN);
+    // One hump above the fixed point, far down the levels: how fast do the pieces multiply?
+    let lower = Interval::new(alpha_star(1), alpha_star(3))?;
+    let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60);
+    let growth = match deep.residual_set() {
+        ResidualSet::Countable { power } => {
+            let levels = deep.complete_levels();
+            format!(
+                "like $k$^{{{power:.1}}} over levels {} to {} (2$k$ − 1 of them, in fact): a countable rest, where \
+                 Cantor's would double",
+                levels / 2,
+                levels - 1
+            )
+        }
+        other => {
+            return Err(Error::CheckFailed(format!("the tree leaves no countable set: {other:?}")));
+        }
+    };
+    let mut table = Table::new(&[
+        "level $k$",
+        "intervals (all)",
+        "intervals over 10^{−8}",
+        "length",
+        "sum so far",
+        "of the basin",
+    ]);
+    let (mut sum, mut rows) = (0.0, Vec::new());
+    for (&level, &(_, length)) in levels.iter().take_while(|(level, _)| **level <= DRAWN) {
+        sum += length;
+        let grown = tree.counts().get(level).copied();
+        let count = long(level);
+        rows.push((level, count, length, sum));
+        if level <= 12 || level % 6 == 0 {
+            table.row([
+                format!("{level}"),
+                grown.map_or("–".into(), |n| format!("{n}")),
+                format!("{count}"),
+                format!("{length:.3e}"),
+                format!("{sum:.9}"),
+                format!("{:.5} %", 100.0 * sum / resolved),
+            ]);
+        }
+    }
+    let mut svg = Svg::new(640.0, 430.0);
+    let frame = Frame::linear(70.0, 20.0, 480.0, 350.0, (0.0, DRAWN as f64), (1e-8, 1.0)).log_y();
+    let left: Vec<_> =
+        rows.iter().map(|row| (row.0 as f64, (resolved - row.3).max(1e-8))).collect();
+    frame.clipped(&mut svg, |svg| frame.polyline(svg, &left, Pen::solid("#0072b2", 1.5)));
+    for row in &rows {
+        svg.marker(frame.at((row.0 as f64, row.2.max(1e-8))), Marker::Disc, 6.0, "#000000");
+    }
+    svg.marker((360.0, 44.0), Marker::Disc, 6.0, "#000000");
+    svg.text(374.0, 48.0, Anchor::Start, 11.5, "length of level $k$");
+    svg.line((350.0, 62.0), (370.0, 62.0), Pen::solid("#0072b2", 1.5));
+    svg.text(374.0, 66.0, Anchor::Start, 11.5, "length of all later levels");
+    frame.axes(&mut svg, &ticks(frame.x, 4), &decades(frame.y, 1), "level $k$", "length");
+    let data = rows
+        .iter()
+        .map(|row| vec![Some(row.0 as f64), Some(row.1 as f64), Some(row.2), Some(row.3)]);
+    Ok(Finding {
+        figure: Figure {
+            name: "beyond_tree",
+            title: "The preimage tree of $α$^{∗}_{1}, level by level, $M$ = 0.2".into(),
+            paper:
+                "The basin is the union of the interval of attraction and all its preimages; their \
+                    number grows without bound."
+                    .into(),
+            notes: format!(
+                "Points of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}] that enter the trap of $α$^{{∗}}_{{1}} after exactly $k$ \
+                 hops. The levels converge to the measured basin, {:.6} … {:.6}. On the first two humps the \
+                 number of intervals of a level grows {growth}.",
+                total.lower, total.upper
+            ),
+            svg,
+            data: vec![csv_file("tree.csv", &["level", "intervals", "length", "sum"], data)?],
+        },
+        table,
+    })
+}

@@ -1,0 +1,39 @@
+//! The command line.
+
+use crate::commands;
+use crate::error::Error;
+use clap::{Parser, Subcommand};
+
+/// The paper recomputed: figures, claims, and results beyond it.
+#[derive(Debug, Parser)]
+// Usage lines name what one types: `cargo xtask` starts this program.
+#[command(name = "hopper-paper", bin_name = "cargo xtask", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Compute every figure and number of the paper, check every claim, write a report
+    ReproducePaper(commands::reproduce_paper::Options),
+    /// Check the invariance under M → 1/M alone, with its figure
+    VerifyInvariance(commands::verify_invariance::Options),
+    /// Compute the basins over any window, in tiles that survive a kill
+    BasinRaster(commands::basin_raster::Options),
+    /// Compute what the paper could not say of the basins, with a report
+    BeyondPaper(commands::beyond_paper::Options),
+    /// Draw what the generic crates do: how guards are met, and a valve's bifurcations
+    ModelFigures(commands::model_figures::Options),
+}
+
+/// Runs the command line.
+pub fn run() -> Result<(), Error> {
+    match Cli::parse().command {
+        Command::ReproducePaper(options) => commands::reproduce_paper::run(&options),
+        Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
+        Command::BasinRaster(options) => commands::basin_raster::run(&options),
+        Command::BeyondPaper(options) => commands::beyond_paper::run(&options),
+        Command::ModelFigures(options) => commands::model_figures::run(&options),
+    }
+}

@@ -1,0 +1,264 @@
+//! `basin-raster`: the basins over any window of (M, α), in tiles on disk.
+//!
+//! A run that is killed leaves its finished tiles, and the next run computes the others. The array is written from
+//! the tiles, compared with them, and only then are the tiles removed.
+
+use crate::error::Error;
+use crate::figures::basin_plot::{Window, draw_basins};
+use basin_of_attraction::{Grid, Interval, LabelImage};
+use hopper_basin::{HopperFate, basin_columns, first_humps};
+use journal_figures::render;
+use passive_hopper::MassRatio;
+use rayon::prelude::*;
+use repository_tools::{Folder, Progress};
+use resumable_job::{Lock, Order, Pieces, npy_header};
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// Folder for the results and, until they are complete, for finished tiles
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Mass ratios from and to
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], default_values_t = [0.1, 1.0], allow_negative_numbers = true)]
+    mass_ratio: Vec<f64>,
+    /// Lift-off speeds from and to [default: the first and the sixth fixed point]
+    #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
+    speed: Option<Vec<f64>>,
+    /// Pixels across and up
+    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], default_values_t = [1024, 1024])]
+    pixels: Vec<usize>,
+}
+
+/// Columns of a tile. A killed run loses the tiles it was computing, one a thread: wider tiles lose more work.
+/// Narrower ones share less work between columns, and are more files to flush.
+const TILE: usize = 16;
+
+/// The largest number of pixels along each axis. A tile of 2²⁰ rows has 32 MiB of labels, and some hundred megabytes
+/// are in use while it is computed.
+const MOST_ALONG: usize = 1 << 20;
+
+/// The largest number of pixels of the picture along each axis. The picture of a larger raster shows some of its
+/// columns and rows only; the array has them all.
+const PICTURE: usize = 1200;
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let grid = grid(options)?;
+    let folder = Folder::open(&options.out)?;
+    let description = format!(
+        "basins, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels",
+        grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
+    );
+    let lock = Lock::take(folder.path(), "basin-raster")?;
+    let kept = Pieces::open(&folder.path().join("tiles"), &description)?;
+    let tiles = grid.columns.div_ceil(TILE);
+    let bar = Progress.bar("basins", tiles as u64);
+    let done = AtomicU64::new(0);
+    (0..tiles).into_par_iter().try_for_each(|tile| {
+        if kept.read(tile)?.is_none() {
+            kept.write(tile, &columns(&grid, tile)?)?;
+        }
+        bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
+        Ok::<(), Error>(())
+    })?;
+    bar.finish();
+    let array = folder.path().join("basin.npy");
+    let mut counts = BTreeMap::new();
+    let mut picture = Picture::new(&grid);
+    // Row 0 is the lowest speed. In Fortran's order the columns, and so the tiles, follow one another in the file.
+    let header = npy_header(Order::Fortran, grid.rows, grid.columns);
+    kept.assemble(&array, &header, tiles, |tile, bytes| {
+        for pair in bytes.chunks_exact(2) {
+            *counts.entry(u16::from_le_bytes([pair[0], pair[1]])).or_insert(0) += 1;
+        }
+        picture.add(tile, bytes);
+    })?;
+    let image = picture.image();
+    let window = Window {
+        name: "basin",
+        mass_ratio: (grid.x.left, grid.x.right),
+        alpha: (grid.y.left, grid.y.right),
+        inset: None,
+        tick_counts: (6, 8),
+    };
+    let rendered = render("basin", &draw_basins(&window, &image)?, 2.0)?;
+    folder.write("basin.png", &rendered.png)?;
+    let legend: Vec<_> = counts
+        .iter()
+        .map(|(&label, &pixels)| {
+            let name = HopperFate::label_name(label);
+            serde_json::json!({ "label": label, "name": name, "pixels": pixels })
+        })
+        .collect();
+    let text = serde_json::to_string_pretty(&legend)
+        .map_err(|e| Error::Render { what: "legend.json".into(), reason: e.to_string() })?;
+    folder.write("legend.json", text.as_bytes())?;
+    kept.remove(tiles)?;
+    folder.remove_leftovers();
+    drop(lock);
+    let mut out = std::io::stdout().lock();
+    let said = (|| {
+        for (&label, pixels) in &counts {
+            writeln!(out, "label {label:5}  {:40} {pixels} pixels", HopperFate::label_name(label))?;
+        }
+        writeln!(out, "{}\n{}", array.display(), folder.path().join("basin.png").display())
+    })();
+    said.map_err(|source| Error::File { path: "standard output".into(), source })
+}
+
+fn grid(options: &Options) -> Result<Grid, Error> {
+    let pair = |values: &[f64]| match *values {
+        [from, to] => Interval::new(from, to).map_err(Error::from),
+        _ => Err(Error::CheckFailed("two numbers are needed, from and to".into())),
+    };
+    let default = [first_humps(5).left, first_humps(5).right];
+    let [columns, rows] = options.pixels[..] else {
+        return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
+    };
+    if columns.max(rows) > MOST_ALONG {
+        return Err(basin_of_attraction::Error::BadRaster { columns, rows }.into());
+    }
+    let speed = options.speed.as_deref().unwrap_or(&default);
+    for values in [&options.mass_ratio[..], speed] {
+        // A window narrower than 10⁻¹² of its end has some thousand doubles: many neighbouring pixels would be the
+        // same point after rounding.
+        if let [from, to] = *values
+            && !(to - from > 1e-12 * to.abs())
+        {
+            return Err(Error::CheckFailed(format!("a window from {from} to {to} has no pixels")));
+        }
+    }
+    for &m in &options.mass_ratio {
+        MassRatio::new(m)?;
+    }
+    let grid = Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows };
+    // Labels no column, but refuses a grid that has no labels before anything is written.
+    basin_columns(&grid, 0..0)?;
+    Ok(grid)
+}
+
+/// The labels of one tile, column by column from the lowest speed up, in little-endian order.
+fn columns(grid: &Grid, tile: usize) -> Result<Vec<u8>, Error> {
+    let first = tile * TILE;
+    let count = TILE.min(grid.columns - first);
+    let labels = basin_columns(grid, first..first + count)?;
+    Ok(labels.iter().flatten().flat_map(|label| label.to_le_bytes()).collect())
+}
+
+/// The picture of a raster that may be larger: ⌊k · size / picture size⌋ of its columns and rows.
+struct Picture {
+    grid: Grid,
+    image: LabelImage,
+    /// The next column of the picture; tiles come in order.
+    next: usize,
+}
+
+impl Picture {
+    fn new(grid: &Grid) -> Self {
+        let (columns, rows) = (grid.columns.min(PICTURE), grid.rows.min(PICTURE));
+        let labels = vec![0; columns * rows];
+        let image = LabelImage { grid: Grid { columns, rows, ..*grid }, labels };
+        Picture { grid: *grid, image, next: 0 }
+    }
+
+    /// Takes from the next tile the columns that the picture shows.
+    fn add(&mut self, tile: usize, bytes: &[u8]) {
+        let Grid { columns, rows, .. } = self.image.grid;
+        while self.next < columns {
+            let from = self.next * self.grid.columns / columns;
+            if from >= (tile + 1) * TILE {
+                return; // it is in a later tile
+            }
+            let base = (from - tile * TILE) * self.grid.rows;
+            for row in 0..rows {
+                let at = 2 * (base + row * self.grid.rows / rows);
+                let pair = bytes.get(at..at + 2);
+                let label = pair.map_or(0, |pair| u16::from_le_bytes([pair[0], pair[1]]));
+                self.image.labels[row * columns + self.next] = label;
+            }
+            self.next += 1;
+        }
+    }
+
+    fn image(self) -> LabelImage {
+        self.image
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hopper_basin::basin_raster;
+    use passive_hopper::alpha_star;
+    use std::ops::ControlFlow;
+
+    #[test]
+    fn windows_without_labels_are_refused_before_anything_is_written() {
+        let options = |mass_ratio: [f64; 2], speed: [f64; 2], pixels: [usize; 2]| Options {
+            out: PathBuf::from("/nowhere"),
+            mass_ratio: mass_ratio.to_vec(),
+            speed: Some(speed.to_vec()),
+            pixels: pixels.to_vec(),
+        };
+        let (m, alpha) = ([0.1, 1.0], [4.5, 20.0]);
+        assert!(grid(&options(m, alpha, [10, 20])).is_ok());
+        for pixels in [[0, 10], [10, 0], [usize::MAX, 2], [1, 1 << 21], [1 << 20, 1 << 20]] {
+            assert!(grid(&options(m, alpha, pixels)).is_err(), "{pixels:?}");
+        }
+        for window in
+            [[1.0, 1.0], [2.0, 1.0], [1.0, 1.0f64.next_up()], [f64::NAN, 1.0], [0.0, f64::INFINITY]]
+        {
+            assert!(grid(&options(window, alpha, [10, 10])).is_err(), "{window:?}");
+            assert!(grid(&options(m, window, [10, 10])).is_err(), "{window:?}");
+        }
+        for window in [[0.0, 1e6], [-1.0, 5.0]] {
+            assert!(grid(&options(m, window, [10, 10])).is_err(), "{window:?}");
+        }
+    }
+
+    /// A picture of a larger raster shows its pixels at equal distances, whatever tile they are in.
+    #[test]
+    fn the_picture_shows_pixels_of_the_raster() {
+        let x = Interval::new(0.1, 0.9).unwrap();
+        for (columns, rows) in [(1, 1), (40, 25), (1200, 3), (1201, 2), (2999, 1300)] {
+            let grid = Grid { x, y: x, columns, rows };
+            let label = |column: usize, row: usize| (7 * column + 3 * row) as u16;
+            let mut picture = Picture::new(&grid);
+            for tile in 0..columns.div_ceil(TILE) {
+                let within = tile * TILE..columns.min((tile + 1) * TILE);
+                let labels = within.flat_map(|c| (0..rows).map(move |r| label(c, r)));
+                picture.add(tile, &labels.flat_map(u16::to_le_bytes).collect::<Vec<_>>());
+            }
+            let image = picture.image();
+            let shown = image.grid;
+            for column in 0..shown.columns {
+                for row in 0..shown.rows {
+                    let from = (column * columns / shown.columns, row * rows / shown.rows);
+                    assert_eq!(image.at(column, row), Some(label(from.0, from.1)));
+                }
+            }
+        }
+    }
+
+    /// Tiles hold the labels of the whole raster.
+    #[test]
+    fn tiles_are_the_raster() {
+        let window = Interval::new(alpha_star(1), alpha_star(3)).unwrap();
+        let x = Interval::new(0.1, 0.9).unwrap();
+        let grid = Grid { x, y: window, columns: 40, rows: 25 };
+        let whole = basin_raster(grid, |_| ControlFlow::Continue(())).unwrap();
+        for tile in 0..3 {
+            let bytes = columns(&grid, tile).unwrap();
+            for (k, pair) in bytes.chunks(2).enumerate() {
+                let (column, row) = (tile * TILE + k / 25, k % 25);
+                let label = u16::from_le_bytes([pair[0], pair[1]]);
+                assert_eq!(Some(label), whole.at(column, row), "{column} {row}");
+            }
+        }
+    }
+}

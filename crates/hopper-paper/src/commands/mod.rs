@@ -1,0 +1,9 @@
+//! The commands, one file each.
+
+pub mod basin_raster;
+pub mod beyond_paper;
+mod claim_lines;
+mod figure_files;
+pub mod model_figures;
+pub mod reproduce_paper;
+pub mod verify_invariance;

@@ -1,0 +1,74 @@
+//! What can stop a command.
+
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// Why a command failed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file of the repository or of the results could not be used.
+    #[error(transparent)]
+    Repository(#[from] repository_tools::Error),
+    /// A figure could not be rendered or encoded.
+    #[error(transparent)]
+    Figure(#[from] journal_figures::Error),
+    /// A file or folder of a long job could not be read or written.
+    #[error("{path}: {source}")]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// The system's message.
+        source: std::io::Error,
+    },
+    /// A long job on disk cannot continue.
+    #[error(transparent)]
+    Job(#[from] resumable_job::Error),
+    /// A reference value of the repository is missing or malformed.
+    #[error(
+        "the reference values: {reason}; the files under crates/*/tests/data have been changed"
+    )]
+    Reference {
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A name that does not exist.
+    #[error("there is no {kind} '{name}'; there are: {known}")]
+    UnknownName {
+        /// What the name was taken for.
+        kind: &'static str,
+        /// The name given.
+        name: String,
+        /// Those that exist.
+        known: String,
+    },
+    /// A fate or a basin could not be computed.
+    #[error(transparent)]
+    Basin(#[from] hopper_basin::Error),
+    /// A hop could not be computed.
+    #[error(transparent)]
+    Hopper(#[from] passive_hopper::Error),
+    /// An interval, a grid or an estimate was refused.
+    #[error(transparent)]
+    Interval(#[from] basin_of_attraction::Error),
+    /// An expansion could not be evaluated.
+    #[error(transparent)]
+    Asymptotics(#[from] hopper_asymptotics::Error),
+    /// An execution of a hybrid system failed.
+    #[error(transparent)]
+    Execution(#[from] hybrid_system::Error),
+    /// A return map failed.
+    #[error(transparent)]
+    ReturnMap(#[from] return_map::Error),
+    /// A result could not be encoded as JSON or as a NumPy array.
+    #[error("cannot encode {what}: {reason}")]
+    Render {
+        /// Name of the file.
+        what: String,
+        /// Message of the library that refused.
+        reason: String,
+    },
+    /// A claim or a comparison does not hold, or an option has no sense; the text says which.
+    #[error("{0}")]
+    CheckFailed(String),
+}

@@ -1,0 +1,98 @@
+//! Figs. 6 to 9: the basins of attraction over mass ratio and lift-off speed.
+
+use super::basin_plot::{Window, basin_figure};
+use crate::error::Error;
+use crate::figure::Figure;
+use hopper_basin::first_humps;
+use repository_tools::Progress;
+
+const FIGURE_8: ((f64, f64), (f64, f64)) = ((0.1, 0.2), (14.066, 20.371));
+const FIGURE_9: ((f64, f64), (f64, f64)) = ((0.17, 0.18), (17.0, 17.8));
+
+fn texts(title: &str, paper: &str, notes: &str) -> (String, String, String) {
+    (title.into(), paper.into(), notes.into())
+}
+
+/// Small mass ratios.
+pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
+    let window = Window {
+        name: "fig_06_basin",
+        mass_ratio: (0.02, 1.0),
+        alpha: (first_humps(5).left, first_humps(5).right),
+        inset: Some((FIGURE_8.0, FIGURE_8.1, "Fig. 8")),
+        tick_counts: (6, 8),
+    };
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "Basins of attraction for small mass ratios",
+            "Initial speeds by the fixed point they lead to: first green, second red, third blue and so \
+         on. At $M$ = 0.1 most of the window is green; with growing $M$ the share of incessant hopping \
+         falls rapidly.",
+            "Window $M$ ∈ [0.02, 1], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6} (the paper's lower limit of $M$ is lost). What the \
+         paper leaves blank is told apart: white decays (hops for ever, ever lower), grey is grounded.",
+        ),
+    )
+}
+
+/// Large mass ratios.
+pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
+    let window = Window {
+        name: "fig_07_basin_large_mass_ratio",
+        mass_ratio: (1.0, 10.0),
+        alpha: (first_humps(5).left, first_humps(5).right),
+        inset: None,
+        tick_counts: (9, 8),
+    };
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "Basins of attraction for large mass ratios",
+            "$M$ from 1 to 10: towards $M$ = 10 the structure resembles that of small $M$.",
+            "Window $M$ ∈ [1, 10], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6}. The traps are those of 1/$M$, but the basins are not: \
+         the map between $nπ$ and $α$^{∗}_{n} is not invariant.",
+        ),
+    )
+}
+
+/// The inset of Fig. 6.
+pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
+    let window = Window {
+        name: "fig_08_basin_inset",
+        mass_ratio: FIGURE_8.0,
+        alpha: FIGURE_8.1,
+        inset: Some((FIGURE_9.0, FIGURE_9.1, "Fig. 9")),
+        tick_counts: (5, 7),
+    };
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "The inset of Fig. 6",
+            "The same basins at a finer scale.",
+            "Window $M$ ∈ [0.1, 0.2], $α$ from $α$^{∗}_{4} to $α$^{∗}_{6}, chosen to hold Fig. 9; the paper's limits are lost.",
+        ),
+    )
+}
+
+/// The inset of Fig. 8.
+pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
+    let window = Window {
+        name: "fig_09_basin_inset",
+        mass_ratio: FIGURE_9.0,
+        alpha: FIGURE_9.1,
+        inset: None,
+        tick_counts: (10, 8),
+    };
+    basin_figure(
+        &window,
+        progress,
+        texts(
+            "The inset of Fig. 8",
+            "Finer still, and structure again.",
+            "Window of the paper, $M$ ∈ [0.17, 0.18], $α$ ∈ [17.0, 17.8].",
+        ),
+    )
+}

@@ -1,0 +1,91 @@
+//! Long computations whose finished rows are kept on disk.
+
+use crate::error::Error;
+use repository_tools::Progress;
+use resumable_job::{Lock, Pieces, program_digest};
+use std::path::{Path, PathBuf};
+
+/// A run, and the folder that keeps the finished rows of its scans until all its results are written.
+#[derive(Debug)]
+pub struct Job {
+    scans: PathBuf,
+    /// Two runs in one folder would remove each other's rows at their end.
+    _lock: Lock,
+}
+
+impl Job {
+    /// A run that keeps its scans in a folder beside its results, which exists. Each build of the program has a
+    /// folder of its own. While the run lasts, another one with the same results folder is an error.
+    pub fn new(results: &Path) -> Result<Self, Error> {
+        let _lock = Lock::take(results, "scans")?;
+        Ok(Job { scans: results.join("scans").join(program_digest()?), _lock })
+    }
+
+    /// `count` rows of numbers. Rows that an earlier run finished are read; the others are computed.
+    pub(crate) fn scan(
+        &self,
+        name: &'static str,
+        count: usize,
+        row: impl Fn(usize) -> Result<Vec<f64>, Error>,
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let kept = Pieces::open(&self.scans.join(name), name)?;
+        let bar = Progress.bar(name, count as u64);
+        let mut rows = Vec::with_capacity(count);
+        for k in 0..count {
+            let bytes = match kept.read(k)? {
+                Some(bytes) => bytes,
+                None => {
+                    let bytes: Vec<u8> = row(k)?.iter().flat_map(|x| x.to_le_bytes()).collect();
+                    kept.write(k, &bytes)?;
+                    bytes
+                }
+            };
+            let number = |word: &[u8]| word.try_into().map_or(f64::NAN, f64::from_le_bytes);
+            rows.push(bytes.chunks(8).map(number).collect());
+            bar.set(k as u64 + 1);
+        }
+        bar.finish();
+        Ok(rows)
+    }
+
+    /// Removes the finished rows. To be called when all results are written.
+    pub fn done(self) -> Result<(), Error> {
+        match std::fs::remove_dir_all(&self.scans) {
+            Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
+                return Err(Error::File { path: self.scans, source });
+            }
+            _ => {}
+        }
+        // The folder of another build may stand beside: then the parent is not empty and stays.
+        let _ = self.scans.parent().map(std::fs::remove_dir);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scan that was interrupted computes only the missing rows, and returns the same rows.
+    #[test]
+    fn an_interrupted_scan_goes_on() {
+        let folder = std::env::temp_dir().join(format!("hopper_scans_{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let job = Job::new(&folder).unwrap();
+        assert!(matches!(Job::new(&folder), Err(Error::Job(_))), "two runs in one folder");
+        let row = |k: usize| vec![k as f64, (k as f64).sqrt(), f64::MIN_POSITIVE];
+        let breaks = |k: usize| {
+            if k < 5 { Ok(row(k)) } else { Err(Error::CheckFailed("broken off".into())) }
+        };
+        assert!(job.scan("a scan", 8, breaks).is_err());
+        let computed = std::cell::RefCell::new(Vec::new());
+        let again = job.scan("a scan", 8, |k| {
+            computed.borrow_mut().push(k);
+            Ok(row(k))
+        });
+        assert_eq!(again.unwrap(), (0..8).map(row).collect::<Vec<_>>());
+        assert_eq!(computed.into_inner(), [5, 6, 7]);
+        job.done().unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+}

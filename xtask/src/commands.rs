@@ -1,0 +1,175 @@
+//! The commands: one table of names, and the programs that run them.
+
+use crate::error::Error;
+use crate::repository::repository;
+use crate::tidy;
+use std::ffi::{OsStr, OsString};
+use std::io::Write;
+use std::process::{Command, ExitCode};
+
+/// A command.
+struct Task {
+    name: &'static str,
+    /// What the command does, in one line.
+    about: &'static str,
+    /// The package whose program runs the command; `None` for a command of this program.
+    package: Option<&'static str>,
+}
+
+const PAPER: Option<&str> = Some("hopper-paper");
+const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
+
+/// All commands, in the order of the help.
+const TASKS: [Task; 10] = [
+    Task {
+        name: "reproduce-paper",
+        about: "Compute every figure and number of the paper, check every claim, write a report",
+        package: PAPER,
+    },
+    Task {
+        name: "verify-invariance",
+        about: "Check the invariance under M → 1/M alone, with its figure",
+        package: PAPER,
+    },
+    Task {
+        name: "basin-raster",
+        about: "Compute the basins over any window, in tiles that survive a kill",
+        package: PAPER,
+    },
+    Task {
+        name: "beyond-paper",
+        about: "Compute what the paper could not say of the basins, with a report",
+        package: PAPER,
+    },
+    Task {
+        name: "model-figures",
+        about: "Draw what the generic crates do: how guards are met, and a valve's bifurcations",
+        package: PAPER,
+    },
+    Task {
+        name: "check-reference",
+        about: "Compare the map and the fates with files of reference values",
+        package: MEASUREMENTS,
+    },
+    Task {
+        name: "work-precision",
+        about: "Measure time against error of every way to compute a hop",
+        package: MEASUREMENTS,
+    },
+    Task {
+        name: "speed",
+        about: "Measure how fast hops and rasters are, each after its output was checked",
+        package: MEASUREMENTS,
+    },
+    Task {
+        name: "compare-peers",
+        about: "Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index",
+        package: MEASUREMENTS,
+    },
+    Task { name: "tidy", about: "Check the repository's rules", package: None },
+];
+
+/// The names of all commands.
+fn names() -> String {
+    TASKS.map(|task| task.name).join(", ")
+}
+
+/// Runs the command that the arguments name.
+pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
+    let Some((first, rest)) = arguments.split_first() else {
+        return Err(Error::NoCommand { known: names() });
+    };
+    match first.to_string_lossy().as_ref() {
+        // `help speed` and `speed --help` give the same text.
+        "help" => match rest.first() {
+            None => print(&help()),
+            Some(name) => start(&name.to_string_lossy(), &["--help".into()]),
+        },
+        "-h" | "--help" => print(&help()),
+        "-V" | "--version" => print(&format!("cargo xtask {}\n", env!("CARGO_PKG_VERSION"))),
+        name => start(name, rest),
+    }
+}
+
+fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
+    let known = TASKS.iter().find(|task| task.name == name);
+    let task =
+        known.ok_or_else(|| Error::UnknownCommand { name: name.to_owned(), known: names() })?;
+    if let Some(package) = task.package {
+        return run_program(package, task.name, arguments);
+    }
+    match arguments.first().map(|argument| argument.to_string_lossy()) {
+        None => tidy::run(),
+        Some(option) if option == "--help" || option == "-h" => print(&format!(
+            "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",
+            task.about, task.name
+        )),
+        Some(option) => {
+            Err(Error::UnknownOption { command: task.name, option: option.into_owned() })
+        }
+    }
+}
+
+/// Builds a program of the workspace and runs it in the folder in which the user is.
+fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
+    // Cargo names itself to the programs it runs; by hand, the first one in the path will do.
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(&program);
+    command.args(["run", "--quiet", "--release", "--package", package, "--manifest-path"]);
+    command.arg(repository().join("Cargo.toml"));
+    command.args([OsStr::new("--"), OsStr::new(name)]).args(arguments);
+    become_program(&mut command).map_err(|source| Error::Cargo { program, source })
+}
+
+/// Replaces this process, so that a signal meets the program itself and its exit status is ours.
+#[cfg(unix)]
+fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
+    // It returns only if the program could not be started.
+    Err(std::os::unix::process::CommandExt::exec(command))
+}
+
+/// Waits for the program and takes over its exit status. Ctrl-C reaches both processes.
+#[cfg(not(unix))]
+fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
+    let code = command.status()?.code().and_then(|code| u8::try_from(code).ok());
+    Ok(code.map_or(ExitCode::FAILURE, ExitCode::from))
+}
+
+fn help() -> String {
+    let widest = TASKS.iter().map(|task| task.name.len()).max().unwrap_or(0);
+    let line = |name: &str, about: &str| format!("  {name:widest$}  {about}\n");
+    let mut text = "Figures, claims and rules of the hybrid-hopper workspace\n\n\
+                    Usage: cargo xtask <COMMAND>\n\nCommands:\n"
+        .to_owned();
+    TASKS.iter().for_each(|task| text.push_str(&line(task.name, task.about)));
+    text.push_str(&line("help", "Print this message or the help of the given command"));
+    text + "\nOptions:\n  -h, --help     Print help\n  -V, --version  Print version\n"
+}
+
+fn print(text: &str) -> Result<ExitCode, Error> {
+    let at = |source| Error::File { path: "standard output".into(), source };
+    std::io::stdout().write_all(text.as_bytes()).map_err(at)?;
+    Ok(ExitCode::SUCCESS)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_help_has_one_line_for_each_command() {
+        let text = help();
+        for task in TASKS {
+            let lines = text.lines().filter(|line| line.trim_start().starts_with(task.name));
+            assert_eq!(lines.count(), 1, "{}", task.name);
+        }
+    }
+
+    #[test]
+    fn an_unknown_command_is_an_error_that_lists_the_known_ones() {
+        let error = run(&["reproduce".into()]).unwrap_err().to_string();
+        assert!(error.contains("'reproduce'") && error.contains("reproduce-paper, "), "{error}");
+        assert!(run(&[]).unwrap_err().to_string().contains("tidy"));
+        assert!(run(&["tidy".into(), "--fast".into()]).unwrap_err().to_string().contains("--fast"));
+    }
+}

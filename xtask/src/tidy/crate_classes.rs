@@ -1,0 +1,68 @@
+//! Which crates may print, read files or look at clocks.
+
+use super::breach::Breach;
+use Class::{Computing, Files, Program};
+
+/// What a crate may do besides computing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Class {
+    /// Nothing else: the same input gives the same result, on any machine and in a browser.
+    Computing,
+    /// Read and write files, without printing: its callers decide what a user sees.
+    Files,
+    /// Print, read, write, look at clocks and start processes.
+    Program,
+}
+
+/// Every crate in `crates/`, with its class and the reason for it.
+const CLASSES: [(&str, Class, &str); 11] = [
+    ("hybrid-system", Computing, "executions are functions of the system and its start"),
+    ("return-map", Computing, "maps and their fixed points are functions of a system"),
+    ("basin-of-attraction", Computing, "random points come from a seed argument"),
+    ("passive-hopper", Computing, "hops are functions of α and M"),
+    ("hopper-asymptotics", Computing, "expansions are functions of n and M"),
+    ("hopper-basin", Computing, "fates are functions of α and M"),
+    ("journal-figures", Computing, "figures are bytes; its font is part of the crate"),
+    ("resumable-job", Files, "finished pieces must survive a kill, so they are on disk"),
+    ("repository-tools", Program, "the file and terminal access that the programs share"),
+    ("hopper-paper", Program, "writes figures and reports, and says what holds"),
+    ("hopper-measurements", Program, "looks at clocks, and says what it measured"),
+];
+
+/// Crates that any other system could use: they do not know the hopper.
+pub(super) const GENERIC: [&str; 5] =
+    ["hybrid-system", "return-map", "basin-of-attraction", "journal-figures", "resumable-job"];
+
+/// The class of a crate; `None` if the table does not have it.
+pub(super) fn class_of(name: &str) -> Option<Class> {
+    CLASSES.iter().find(|(known, ..)| *known == name).map(|&(_, class, _)| class)
+}
+
+/// Every crate has a class.
+pub(super) fn check(crates: &[String], breaches: &mut Vec<Breach>) {
+    for name in crates.iter().filter(|name| class_of(name).is_none()) {
+        breaches.push(Breach::new(
+            &format!("crates/{name}/Cargo.toml"),
+            0,
+            "the crate has no class: add it to CLASSES in xtask/src/tidy/crate_classes.rs, with the reason",
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crate_without_a_class_is_a_breach() {
+        let mut breaches = Vec::new();
+        check(&["return-map".into(), "new-crate".into()], &mut breaches);
+        assert_eq!(breaches.len(), 1);
+        assert_eq!(breaches[0].file, "crates/new-crate/Cargo.toml");
+    }
+
+    #[test]
+    fn generic_crates_have_a_class() {
+        assert!(GENERIC.iter().all(|name| class_of(name).is_some()));
+    }
+}

@@ -1,0 +1,137 @@
+//! What a file and a line of code may not contain.
+
+use super::breach::Breach;
+use super::crate_classes::{Class, GENERIC, class_of};
+use super::sources::Source;
+
+/// The file that calls loops compiled for wider vectors, after asking the processor.
+const WITH_UNSAFE_CODE: &str = "crates/passive-hopper/src/kernel/batch/simd.rs";
+/// The file that calls the root finder of the `roots` crate, on brackets that are certain.
+const WITH_ROOTS: &str = "crates/hybrid-system/src/crossing/bracketed_root.rs";
+/// Lines of a file. The numerical crates that were read as examples stay below it; past it a file held more
+/// than one concept each time.
+const LONGEST_FILE: usize = 400;
+
+const PRINTING: [&str; 5] = ["print!(", "println!(", "eprint!(", "eprintln!(", "dbg!("];
+const FILES: [&str; 3] = ["std::fs", "std::env", "std::process"];
+const OUTSIDE: [&str; 4] = ["std::net", "rand::", "SystemTime", "Instant"];
+const PANICS: [&str; 8] = [
+    ".unwrap()",
+    ".expect(",
+    "panic!(",
+    "unreachable!(",
+    "todo!(",
+    "unimplemented!(",
+    "assert!(",
+    "assert_eq!(",
+];
+
+/// Checks one file.
+pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
+    let (name, text) = (source.name.as_str(), source.text.as_str());
+    let mut breach = |line: usize, rule: &str| breaches.push(Breach::new(name, line, rule));
+    if name.ends_with(".toml") {
+        // A fuzz crate is no part of the workspace, since it needs another compiler: it names its own versions.
+        if name.ends_with("Cargo.toml") && !name.contains("/fuzz/") {
+            check_manifest(text, &mut breach);
+        }
+        return;
+    }
+    if text.lines().count() > LONGEST_FILE {
+        breach(0, "over 400 lines: one concept a file");
+    }
+    let in_crate = source.crate_name();
+    if in_crate.is_some() && source.in_src().is_some() && !text.starts_with("//!") {
+        breach(1, "a library file starts with what it holds: //!");
+    }
+    // A crate without a class is treated as the strictest one; `crate_classes` reports it.
+    let class = in_crate.map(|name| class_of(name).unwrap_or(Class::Computing));
+    let mut in_tests = false;
+    for (index, line) in text.lines().enumerate() {
+        let at = index + 1;
+        // The tests at the end of a file may do what libraries may not.
+        in_tests |= line.starts_with("#[cfg(test)]");
+        let code = line.trim_start();
+        let has = |words: &[&str]| words.iter().any(|word| code.contains(word));
+        if in_crate.is_some_and(|name| GENERIC.contains(&name))
+            && line.to_lowercase().contains("hopper")
+        {
+            breach(at, "a generic crate does not know the hopper");
+        }
+        // This file names the words itself.
+        if has(&["TODO", "FIXME", "XXX"]) && !name.ends_with("tidy/line_rules.rs") {
+            breach(at, "unfinished: finish it, or file an issue");
+        }
+        let Some(class) = class.filter(|_| source.in_src().is_some()) else { continue };
+        if code.starts_with("//") || in_tests {
+            continue;
+        }
+        if class != Class::Program && has(&PRINTING) {
+            breach(at, "libraries do not print");
+        }
+        if class != Class::Program && has(&OUTSIDE) || class == Class::Computing && has(&FILES) {
+            breach(at, "libraries read no files, clocks, environment or random numbers");
+        }
+        if has(&PANICS) {
+            breach(at, "libraries return errors as values");
+        }
+        if has(&["unsafe ", "unsafe{", "unsafe_code"]) && name != WITH_UNSAFE_CODE {
+            breach(at, &format!("unsafe code is in {WITH_UNSAFE_CODE} alone"));
+        }
+        if code.contains("roots::") && name != WITH_ROOTS {
+            breach(at, &format!("only {WITH_ROOTS} uses the roots crate"));
+        }
+    }
+}
+
+fn check_manifest(text: &str, breach: &mut impl FnMut(usize, &str)) {
+    let mut in_dependencies = false;
+    for (index, line) in text.lines().enumerate() {
+        if line.starts_with('[') {
+            in_dependencies = line.ends_with("dependencies]");
+        } else if in_dependencies && line.contains('=') && !line.contains("workspace = true") {
+            breach(index + 1, "versions live in the workspace table");
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rules(name: &str, text: &str) -> Vec<String> {
+        let mut breaches = Vec::new();
+        check(&Source { name: name.into(), text: text.into() }, &mut breaches);
+        breaches.into_iter().map(|breach| breach.rule).collect()
+    }
+
+    #[test]
+    fn breaches_are_found() {
+        let generic = "crates/return-map/src/x.rs";
+        assert_eq!(
+            rules(generic, "//! Of the Hopper.\n"),
+            ["a generic crate does not know the hopper"]
+        );
+        assert_eq!(
+            rules(generic, "//! X.\nlet y = x.unwrap();\n"),
+            ["libraries return errors as values"]
+        );
+        assert_eq!(rules(generic, "//! X.\nuse roots::find_root_brent;\n").len(), 1);
+        assert_eq!(rules(generic, "//! X.\nprintln!(\"{x}\");\n").len(), 1);
+        assert_eq!(rules(generic, "//! X.\n#![allow(unsafe_code)]\nunsafe { x() };\n").len(), 2);
+        assert!(rules(WITH_UNSAFE_CODE, "//! X.\nunsafe { x() };\n").is_empty());
+        assert_eq!(rules("crates/x/Cargo.toml", "[dependencies]\nserde = \"1\"\n").len(), 1);
+        assert!(rules("xtask/src/x.rs", &"\n".repeat(401)).len() == 1);
+        assert!(rules(generic, "//! X.\n/// x.unwrap()\n#[cfg(test)]\nassert!(x);\n").is_empty());
+    }
+
+    #[test]
+    fn a_class_decides_about_files_and_printing() {
+        let (files, print) = ("//! X.\nuse std::fs::File;\n", "//! X.\nprintln!(\"{x}\");\n");
+        assert_eq!(rules("crates/passive-hopper/src/x.rs", files).len(), 1);
+        assert_eq!(rules("crates/resumable-job/src/x.rs", files).len(), 0);
+        assert_eq!(rules("crates/resumable-job/src/x.rs", print).len(), 1);
+        assert_eq!(rules("crates/hopper-paper/src/x.rs", print).len(), 0);
+        assert_eq!(rules("crates/without-a-class/src/x.rs", files).len(), 1);
+    }
+}

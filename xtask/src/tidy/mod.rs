@@ -1,0 +1,70 @@
+//! `tidy`: the rules of the repository, one file each, and a test that they hold.
+//!
+//! | rule | file |
+//! |---|---|
+//! | which crates may print, read files or look at clocks | `crate_classes.rs` |
+//! | what a line of code may not contain | `line_rules.rs` |
+//! | the workspace lists its members | `workspace_members.rs` |
+//! | no import cycles between files | `import_cycles.rs` |
+//! | no imports through `lib.rs` | `lib_imports.rs` |
+//! | the root of the repository holds known names only | `root_folder.rs` |
+
+mod breach;
+mod crate_classes;
+mod import_cycles;
+mod imports;
+mod lib_imports;
+mod line_rules;
+mod module_tree;
+mod root_folder;
+mod sources;
+mod workspace_members;
+
+use crate::error::Error;
+use crate::repository::repository;
+use breach::Breach;
+use std::io::Write;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Prints every breach; an error if there is one.
+pub(crate) fn run() -> Result<ExitCode, Error> {
+    let breaches = breaches(&repository())?;
+    let mut out = std::io::stdout().lock();
+    for Breach { file, line, rule } in &breaches {
+        writeln!(out, "{file}:{line}: {rule}")
+            .map_err(|source| Error::File { path: "standard output".into(), source })?;
+    }
+    match breaches.len() {
+        0 => Ok(ExitCode::SUCCESS),
+        count => Err(Error::Breaches(count)),
+    }
+}
+
+/// All breaches in the repository at `root`.
+fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
+    let sources = sources::collect(root)?;
+    let mut breaches = Vec::new();
+    for source in &sources {
+        line_rules::check(source, &mut breaches);
+    }
+    for files in sources.chunk_by(|a, b| a.package() == b.package()) {
+        import_cycles::check(files, &mut breaches);
+        lib_imports::check(files, &mut breaches);
+    }
+    let crates = root_folder::crates(root)?;
+    crate_classes::check(&crates, &mut breaches);
+    workspace_members::check(&sources::read(root, "Cargo.toml")?.text, &crates, &mut breaches);
+    root_folder::check(root, &mut breaches)?;
+    Ok(breaches)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_repository_is_tidy() {
+        assert_eq!(breaches(&repository()).unwrap(), []);
+    }
+}
