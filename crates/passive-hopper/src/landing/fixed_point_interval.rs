@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with A(h) the lift-off speed of the flight that lasts 2h, which increases (docs/model.md,
-//! "The landing, solved"). For n = 0 only the second line applies.
+//! section 4). For n = 0 only the second line applies.
 
 use crate::model::fixed_points::{exact_alpha_star, n_pi};
 use crate::precision::double_double::DoubleDouble;

@@ -1,8 +1,7 @@
 //! The landing of a flight that starts with a sudden lift-off, at stretch Y = 1 + x, x > 0.
 //!
 //! In h, half the time of flight, the landing is a root of V(h) = V. The first root lies on an increasing branch of
-//! V(h), and the following intervals hold it and no other root (docs/model.md, "The landing,
-//! solved"):
+//! V(h), and the following intervals hold it and no other root (docs/model.md, section 4):
 //!
 //! ```text
 //!   branch b    h in                      because
