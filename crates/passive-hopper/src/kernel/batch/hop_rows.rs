@@ -110,9 +110,8 @@ fn polynomials(coefficients: [&Piece; LANES], at: &[f64; LANES]) -> [f64; LANES]
 ///
 /// The polynomials are summed one by one, because the coefficients of neighbours are far apart in memory. In groups
 /// of eight this takes 5 % less time a hop than in a plain loop over the speeds.
-/// A hand-written transposition of eight rows of coefficients in AVX-512 registers earned 4 % more (six runs of
-/// 12 000 interleaved blocks each, on an Intel Xeon at 2.8 GHz: 3.5 to 4.6 %), and nothing without AVX-512. It is left
-/// out: 4 % do not pay for 60 lines of unsafe code.
+/// A transposition of the coefficients by hand in AVX-512 registers would save another 4 % (the README has the
+/// measurement). That does not pay for 60 lines of unsafe code.
 #[inline(always)]
 pub(crate) fn first_flights(
     hops: &mut HopRows,
