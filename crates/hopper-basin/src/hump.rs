@@ -137,7 +137,7 @@ impl Hump {
             let mut h = middle + sign * reach;
             for _ in 0..NEWTON_STEPS {
                 let half = HalfFlight::at(h);
-                let slope = half.sin * half.cos - h * (1.0 - 2.0 * half.sin * half.sin);
+                let slope = half.sin() * half.cos() - h * (1.0 - 2.0 * half.sin() * half.sin());
                 let step = (half.w() - level) / slope;
                 h -= step;
                 let inside = h > self.star.value() && sign * (h - middle) > 0.0;
@@ -173,7 +173,7 @@ impl Hump {
             let h = self.star.value() + 0.5 * t;
             let half = HalfFlight::at(h);
             let alpha = self.star.value() + self.delta(t);
-            let slope = alpha * (1.0 - 4.0 * mu * self.w(t)) * self.closing_speed(t) / half.d;
+            let slope = alpha * (1.0 - 4.0 * mu * self.w(t)) * self.closing_speed(t) / half.d();
             let step = above(t) / slope;
             t -= step;
             if !(slope < 0.0 && t > 0.0 && t < right) {
@@ -194,7 +194,7 @@ impl Hump {
             let half = HalfFlight::at(h);
             let (alpha, closing) = (half.start_speed(0.0), half.closing_speed(0.0));
             let above = alpha * alpha - square - mu * closing * closing;
-            let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d;
+            let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d();
             let step = above / slope;
             h -= step;
             if !(slope < 0.0 && h > self.star.value()) {

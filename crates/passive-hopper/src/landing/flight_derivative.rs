@@ -12,8 +12,7 @@
 //!
 //! The derivatives of the map (`map/slopes.rs`) and the error bounds (`error_bound.rs`) both use it.
 
-use crate::landing::from_ground::Landing;
-use crate::landing::from_ground::TakeOff;
+use crate::landing::flight_ends::{Landing, TakeOff};
 
 /// A small change (dx, dV) of a state on the ground.
 #[derive(Debug, Clone, Copy)]

@@ -5,15 +5,16 @@
 
 use crate::error::Error;
 use crate::kernel::scalar::hop::{DecidedHop, MassFactors, kernel_hop};
-use crate::landing::error_bound::Doubt;
-use crate::landing::from_ground::Landing;
-use crate::landing::from_ground::TakeOff;
-use crate::landing::from_ground::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
-use crate::map::extended_hop::{Start, WideHop, wide_hop};
+use crate::landing::error_bound::ErrorBound;
+use crate::landing::first_landing::first_landing;
+use crate::landing::flight_ends::{Landing, TakeOff};
+use crate::landing::next_landing::next_landing;
+use crate::map::extended_hop::{ExtendedHop, Start, extended_hop};
 use crate::map::limits::{LARGEST_PLAIN_SPEED, SUDDEN_LIFT_OFF_BUDGET};
 use crate::model::mass_ratio::MassRatio;
+use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 use crate::precision::double_double::DoubleDouble;
-use crate::precision::real::Real;
+use crate::precision::real::Extended;
 
 /// The map from one gradual lift-off speed to the next, at a fixed mass ratio.
 ///
@@ -130,7 +131,7 @@ impl LiftOffMap {
                 return Ok((hop, None));
             }
         }
-        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
+        let hop = extended_hop(Start::Speed(alpha), self.mass_ratio)?;
         Ok((self.rounded(alpha, &hop), Some(hop.landings)))
     }
 
@@ -139,18 +140,18 @@ impl LiftOffMap {
         let landings = self.landings(alpha)?;
         // Σ (Γ/α)²: of ratios, so that no square underflows for tiny α.
         let (mut ratios_squared, mut sudden, mut flight_time) = (0.0, 0, 0.0);
-        let mut doubt = Doubt::plain(alpha);
+        let mut error_bound = ErrorBound::of_f64(alpha);
         for landing in landings {
             let landing = landing?;
             let ratio = landing.closing_speed / alpha;
             ratios_squared += ratio * ratio;
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
-            doubt.pass(&landing, self.factors.kappa);
+            error_bound.add_flight(&landing, self.factors.kappa);
             see(&landing);
         }
         let t = self.factors.mu * ratios_squared;
-        let certain = !doubt.is_real(1.0 - t, self.factors.mu, alpha);
+        let certain = !error_bound.inconclusive(1.0 - t, self.factors.mu, alpha);
         // t = 1 − α'²/α². The loss α t/(1 + √(1−t)) keeps its digits for small t, and α' = α − loss then has only
         // one rounding. For t ≥ ½ the difference would cancel: there the root is better.
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
@@ -159,7 +160,7 @@ impl LiftOffMap {
         Ok(Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time, certain })
     }
 
-    fn rounded(&self, alpha: f64, hop: &WideHop) -> Hop {
+    fn rounded(&self, alpha: f64, hop: &ExtendedHop) -> Hop {
         Hop {
             speed: alpha,
             next: hop.next.as_ref().map(|next| next.speed),

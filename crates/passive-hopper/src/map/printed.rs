@@ -4,8 +4,8 @@
 //! difference is small. It shows this difference and is an independent check of the stable form.
 
 use crate::error::Error;
-use crate::landing::from_ground::TakeOff;
-use crate::landing::from_ground::time_bracket;
+use crate::landing::flight_ends::TakeOff;
+use crate::landing::printed_bracket::time_bracket;
 use crate::map::lift_off_map::LiftOffMap;
 use crate::map::limits::SUDDEN_LIFT_OFF_BUDGET;
 use crate::model::mass_ratio::MassRatio;

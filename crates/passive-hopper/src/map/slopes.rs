@@ -12,7 +12,7 @@
 
 use crate::error::Error;
 use crate::landing::flight_derivative::{FlightDerivative, Variation};
-use crate::landing::from_ground::TakeOff;
+use crate::landing::flight_ends::TakeOff;
 use crate::map::lift_off_map::LiftOffMap;
 
 /// The derivatives of one hop.

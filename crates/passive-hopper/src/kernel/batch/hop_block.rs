@@ -15,7 +15,7 @@ use crate::kernel::batch::later_flights::{FlightEnds, FlightList};
 use crate::kernel::batch::rows::BLOCK;
 use crate::kernel::batch::simd;
 use crate::kernel::scalar::hop::MassFactors;
-use crate::landing::first_flight_table::{CELLS, Cell as CellTable, Place, stars};
+use crate::landing::first_flight_table::{FirstFlightTable, TABLES, TablePosition, fixed_points};
 use std::cell::Cell;
 
 /// The arrays of a block.
@@ -59,7 +59,7 @@ impl HopBlock {
             let (alpha, MassFactors { mu, kappa }) = from(entry);
             (self.hops.alpha[at], self.hops.mu[at], self.hops.kappa[at]) = (alpha, mu, kappa);
         }
-        simd::find_places(&mut self.hops, stars(), count);
+        simd::find_places(&mut self.hops, fixed_points(), count);
         self.first_flights(count);
         let mut current = 0;
         while !self.lists[current].is_empty() {
@@ -76,18 +76,18 @@ impl HopBlock {
     fn first_flights(&mut self, count: usize) {
         let HopBlock { hops, lists: [list, _], .. } = self;
         // Builds the tables of the cells that occur, before the loop: it has no branch for a missing table.
-        let mut cells = CellTable::all();
+        let mut tables = FirstFlightTable::all();
         let mut used = 0u64; // bit n: a speed lies in the table of cell n
         for (&cell, &piece) in hops.cell.iter().zip(&hops.piece).take(count) {
-            used |= u64::from(piece != Place::NOWHERE.piece) << (cell % CELLS as u64);
+            used |= u64::from(piece != TablePosition::NOWHERE.piece) << (cell % TABLES as u64);
         }
-        for (n, cell) in cells.iter_mut().enumerate() {
+        for (n, table) in tables.iter_mut().enumerate() {
             if used >> n & 1 == 1 {
-                *cell = CellTable::get(n as u64);
+                *table = FirstFlightTable::get(n as u64);
             }
         }
         list.clear();
-        simd::first_flights(hops, &cells, list, count);
+        simd::first_flights(hops, &tables, list, count);
     }
 
     /// The flights of the list `current`; those that follow go to the other list.

@@ -4,14 +4,16 @@ use crate::kernel::batch::later_flights::{FlightEnds, FlightList};
 use crate::kernel::batch::rows::{BLOCK, LANES, Row, ZERO};
 use crate::kernel::scalar::hop::{FlightSums, MOST_FLIGHTS, state_after_first};
 use crate::kernel::scalar::later_flight::later_flight;
-use crate::landing::first_flight_table::{CELLS, Cell, First, Piece, Place, Stars, polynomial};
+use crate::landing::first_flight_table::{
+    FirstFlight, FirstFlightTable, FixedPoints, Piece, TABLES, TablePosition, polynomial,
+};
 
 /// The hops of a block.
 pub(crate) struct HopRows {
     pub(crate) alpha: Row,
     pub(crate) mu: Row,
     pub(crate) kappa: Row,
-    // The place of α in the tables of the first flight, see `Place`.
+    // The place of α in the tables of the first flight, see `TablePosition`.
     pub(crate) cell: [u64; BLOCK],
     pub(crate) piece: [u64; BLOCK],
     at: Row,
@@ -86,15 +88,15 @@ impl HopRows {
 
 /// Finds the first `count` speeds in the tables, and starts their sums.
 #[inline(always)]
-pub(crate) fn find_places(hops: &mut HopRows, stars: &Stars, count: usize) {
+pub(crate) fn find_places(hops: &mut HopRows, fixed_points: &FixedPoints, count: usize) {
     let count = count.next_multiple_of(LANES).min(BLOCK); // whole vectors (I6)
     let alpha = &hops.alpha[..count];
     let (cell, piece) = (&mut hops.cell[..count], &mut hops.piece[..count]);
     let (at, sudden) = (&mut hops.at[..count], &mut hops.sudden[..count]);
     let (error, flights) = (&mut hops.error[..count], &mut hops.flights[..count]);
     for k in 0..count {
-        let place = Place::of(alpha[k], stars);
-        (cell[k], piece[k]) = (place.cell, place.piece);
+        let place = TablePosition::of(alpha[k], fixed_points);
+        (cell[k], piece[k]) = (place.interval, place.piece);
         (at[k], sudden[k]) = (place.at, place.sudden);
         (error[k], flights[k]) = (0.0, 1.0);
     }
@@ -115,7 +117,7 @@ fn polynomials(coefficients: [&Piece; LANES], at: &[f64; LANES]) -> [f64; LANES]
 #[inline(always)]
 pub(crate) fn first_flights(
     hops: &mut HopRows,
-    cells: &[&Cell; CELLS],
+    tables: &[&FirstFlightTable; TABLES],
     list: &mut FlightList,
     count: usize,
 ) {
@@ -129,10 +131,10 @@ pub(crate) fn first_flights(
     let (squares, _) = hops.closing_speeds_squared.as_chunks_mut::<LANES>();
     let (closing_speeds, _) = hops.closing_speed.as_chunks_mut::<LANES>();
     for group in 0..count.div_ceil(LANES).min(BLOCK / LANES) {
-        let mut coefficients = [cells[0].of_closing_speed(0); LANES];
+        let mut coefficients = [tables[0].of_closing_speed(0); LANES];
         for k in 0..LANES {
-            let cell = cells[cell[group][k] as usize % CELLS];
-            coefficients[k] = cell.of_closing_speed(piece[group][k]);
+            let table = tables[cell[group][k] as usize % TABLES];
+            coefficients[k] = table.of_closing_speed(piece[group][k]);
         }
         let closing_speed = polynomials(coefficients, &at[group]);
         for k in 0..LANES {
@@ -147,18 +149,18 @@ pub(crate) fn first_flights(
     for group in sudden[..length.next_multiple_of(LANES).min(BLOCK)].as_chunks::<LANES>().0 {
         let (mut alpha, mut closing_speed, mut at) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
         let mut kappa = [0.0; LANES];
-        let mut coefficients = [cells[0].of_beyond(0); LANES];
+        let mut coefficients = [tables[0].of_beyond(0); LANES];
         for (k, &hop) in group.iter().enumerate() {
             let hop = usize::from(hop) % BLOCK;
             (alpha[k], closing_speed[k], at[k]) =
                 (hops.alpha[hop], hops.closing_speed[hop], hops.at[hop]);
             kappa[k] = hops.kappa[hop];
-            coefficients[k] = cells[hops.cell[hop] as usize % CELLS].of_beyond(hops.piece[hop]);
+            coefficients[k] = tables[hops.cell[hop] as usize % TABLES].of_beyond(hops.piece[hop]);
         }
         let beyond = polynomials(coefficients, &at);
         let states: [_; LANES] = std::array::from_fn(|k| {
             let (alpha, beyond, closing_speed) = (alpha[k], beyond[k], closing_speed[k]);
-            let first = First { half_time: alpha - beyond, beyond, closing_speed };
+            let first = FirstFlight { half_time: alpha - beyond, beyond, closing_speed };
             state_after_first(&first, alpha, kappa[k])
         });
         for k in 0..length.min(LANES) {

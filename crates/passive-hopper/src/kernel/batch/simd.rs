@@ -7,7 +7,7 @@
 
 use crate::kernel::batch::hop_rows::{self, HopRows};
 use crate::kernel::batch::later_flights::{self, FlightEnds, FlightList};
-use crate::landing::first_flight_table::{CELLS, Cell, Stars};
+use crate::landing::first_flight_table::{FirstFlightTable, FixedPoints, TABLES};
 
 #[cfg(target_arch = "x86_64")]
 fn has_avx512() -> bool {
@@ -53,12 +53,12 @@ macro_rules! for_widest_vectors {
 for_widest_vectors!(
     /// See [`hop_rows::find_places`].
     find_places = hop_rows::find_places,
-    (hops: &mut HopRows, stars: &Stars, count: usize)
+    (hops: &mut HopRows, fixed_points: &FixedPoints, count: usize)
 );
 for_widest_vectors!(
     /// See [`hop_rows::first_flights`].
     first_flights = hop_rows::first_flights,
-    (hops: &mut HopRows, cells: &[&Cell; CELLS], list: &mut FlightList, count: usize)
+    (hops: &mut HopRows, tables: &[&FirstFlightTable; TABLES], list: &mut FlightList, count: usize)
 );
 for_widest_vectors!(
     /// See [`later_flights::land_below_pi`].

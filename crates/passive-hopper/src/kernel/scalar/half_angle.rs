@@ -115,7 +115,7 @@ impl HalfAngle {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::landing::half_flight::HalfFlight;
+    use crate::landing::half_time::HalfTime;
     use proptest::prelude::*;
 
     fn ulps(found: f64, exact: f64) -> f64 {
@@ -140,7 +140,7 @@ mod tests {
         #[test]
         fn half_angle_functions_agree_with_correctly_rounded_ones(h in 0.0..200f64, exponent in -8.0..0.0f64) {
             for h in [h, h * pxfm::f_exp10(exponent)] {
-                let (found, exact) = (HalfAngle::at(h), HalfFlight::at(h));
+                let (found, exact) = (HalfAngle::at(h), HalfTime::at(h));
                 prop_assert!(ulps(found.sin, exact.sin) <= 1.2 && ulps(found.cos, exact.cos) <= 1.2);
                 let rough = HalfAngle::to_eight_digits(h);
                 prop_assert!((rough.sin - exact.sin).abs() < 1e-8 && (rough.cos - exact.cos).abs() < 1e-8);

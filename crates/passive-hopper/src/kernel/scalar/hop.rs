@@ -3,7 +3,7 @@
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::later_flight::{FlightEnd, later_flight};
 use crate::landing::error_bound::LANDING_ULPS;
-use crate::landing::first_flight_table::{First, Place, stars};
+use crate::landing::first_flight_table::{FirstFlight, TablePosition, fixed_points};
 
 /// Most flights of a hop in the kernel. The careful path computes hops with more.
 ///
@@ -46,7 +46,7 @@ impl FlightSums {
     /// The sums after the first flight. Nothing is propagated to it: its error is the rounding of the table, which
     /// [`end`](Self::end) counts.
     #[inline(always)]
-    pub(crate) fn of_first(first: &First) -> Self {
+    pub(crate) fn of_first(first: &FirstFlight) -> Self {
         let square = first.closing_speed * first.closing_speed;
         FlightSums {
             closing_speeds_squared: square,
@@ -94,8 +94,8 @@ impl DecidedHop {
 ///
 /// The table gives α − h to an ulp of itself, so that x′ keeps its digits next to α*_n, where it vanishes.
 #[inline(always)]
-pub(crate) fn state_after_first(first: &First, alpha: f64, kappa: f64) -> GroundState {
-    let First { half_time: h, beyond, closing_speed } = *first;
+pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> GroundState {
+    let FirstFlight { half_time: h, beyond, closing_speed } = *first;
     let excess = 2.0 * h * beyond;
     let velocity = (beyond - h) + kappa * closing_speed;
     let size = 1.0 + alpha + 2.0 * h + closing_speed;
@@ -105,10 +105,10 @@ pub(crate) fn state_after_first(first: &First, alpha: f64, kappa: f64) -> Ground
 /// The hop from `alpha`; `None` where the careful path must decide.
 #[inline]
 pub(crate) fn kernel_hop(alpha: f64, MassFactors { mu, kappa }: MassFactors) -> Option<DecidedHop> {
-    let place = Place::of(alpha, stars());
-    let first = place.first(alpha)?;
+    let position = TablePosition::of(alpha, fixed_points());
+    let first = position.first_flight(alpha)?;
     let mut sums = FlightSums::of_first(&first);
-    if place.sudden == 1 {
+    if position.sudden == 1 {
         let mut state = state_after_first(&first, alpha, kappa);
         loop {
             let end = later_flight(&state, kappa)?;

@@ -1,7 +1,7 @@
 //! A later flight: from a state (x, V) on the ground with x > 0 to its landing.
 //!
 //! The landing is the root h of V(h) = V in its bracket, h being half the time of flight. With S, C, D, u of
-//! [`HalfAngle`], Y = 1 + x and w = u − xS (derivation: `landing/half_flight.rs`),
+//! [`HalfAngle`], Y = 1 + x and w = u − xS (derivation: `landing/half_time.rs`),
 //!
 //! ```text
 //!   V(h) = h + S u/D − x S²/D       Γ = 2uw/D       dV/dh = Γ/D       d(Γ²)/dV = 2D dΓ/dh
