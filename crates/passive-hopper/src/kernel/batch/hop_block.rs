@@ -1,7 +1,7 @@
 //! A block of hops, from their speeds to their next speeds.
 //!
 //! ```text
-//!   find_places      where the speeds lie in the tables                    vectors
+//!   find_positions      where the speeds lie in the tables                    vectors
 //!   first_flights    Γ from the tables; the list of sudden landings        in groups of eight
 //!   land_below_pi    the flights of the list: guess, two steps, landing    vectors
 //!   land_from_pi     the same for V ≥ π                                    vectors
@@ -59,7 +59,7 @@ impl HopBlock {
             let (alpha, MassFactors { mu, kappa }) = from(entry);
             (self.hops.alpha[at], self.hops.mu[at], self.hops.kappa[at]) = (alpha, mu, kappa);
         }
-        simd::find_places(&mut self.hops, fixed_points(), count);
+        simd::find_positions(&mut self.hops, fixed_points(), count);
         self.first_flights(count);
         let mut current = 0;
         while !self.lists[current].is_empty() {
@@ -75,11 +75,11 @@ impl HopBlock {
     /// The first flights, and the list of the flights that follow.
     fn first_flights(&mut self, count: usize) {
         let HopBlock { hops, lists: [list, _], .. } = self;
-        // Builds the tables of the cells that occur, before the loop: it has no branch for a missing table.
+        // Builds the tables that are needed, before the loop: it has no branch for a missing table.
         let mut tables = FirstFlightTable::all();
-        let mut used = 0u64; // bit n: a speed lies in the table of cell n
-        for (&cell, &piece) in hops.cell.iter().zip(&hops.piece).take(count) {
-            used |= u64::from(piece != TablePosition::NOWHERE.piece) << (cell % TABLES as u64);
+        let mut used = 0u64; // bit n: a speed lies in table n
+        for (&interval, &piece) in hops.interval.iter().zip(&hops.piece).take(count) {
+            used |= u64::from(piece != TablePosition::NOWHERE.piece) << (interval % TABLES as u64);
         }
         for (n, table) in tables.iter_mut().enumerate() {
             if used >> n & 1 == 1 {

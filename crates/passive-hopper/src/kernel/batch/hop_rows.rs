@@ -13,8 +13,8 @@ pub(crate) struct HopRows {
     pub(crate) alpha: Row,
     pub(crate) mu: Row,
     pub(crate) kappa: Row,
-    // The place of α in the tables of the first flight, see `TablePosition`.
-    pub(crate) cell: [u64; BLOCK],
+    // The position of α in the tables of the first flight, see `TablePosition`.
+    pub(crate) interval: [u64; BLOCK],
     pub(crate) piece: [u64; BLOCK],
     at: Row,
     sudden: [u64; BLOCK],
@@ -35,7 +35,7 @@ impl HopRows {
         alpha: ZERO,
         mu: ZERO,
         kappa: ZERO,
-        cell: [0; BLOCK],
+        interval: [0; BLOCK],
         piece: [0; BLOCK],
         at: ZERO,
         sudden: [0; BLOCK],
@@ -88,16 +88,16 @@ impl HopRows {
 
 /// Finds the first `count` speeds in the tables, and starts their sums.
 #[inline(always)]
-pub(crate) fn find_places(hops: &mut HopRows, fixed_points: &FixedPoints, count: usize) {
+pub(crate) fn find_positions(hops: &mut HopRows, fixed_points: &FixedPoints, count: usize) {
     let count = count.next_multiple_of(LANES).min(BLOCK); // whole vectors (I6)
     let alpha = &hops.alpha[..count];
-    let (cell, piece) = (&mut hops.cell[..count], &mut hops.piece[..count]);
+    let (interval, piece) = (&mut hops.interval[..count], &mut hops.piece[..count]);
     let (at, sudden) = (&mut hops.at[..count], &mut hops.sudden[..count]);
     let (error, flights) = (&mut hops.error[..count], &mut hops.flights[..count]);
     for k in 0..count {
-        let place = TablePosition::of(alpha[k], fixed_points);
-        (cell[k], piece[k]) = (place.interval, place.piece);
-        (at[k], sudden[k]) = (place.at, place.sudden);
+        let position = TablePosition::of(alpha[k], fixed_points);
+        (interval[k], piece[k]) = (position.interval, position.piece);
+        (at[k], sudden[k]) = (position.at, position.sudden);
         (error[k], flights[k]) = (0.0, 1.0);
     }
 }
@@ -112,9 +112,8 @@ fn polynomials(coefficients: [&Piece; LANES], at: &[f64; LANES]) -> [f64; LANES]
 ///
 /// The polynomials are summed one by one, because the coefficients of neighbours are far apart in memory. In groups
 /// of eight this takes 5 % less time a hop than in a plain loop over the speeds.
-/// A hand-written transposition of eight rows of coefficients in AVX-512 registers earned 4 % more (six runs of
-/// 12 000 interleaved blocks each, on an Intel Xeon at 2.8 GHz: 3.5 to 4.6 %), and nothing without AVX-512. It is left
-/// out: 4 % do not pay for 60 lines of unsafe code.
+/// A transposition of the coefficients by hand in AVX-512 registers would save another 4 % (the README has the
+/// measurement). That does not pay for 60 lines of unsafe code.
 #[inline(always)]
 pub(crate) fn first_flights(
     hops: &mut HopRows,
@@ -125,7 +124,7 @@ pub(crate) fn first_flights(
     // The hops whose first landing is sudden. Written always and counted only if sudden: no branch.
     let mut sudden = [0u16; BLOCK];
     let mut length = 0;
-    let (cell, _) = hops.cell.as_chunks::<LANES>();
+    let (interval, _) = hops.interval.as_chunks::<LANES>();
     let (piece, _) = hops.piece.as_chunks::<LANES>();
     let (at, _) = hops.at.as_chunks::<LANES>();
     let (is_sudden, _) = hops.sudden.as_chunks::<LANES>();
@@ -134,7 +133,7 @@ pub(crate) fn first_flights(
     for group in 0..count.div_ceil(LANES).min(BLOCK / LANES) {
         let mut coefficients = [tables[0].of_closing_speed(0); LANES];
         for k in 0..LANES {
-            let table = tables[cell[group][k] as usize % TABLES];
+            let table = tables[interval[group][k] as usize % TABLES];
             coefficients[k] = table.of_closing_speed(piece[group][k]);
         }
         let closing_speed = polynomials(coefficients, &at[group]);
@@ -156,7 +155,8 @@ pub(crate) fn first_flights(
             (alpha[k], closing_speed[k], at[k]) =
                 (hops.alpha[hop], hops.closing_speed[hop], hops.at[hop]);
             kappa[k] = hops.kappa[hop];
-            coefficients[k] = tables[hops.cell[hop] as usize % TABLES].of_beyond(hops.piece[hop]);
+            coefficients[k] =
+                tables[hops.interval[hop] as usize % TABLES].of_beyond(hops.piece[hop]);
         }
         let beyond = polynomials(coefficients, &at);
         let states: [_; LANES] = std::array::from_fn(|k| {

@@ -51,8 +51,8 @@ macro_rules! for_widest_vectors {
 }
 
 for_widest_vectors!(
-    /// See [`hop_rows::find_places`].
-    find_places = hop_rows::find_places,
+    /// See [`hop_rows::find_positions`].
+    find_positions = hop_rows::find_positions,
     (hops: &mut HopRows, fixed_points: &FixedPoints, count: usize)
 );
 for_widest_vectors!(

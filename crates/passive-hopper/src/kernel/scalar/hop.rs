@@ -8,7 +8,8 @@ use crate::landing::first_flight_table::{FirstFlight, TablePosition, fixed_point
 /// Most flights of a hop in the kernel. The careful path computes hops with more.
 ///
 /// The error bound grows from flight to flight, so that long chains tend to be inconclusive anyway; and in a batch a
-/// few long chains would keep nearly empty vectors busy. A higher limit changes no result, only the speed.
+/// few long chains would keep nearly empty vectors busy. 8192 hops of the paper's window have at most ten flights. The
+/// limit changes no result, only the speed.
 pub(crate) const MOST_FLIGHTS: f64 = 64.0;
 
 /// The two functions of M in a hop, μ = M/(1+M)² and κ = M/(1+M).
