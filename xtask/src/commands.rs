@@ -100,12 +100,10 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     }
     match arguments.first().map(|argument| argument.to_string_lossy()) {
         None => tidy::run(),
-        Some(option) if option == "--help" || option == "-h" => {
-            print(&format!(
-                "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",
-                task.about, task.name
-            ))
-        }
+        Some(option) if option == "--help" || option == "-h" => print(&format!(
+            "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",
+            task.about, task.name
+        )),
         Some(option) => {
             Err(Error::UnknownOption { command: task.name, option: option.into_owned() })
         }

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 /// Repeats of which the median counts: three of them may be disturbed by other processes.
 const REPEATS: usize = 7;
 
-/// A repeat makes as many passes as take this long, at least one. A call to the clock takes tens of nanoseconds, which
-/// is nothing beside it.
+/// A repeat makes as many passes as take this long, at least one. A call to the clock takes tens of nanoseconds, too
+/// little to matter.
 const LEAST: Duration = Duration::from_millis(4);
 
 /// The time of one call of `call`, over the inputs 0, …, `count` − 1.

@@ -5,19 +5,20 @@ use crate::error::Error;
 use repository_tools::Progress;
 use std::path::{Path, PathBuf};
 
-/// A run: where the finished pieces of its scans are kept until all of it is done.
+/// A run whose scans keep their finished rows on disk until all of it is done.
 #[derive(Debug, Clone)]
 pub struct Job {
     scans: PathBuf,
 }
 
 impl Job {
-    /// A run whose scans are kept in a folder beside its results. Each build of the program has its own.
+    /// A run whose rows are kept in a folder beside its results. Each build of the program has a folder of its own, since
+    /// another build may compute other numbers.
     pub fn new(results: &Path) -> Result<Self, Error> {
         Ok(Job { scans: results.join("scans").join(program_digest()?) })
     }
 
-    /// `count` rows of numbers, each computed once: rows that an earlier run finished are read.
+    /// `count` rows of numbers. A row that an earlier run finished is read instead of computed.
     pub(crate) fn scan(
         &self,
         name: &'static str,
@@ -44,7 +45,7 @@ impl Job {
         Ok(rows)
     }
 
-    /// Removes what was kept, once all results are written.
+    /// Removes the kept rows. Called once all results are written.
     pub fn done(self) -> Result<(), Error> {
         match std::fs::remove_dir_all(&self.scans) {
             Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
@@ -52,7 +53,7 @@ impl Job {
             }
             _ => {}
         }
-        // Another build may keep its own beside: then the folder stays.
+        // Another build may keep its rows beside: then the folder is not empty and stays.
         let _ = self.scans.parent().map(std::fs::remove_dir);
         Ok(())
     }
@@ -62,7 +63,7 @@ impl Job {
 mod tests {
     use super::*;
 
-    /// A scan that breaks off goes on where it was, to the same rows.
+    /// A scan that breaks off is continued with the first row that is missing.
     #[test]
     fn scans_go_on() {
         let folder = std::env::temp_dir().join(format!("hopper_scans_{}", std::process::id()));

@@ -24,9 +24,8 @@ pub(super) fn modules(files: &[Source]) -> Vec<Module<'_>> {
     let inside = |source: &Source| source.in_src().map(str::to_owned);
     let has_library = files.iter().any(|source| inside(source).as_deref() == Some("lib.rs"));
     let library = |source: &&Source| {
-        let is_module =
-            |file: String| !(has_library && file == "main.rs") && !file.starts_with("bin/");
-        inside(source).is_some_and(is_module)
+        let is_program = |file: &str| file.starts_with("bin/") || has_library && file == "main.rs";
+        inside(source).is_some_and(|file| !is_program(&file))
     };
     let module = |source| Module { path: path_of(source), source };
     files.iter().filter(library).map(module).collect()

@@ -6,8 +6,7 @@ use crate::figures::Build;
 use journal_figures::{Rendered, render};
 use repository_tools::{Folder, Progress};
 
-/// Pixels of the PNG for a point of the drawing: about 150 dpi, so that text of 10 points stays sharp on a
-/// screen while no PNG passes a megabyte.
+/// Pixels of the PNG for each point of the drawing, 144 an inch: text of 10 points is sharp on a screen.
 const PIXELS_PER_POINT: f32 = 2.0;
 
 /// Builds a figure and writes it in both forms, with its data.

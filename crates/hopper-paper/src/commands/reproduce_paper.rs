@@ -1,4 +1,4 @@
-//! `reproduce-paper`: every figure and every number, and a report.
+//! `reproduce-paper`: every figure and number of the paper, every claim, and a report.
 
 use super::claim_lines::{all_hold, line};
 use super::figure_files::make_figure;
@@ -30,7 +30,7 @@ pub struct Options {
     bless: bool,
 }
 
-/// Figures of the README: name and form.
+/// Figures that the documents show and that are committed: name and form.
 const COMMITTED: &[(&str, Form)] = &[
     ("fig_02_map", Form::Svg),
     ("fig_03_segments", Form::Svg),
@@ -45,6 +45,7 @@ enum Form {
     Png,
 }
 
+/// The file of digests in docs/figures.
 const DIGESTS: &str = "digests.json";
 
 /// Runs the command.
@@ -88,7 +89,7 @@ fn verdict(claims: &[Claim], differing: &[String]) -> Result<(), Error> {
     all_hold(claims)
 }
 
-/// Digests of all numbers; images of them depend on the encoder as well.
+/// Digests of all data but images, whose bytes depend on the version of the encoder.
 fn digests(made: &[(Figure, Rendered)]) -> BTreeMap<String, String> {
     let files = made.iter().flat_map(|(figure, _)| &figure.data);
     let numbers = files.filter(|file| !file.name.ends_with(".png"));
@@ -118,8 +119,8 @@ fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Names of the data whose digests differ from the committed ones, and of the README's figures that
-/// are not what is drawn now; with `all` figures made, also of digests without data.
+/// Names of the data whose digests differ from the committed ones, and of committed figures that differ from the new
+/// drawing. With `all` figures made, a digest without data counts too.
 fn compare(made: &[(Figure, Rendered)], all: bool) -> Result<Vec<String>, Error> {
     let folder = repository().join("docs/figures");
     let path = folder.join(DIGESTS);
