@@ -100,6 +100,7 @@ mod execution;
 mod guard;
 #[cfg(feature = "ode")]
 mod ode;
+mod searched;
 mod sensitivity;
 mod signal;
 mod simultaneous;
@@ -118,6 +119,7 @@ pub use guard::{Direction, Guard};
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
 };
+pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use signal::Signal;
 pub use system::{HybridSystem, Reset, State, VectorField};

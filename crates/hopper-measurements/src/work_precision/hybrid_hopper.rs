@@ -1,7 +1,7 @@
 //! The lift-off map as a return map of the hopper as a hybrid system.
 
 use super::case::{Answer, Case};
-use hybrid_system::{Event, Guard, HybridSystem, Limits, Reset, State, Stop};
+use hybrid_system::{Event, HybridSystem, Limits, Searched, State, Stop};
 use nalgebra::SVector;
 use passive_hopper::{Hopper, HopperState, HopperSurface, Phase};
 use return_map::{Error, ReturnMap, Section};
@@ -30,26 +30,6 @@ where
     }
     fn coordinates(&self, event: &Event<Phase, HopperSurface, 4>) -> Option<SVector<f64, 1>> {
         (event.surface == HopperSurface::LiftOff).then(|| SVector::<f64, 1>::new(event.before[1]))
-    }
-}
-
-/// The hopper with its flows, guards and resets only: the events that the model could solve are hidden.
-struct Searched(Hopper);
-
-impl HybridSystem<4> for Searched {
-    type Mode = Phase;
-    type Surface = HopperSurface;
-    fn flow(&self, phase: Phase, start: &State<4>, time: f64) -> State<4> {
-        self.0.flow(phase, start, time)
-    }
-    fn guards(&self, phase: Phase) -> &[Guard<HopperSurface>] {
-        self.0.guards(phase)
-    }
-    fn guard_value(&self, surface: HopperSurface, state: &State<4>) -> f64 {
-        self.0.guard_value(surface, state)
-    }
-    fn reset(&self, phase: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
-        self.0.reset(phase, surface, before)
     }
 }
 
