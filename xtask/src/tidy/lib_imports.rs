@@ -25,7 +25,7 @@ pub(super) fn check(files: &[Source], breaches: &mut Vec<Breach>) {
         return;
     }
     for module in modules.iter().filter(|module| !module.is_root()) {
-        for import in imports(module) {
+        for import in imports(module, &modules) {
             if module_of(&modules, &import.path).is_some_and(|target| target.is_root()) {
                 let name = import.path.join("::");
                 let rule = format!(

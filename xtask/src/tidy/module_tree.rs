@@ -42,7 +42,10 @@ fn path_of(source: &Source) -> Vec<&str> {
 }
 
 /// The module that defines what `path` names: the longest part of the path that is a module.
-pub(super) fn module_of<'m>(modules: &'m [Module<'m>], path: &[String]) -> Option<&'m Module<'m>> {
+pub(super) fn module_of<'m, 's>(
+    modules: &'m [Module<'s>],
+    path: &[String],
+) -> Option<&'m Module<'s>> {
     let is = |module: &&Module, length: usize| {
         module.path.len() == length && module.path.iter().zip(path).all(|(a, b)| a == b)
     };
@@ -55,10 +58,8 @@ pub(super) mod planted {
 
     /// Files of a crate `x`, by their names in `src`.
     pub(in super::super) fn files(files: &[(&str, &str)]) -> Vec<Source> {
-        let source = |&(name, text): &(&str, &str)| Source {
-            name: format!("crates/x/src/{name}"),
-            text: text.to_owned(),
-        };
+        let source =
+            |&(name, text): &(&str, &str)| Source::new(&format!("crates/x/src/{name}"), text);
         files.iter().map(source).collect()
     }
 }
