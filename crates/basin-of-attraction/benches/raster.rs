@@ -17,6 +17,7 @@ fn tools(criterion: &mut Criterion) {
     let traps = TrapSet::new(vec![(interval(-1e-3, 0.0), 1)]);
     criterion.bench_function("raster 64 × 64 of x + c x²", |bencher| {
         bencher.iter(|| {
+            // The label contains the number of steps, so that the compiler cannot leave out a part of the orbit.
             let label = |&c: &f64, x: f64| {
                 let map = |x: f64| Some(x + c * x * x);
                 traps.as_ref().map_or(0, |traps| {

@@ -1,46 +1,53 @@
-//! Boxes that hold more than one basin: counted on points, intervals and label images.
+//! Box counts: how many boxes contain more than one basin, on intervals and on label images; how many contain a
+//! point.
 
 use crate::entropy::entropy;
-use crate::{Error, IntervalBasins, LabelImage};
+use crate::error::Error;
+use crate::interval_basins::IntervalBasins;
+use crate::raster::LabelImage;
 use std::collections::BTreeMap;
 
-/// Boxes of one size.
+/// A count of boxes of one size.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BoxCount {
     /// Side of a box: in the unit of the window, or in pixels.
     pub size: f64,
-    /// All boxes.
+    /// Number of boxes.
     pub boxes: u64,
-    /// Boxes with more than one label.
+    /// Number of boxes with more than one label.
     pub mixed: u64,
-    /// Boxes with one label at most and something undecided: mixed or not.
+    /// Number of boxes with at most one label and an undecided part: they may be mixed.
     pub open: u64,
-    /// Sum of the entropies −Σ p ln p of the mixed boxes, of what is decided in them.
+    /// Sum of the entropies −Σ p ln p of the mixed boxes. The fractions p are of the decided part of the box.
     pub entropy: f64,
 }
 
 impl BoxCount {
-    /// The basin entropy: the mean over all boxes.
+    /// The basin entropy: the mean entropy over all boxes.
     pub fn basin_entropy(&self) -> f64 {
         self.entropy / self.boxes as f64
     }
 
-    /// The boundary entropy: the mean over mixed boxes; nothing without one. Above ln 2 the boundary is
-    /// fractal; below, nothing follows.
+    /// The boundary entropy: the mean entropy over mixed boxes; `None` if no box is mixed.
+    ///
+    /// If it exceeds ln 2, the boundary is fractal. The converse does not hold.
     pub fn boundary_entropy(&self) -> Option<f64> {
         (self.mixed > 0).then(|| self.entropy / self.mixed as f64)
     }
 }
 
-/// How many boxes [left + k size, left + (k+1) size) hold at least one of the points.
+/// The number of boxes [left + k size, left + (k+1) size) that contain at least one of the points.
 ///
 /// # Errors
-/// [`Error::BadBoxSize`] unless `size` is positive, and large enough to tell the boxes of all points apart.
+/// [`Error::BadBoxSize`] unless `size` is finite, positive, and larger than an ulp of the farthest point's distance
+/// from `left`.
 pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error> {
-    let reach = points.iter().fold(0.0f64, |reach, x| reach.max((x - left).abs()));
-    // Boxes must be told apart, wherever the points are.
-    if !(size > f64::EPSILON * reach && size.is_finite() && reach.is_finite()) {
-        return Err(Error::BadBoxSize { size });
+    let farthest = points.iter().fold(0.0f64, |farthest, x| farthest.max((x - left).abs()));
+    // The index of a box is (x − left)/size rounded down. Beyond 2⁵² an f64 index has no fraction, and neighbouring
+    // boxes could not be distinguished.
+    let above = f64::EPSILON * farthest;
+    if !(size > above && size.is_finite() && farthest.is_finite()) {
+        return Err(Error::BadBoxSize { size, above, largest: f64::INFINITY });
     }
     let mut boxes: Vec<f64> = points.iter().map(|x| ((x - left) / size).floor()).collect();
     boxes.sort_by(f64::total_cmp);
@@ -48,37 +55,50 @@ pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error
     Ok(boxes.len() as u64)
 }
 
+/// Boxes of intervals are larger than this number of ulps of the window's larger end: their sides are rounded too.
+/// Chosen with a factor of four to spare.
+const SMALLEST_BOX_ULPS: f64 = 4.0;
+
+/// A last box thinner than this fraction of a box is left out. The quotient of the window's length and the size
+/// may exceed a whole number by rounding; that would add an empty box.
+const THINNEST_BOX: f64 = 1e-12;
+
 impl IntervalBasins {
-    /// Counts boxes of one size, from the left end of the window on.
+    /// Counts boxes of one size, starting at the left end of the window.
     ///
-    /// A label counts in a box if it has more than `resolution` boxes of it: ends that fall on the
-    /// sides of boxes are known to an ulp only. Exact but for that: nothing is sampled.
+    /// A label counts in a box if it covers more than the fraction `resolution` of the box. Ends that coincide
+    /// with sides of boxes are known to an ulp only, and could otherwise count on the wrong side. All else is
+    /// computed from the intervals, without samples.
     ///
     /// # Errors
-    /// [`Error::BadBoxSize`] unless `size` is positive and not so small that boxes cannot be told apart.
+    /// [`Error::BadBoxSize`] unless `size` is finite and larger than four ulps of the window's larger end.
     pub fn boxes(&self, size: f64, resolution: f64) -> Result<BoxCount, Error> {
         let window = self.window();
         let ulp = f64::EPSILON * window.left.abs().max(window.right.abs());
-        if !(size > 4.0 * ulp && size.is_finite()) {
-            return Err(Error::BadBoxSize { size });
+        let above = SMALLEST_BOX_ULPS * ulp;
+        if !(size > above && size.is_finite()) {
+            return Err(Error::BadBoxSize { size, above, largest: f64::INFINITY });
         }
-        let boxes = ((window.length() / size) * (1.0 - 1e-12)).ceil().max(1.0);
+        let boxes = ((window.length() / size) * (1.0 - THINNEST_BOX)).ceil().max(1.0);
         let index = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
-        // Boxes in which a part ends; those inside an undecided gap are counted below.
-        let ends = self.parts().iter().flat_map(|part| [part.interval.left, part.interval.right]);
+        // Only a box with an end of an interval, or of the window, can be mixed. All others lie inside one
+        // interval, or inside one undecided gap; the latter are counted by `boxes_in_gaps`.
+        let ends =
+            self.intervals().iter().flat_map(|part| [part.interval.left, part.interval.right]);
         let mut candidates: Vec<f64> = ends.chain([window.left, window.right]).map(index).collect();
         candidates.sort_by(f64::total_cmp);
         candidates.dedup();
         let mut count = BoxCount { size, boxes: boxes as u64, mixed: 0, open: 0, entropy: 0.0 };
         let mut first = 0;
+        // The boxes come from left to right, so that intervals left of one box are never looked at again.
         for k in candidates {
             let left = window.left + k * size;
             let right = (left + size).min(window.right);
-            while self.parts().get(first).is_some_and(|part| part.interval.right <= left) {
+            while self.intervals().get(first).is_some_and(|part| part.interval.right <= left) {
                 first += 1;
             }
             let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();
-            for part in self.parts()[first..].iter().take_while(|p| p.interval.left < right) {
+            for part in self.intervals()[first..].iter().take_while(|p| p.interval.left < right) {
                 let inside = part.interval.right.min(right) - part.interval.left.max(left);
                 *lengths.entry(part.label).or_insert(0.0) += inside.max(0.0);
             }
@@ -96,34 +116,36 @@ impl IntervalBasins {
         Ok(count)
     }
 
-    /// Boxes that lie inside undecided gaps, with no end of a part or of the window in them.
+    /// The number of boxes that lie inside undecided gaps, with no end of an interval or of the window in them.
     fn boxes_in_gaps(&self, size: f64, resolution: f64, boxes: f64) -> u64 {
         let window = self.window();
-        let starts = self.parts().iter().map(|part| part.interval.left).chain([window.right]);
-        let ends = self.parts().iter().map(|part| part.interval.right);
-        let place = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
+        let starts = self.intervals().iter().map(|part| part.interval.left).chain([window.right]);
+        let ends = self.intervals().iter().map(|part| part.interval.right);
+        let index = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
         std::iter::once(window.left)
             .chain(ends)
             .zip(starts)
             .filter(|(left, right)| right - left > resolution * size)
-            .map(|(left, right)| (place(right) - place(left) - 1.0).max(0.0) as u64)
+            .map(|(left, right)| (index(right) - index(left) - 1.0).max(0.0) as u64)
             .sum()
     }
 }
 
 impl LabelImage {
-    /// Counts square boxes of `side` pixels; boxes that do not fit are left out.
+    /// Counts square boxes of `side` pixels, from the lower left corner. Boxes that reach beyond the image are left
+    /// out.
     ///
-    /// The slope of ln `mixed` against ln 1/`size` estimates the dimension of the boundary, and
-    /// 2 − slope is what some tools call the uncertainty exponent; for the exponent by pairs of points
-    /// see [`uncertain_share`](crate::uncertain_share).
+    /// The slope of ln `mixed` against ln 1/`size` estimates the box dimension of the boundary. Some programs call
+    /// 2 − slope the uncertainty exponent; [`uncertain_fraction`](crate::uncertain_fraction) measures that exponent
+    /// by perturbed starts.
     ///
     /// # Errors
-    /// [`Error::BadBoxSize`] if no box fits.
+    /// [`Error::BadBoxSize`] for a side of 0, and for a side that exceeds the image.
     pub fn boxes(&self, side: usize) -> Result<BoxCount, Error> {
         let (columns, rows) = (self.grid.columns, self.grid.rows);
         if side == 0 || side > columns || side > rows {
-            return Err(Error::BadBoxSize { size: side as f64 });
+            let largest = columns.min(rows) as f64;
+            return Err(Error::BadBoxSize { size: side as f64, above: 0.0, largest });
         }
         let (across, up) = (columns / side, rows / side);
         let mut count = BoxCount {

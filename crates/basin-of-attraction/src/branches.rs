@@ -1,15 +1,18 @@
 //! Monotone branches of a scalar map.
 
-use crate::{Error, Image, Interval, ScalarMap};
+use crate::error::Error;
+use crate::golden_section::highest_point;
+use crate::interval::Interval;
+use crate::scalar_map::{Image, ScalarMap};
 
-/// An interval on which the map has values and is monotone.
+/// A monotone branch: the map restricted to a lap, an interval on which it has values and is monotone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Branch {
-    /// Where.
+    /// The lap.
     pub domain: Interval,
-    /// Value at the left end.
+    /// Value of the map at the left end.
     pub at_left: f64,
-    /// Value at the right end.
+    /// Value of the map at the right end.
     pub at_right: f64,
 }
 
@@ -19,29 +22,35 @@ impl Branch {
         self.at_left <= self.at_right
     }
 
-    /// The points of the branch that the map takes into `target`, if they are more than one.
+    /// The preimage of `target` on this branch; `None` if it is empty or a single point.
     ///
-    /// Both ends are found to one ulp, by bisection on the order of values: a jump of a monotone
-    /// branch does no harm.
+    /// Both ends are found to one ulp by the order of values. A jump inside the branch does no harm, as long as the
+    /// branch is monotone.
     pub fn preimage(&self, map: &impl ScalarMap, target: &Interval) -> Option<Interval> {
         let lowest = self.at_left.min(self.at_right);
         let highest = self.at_left.max(self.at_right);
         if target.right < lowest || target.left > highest {
             return None;
         }
-        // First and last point whose value lies in the target; against the branch, values fall from
-        // left to right.
+        // The first and the last point whose value lies in the target. On a decreasing branch the first one
+        // belongs to the target's right end.
         let Interval { left: low, right: high } = *target;
         let (left, right) = if self.increases() {
-            (self.first(map, low, |off| off >= 0.0)?, self.last_before(map, high, |off| off > 0.0)?)
+            (
+                self.first(map, low, |difference| difference >= 0.0)?,
+                self.last_before(map, high, |difference| difference > 0.0)?,
+            )
         } else {
-            (self.first(map, high, |off| off <= 0.0)?, self.last_before(map, low, |off| off < 0.0)?)
+            (
+                self.first(map, high, |difference| difference <= 0.0)?,
+                self.last_before(map, low, |difference| difference < 0.0)?,
+            )
         };
         (left < right).then_some(Interval { left, right })
     }
 
-    /// The first point of the branch at which `holds` is true of value − `aim`, given that it is true
-    /// from there on.
+    /// The first point of the branch at which `holds` is true of value − `aim`; `None` if it is true nowhere.
+    /// `holds` must be true from that point on.
     fn first(&self, map: &impl ScalarMap, aim: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
         if holds(self.at_left - aim) {
             return Some(self.domain.left);
@@ -52,7 +61,7 @@ impl Branch {
         Some(self.switch(map, aim, holds).1)
     }
 
-    /// The last point before `holds` becomes true.
+    /// The last point of the branch before `holds` becomes true; `None` if it is true everywhere.
     fn last_before(
         &self,
         map: &impl ScalarMap,
@@ -68,27 +77,39 @@ impl Branch {
         Some(self.switch(map, aim, holds).0)
     }
 
-    /// Neighbouring `f64` between which `holds` becomes true of value − `aim`.
+    /// The neighbouring `f64` between which `holds` becomes true of value − `aim`, given that it is false at the
+    /// left end of the branch and true at the right end.
     ///
-    /// Regula falsi (with Illinois' halving) to a few ulps, then doubling steps to the other side, and
-    /// bisection: some 15 values where bisection alone takes 50, and never over 130.
+    /// Regula falsi with Illinois' halving brings one end close. Doubling steps from that end then bracket the
+    /// switch, and bisection finishes. This takes some 15 values where bisection alone takes 50; at most it takes
+    /// 130.
+    ///
+    /// Invariant of all three: `holds` is false at `left` and true at `right`.
     fn switch(&self, map: &impl ScalarMap, aim: f64, holds: impl Fn(f64) -> bool) -> (f64, f64) {
-        let off = |x: f64| match map.image(x) {
+        /// Most steps of regula falsi. A smooth branch needs fewer. At a jump, or where the branch is very flat,
+        /// regula falsi converges slowly; bisection then does the rest.
+        const REGULA_FALSI_STEPS: usize = 24;
+        /// Regula falsi stops when two guesses are as close as this number of ulps: rounding of the values then
+        /// decides its steps.
+        const CLOSE_ULPS: f64 = 4.0;
+        let difference = |x: f64| match map.image(x) {
             Image::Point(value) => value - aim,
-            // Inside a branch the map has values; rounding at its very ends counts as the end.
+            // The map has values inside its branch. If rounding leaves it without one, this happens at an end of
+            // the lap; the value at the right end keeps the invariant.
             Image::Stops | Image::Undecided => self.at_right - aim,
         };
         let (mut left, mut right) = (self.domain.left, self.domain.right);
         let (mut at_left, mut at_right) = (self.at_left - aim, self.at_right - aim);
         let (mut last, mut side) = (f64::NAN, None);
-        for _ in 0..24 {
+        for _ in 0..REGULA_FALSI_STEPS {
             let guess = left - at_left * ((right - left) / (at_right - at_left));
             if !(guess > left && guess < right) {
                 break;
             }
-            let value = off(guess);
+            let value = difference(guess);
             let beyond = holds(value);
-            // An end that stays twice is given half its value, so that both ends move.
+            // Illinois: if an end stays for two steps, its value is halved, so that the next guess falls on its
+            // other side. Without it one end could stay through all steps.
             let again = side.replace(beyond) == Some(beyond);
             let half = if again { 0.5 } else { 1.0 };
             if beyond {
@@ -97,25 +118,26 @@ impl Branch {
                 (left, at_left, at_right) = (guess, value, half * at_right);
             }
             let ulp = f64::EPSILON * guess.abs();
-            let done = (guess - last).abs() <= 4.0 * ulp;
+            let done = (guess - last).abs() <= CLOSE_ULPS * ulp;
             last = guess;
             if done {
                 break;
             }
         }
-        // From the end that has come close, step out to the other side.
+        // `last` is the end that has come close. Steps from it towards the other end double until the switch is
+        // passed. Without a guess `last` is NaN: no step is taken, and bisection does it all.
         let mut step = f64::EPSILON * last.abs();
         while step > 0.0 && step < 0.5 * (right - left) {
             if last == right {
                 let probe = right - step;
-                if holds(off(probe)) {
+                if holds(difference(probe)) {
                     (right, last) = (probe, probe);
                 } else {
                     left = probe;
                 }
             } else {
                 let probe = left + step;
-                if holds(off(probe)) {
+                if holds(difference(probe)) {
                     right = probe;
                 } else {
                     (left, last) = (probe, probe);
@@ -123,12 +145,12 @@ impl Branch {
             }
             step *= 2.0;
         }
-        bisect(left, right, |x| holds(off(x)))
+        bisect(left, right, |x| holds(difference(x)))
     }
 }
 
-/// Neighbours left < right with `holds(left)` false and `holds(right)` true, given that it is so
-/// for the ends.
+/// The neighbouring `f64` left < right with `holds(left)` false and `holds(right)` true, given that this is true of
+/// the ends.
 fn bisect(mut left: f64, mut right: f64, holds: impl Fn(f64) -> bool) -> (f64, f64) {
     loop {
         let middle = left + 0.5 * (right - left);
@@ -143,14 +165,24 @@ fn bisect(mut left: f64, mut right: f64, holds: impl Fn(f64) -> bool) -> (f64, f
     }
 }
 
+/// A step between samples that exceeds both neighbouring steps by this factor may hide a jump, and is searched. On a
+/// smooth branch steps change by less than this factor, except beside a turning point or a steep edge; there the
+/// search finds no jump. A larger factor would miss small jumps, a smaller one would search more.
+const SUSPECT_STEP: f64 = 4.0;
+
+/// A jump keeps more than this fraction of the step's height when the step is halved to neighbouring `f64`. A
+/// continuous map keeps a fraction near 0. Chosen.
+const JUMP_FRACTION: f64 = 0.25;
+
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.
 ///
-/// Turning points are refined by golden-section search; edges at which the map loses its value, and
-/// jumps that stand out from the steps beside them, to one ulp. Turns and gaps that fall between two samples are not seen: split the window at the
-/// places where theory knows them.
+/// Turning points are refined by golden-section search, to the square root of an ulp. Points at which the map
+/// loses its value, and jumps that stand out from the steps beside them, are refined to one ulp. A pair of turning
+/// points between two neighbouring samples is not seen, nor is a gap there. If theory knows such places, split the
+/// window at them.
 ///
 /// # Errors
-/// [`Error::TooFewSamples`] for fewer than three.
+/// [`Error::TooFewSamples`] for fewer than three samples.
 pub fn monotone_branches(
     map: &impl ScalarMap,
     window: Interval,
@@ -166,8 +198,10 @@ pub fn monotone_branches(
     let at = |k: usize| window.left + window.length() * (k as f64 / (samples - 1) as f64);
     let values: Vec<Option<f64>> = (0..samples).map(|k| value(at(k))).collect();
     let step = |k: usize| Some(values.get(k + 1).copied()?? - values.get(k).copied()??);
+    // The ends of branches, each with the value there. A cut without value separates two branches.
     let mut cuts = vec![(at(0), values[0])];
-    // The last step that went up or down, and where it began: equal samples do not hide a turn.
+    // The last step between samples of different values, and the sample at which it began. A turning point between
+    // two equal samples is found because the step before them is kept.
     let mut last: Option<(usize, f64)> = None;
     for k in 0..samples - 1 {
         match (values[k], values[k + 1]) {
@@ -184,7 +218,7 @@ pub fn monotone_branches(
             (Some(a), Some(b)) => {
                 let beside = [k.checked_sub(1).and_then(step), step(k + 1)];
                 let usual = beside.into_iter().flatten().map(f64::abs).fold(0.0, f64::max);
-                if (b - a).abs() > 4.0 * usual
+                if (b - a).abs() > SUSPECT_STEP * usual
                     && let Some((left, right)) = jump(&value, at(k), at(k + 1))
                 {
                     cuts.extend([(left, value(left)), (left, None), (right, value(right))]);
@@ -193,7 +227,7 @@ pub fn monotone_branches(
                 }
                 if let Some((from, before)) = last.filter(|(_, before)| before * (b - a) < 0.0) {
                     let up = before.signum();
-                    let turn = highest(|x| value(x).map(|v| up * v), at(from), at(k + 1));
+                    let turn = highest_point(|x| value(x).map(|v| up * v), at(from), at(k + 1));
                     cuts.push((turn, value(turn)));
                 }
                 if b != a {
@@ -207,8 +241,9 @@ pub fn monotone_branches(
     Ok(cuts.windows(2).filter_map(branch_between).collect())
 }
 
-/// Neighbouring `f64` between which the map jumps, if halving towards the larger difference leaves
-/// most of it.
+/// The neighbouring `f64` between which the map jumps; `None` if it does not.
+///
+/// Bisection keeps the half over which the value changes more. At a jump most of the change remains in the end.
 fn jump(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<(f64, f64)> {
     let (mut left, mut right) = (left, right);
     let whole = (value(right)? - value(left)?).abs();
@@ -224,24 +259,14 @@ fn jump(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<(f
             left = middle;
         }
     }
-    ((value(right)? - value(left)?).abs() > 0.25 * whole).then_some((left, right))
+    ((value(right)? - value(left)?).abs() > JUMP_FRACTION * whole).then_some((left, right))
 }
 
+/// The branch between two neighbouring cuts; `None` if one has no value, or both are one point.
 fn branch_between(ends: &[(f64, Option<f64>)]) -> Option<Branch> {
     let [(left, Some(at_left)), (right, Some(at_right))] = *ends else { return None };
     let domain = Interval { left, right };
     (left < right).then_some(Branch { domain, at_left, at_right })
-}
-
-/// Golden-section search for a maximum.
-fn highest(height: impl Fn(f64) -> Option<f64>, mut left: f64, mut right: f64) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let height = |x: f64| height(x).unwrap_or(f64::NEG_INFINITY);
-    for _ in 0..100 {
-        let (a, b) = (right - GOLDEN * (right - left), left + GOLDEN * (right - left));
-        if height(a) > height(b) { right = b } else { left = a }
-    }
-    0.5 * (left + right)
 }
 
 #[cfg(test)]

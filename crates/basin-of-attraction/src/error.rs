@@ -1,4 +1,4 @@
-//! What these tools refuse.
+//! Input that the crate refuses.
 
 use thiserror::Error;
 
@@ -6,16 +6,21 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The ends of an interval are not numbers in order.
-    #[error("[{left}, {right}] is not an interval")]
+    /// The ends of an interval are not finite numbers in increasing order.
+    #[error(
+        "[{left}, {right}] is not an interval: both ends must be finite, the left one not larger"
+    )]
     BadInterval {
         /// Left end.
         left: f64,
         /// Right end.
         right: f64,
     },
-    /// Two traps have points in common.
-    #[error("the traps [{first_left}, {first_right}] and [{second_left}, {second_right}] overlap")]
+    /// Two traps have a point in common.
+    #[error(
+        "the traps [{first_left}, {first_right}] and [{second_left}, {second_right}] have a point in common: \
+         traps must be disjoint"
+    )]
     OverlappingTraps {
         /// Left end of the first.
         first_left: f64,
@@ -26,18 +31,32 @@ pub enum Error {
         /// Right end of the second.
         second_right: f64,
     },
-    /// A raster without pixels, or one too large to hold.
-    #[error("cannot make a raster of {columns} × {rows} pixels")]
+    /// A raster without pixels, or with more than the largest number of pixels.
+    #[error("a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels")]
     BadRaster {
         /// Number of columns.
         columns: usize,
         /// Number of rows.
         rows: usize,
     },
-    /// A strip with other columns than the raster has, or another number of labels.
-    #[error("a strip of {columns} columns and {rows} rows has {found} labels")]
+    /// A range of columns that reaches beyond the raster.
+    #[error(
+        "columns {start} to {end} (exclusive) of a raster of {columns} columns: the end must be at most {columns}"
+    )]
+    BadColumnRange {
+        /// The first column asked for.
+        start: usize,
+        /// The column after the last one asked for.
+        end: usize,
+        /// The number of columns of the raster.
+        columns: usize,
+    },
+    /// A strip whose labels are not one for each of its pixels.
+    #[error(
+        "a strip of {columns} columns and {rows} rows has {found} labels: it must have {rows} labels for every column"
+    )]
     BadStrip {
-        /// Its labels.
+        /// Its number of labels.
         found: usize,
         /// Number of columns.
         columns: usize,
@@ -52,42 +71,60 @@ pub enum Error {
         /// Columns in all.
         columns: usize,
     },
-    /// A search with too few samples.
-    #[error("{samples} samples are too few to find monotone branches")]
+    /// A search for monotone branches with too few samples.
+    #[error("monotone branches cannot be found with {samples} samples: at least 3 are needed")]
     TooFewSamples {
         /// Samples asked for.
         samples: usize,
     },
-    /// A proportion of nothing, or of more than everything.
-    #[error("{successes} of {trials} is no proportion")]
+    /// A proportion without trials, or with more successes than trials.
+    #[error(
+        "{successes} successes in {trials} trials: there must be at least 1 trial, and no more successes than trials"
+    )]
     BadTrials {
         /// Successes.
         successes: usize,
         /// Trials.
         trials: usize,
     },
-    /// An interval from replicates needs at least two.
-    #[error("{replicates} replicates are too few for an interval")]
+    /// Too few replicates for a confidence interval.
+    #[error(
+        "a confidence interval cannot be found with {replicates} replicates: at least 2 are needed"
+    )]
     TooFewReplicates {
         /// Replicates.
         replicates: usize,
     },
-    /// A size of boxes, or a distance, that cannot be used.
-    #[error("a size or distance of {size} cannot be used here")]
+    /// A box size for which boxes cannot be counted.
+    #[error(
+        "boxes of size {size}: the size must be finite, larger than {above} and at most {largest}"
+    )]
     BadBoxSize {
         /// The size given.
         size: f64,
+        /// The size must be larger than this: neighbouring boxes of this size could not be distinguished. Infinite if a
+        /// point is infinite.
+        above: f64,
+        /// The largest size accepted; infinite if every finite size is.
+        largest: f64,
     },
-    /// Points through which no power law can be fitted.
+    /// A perturbation ε of a start that is not positive and finite.
+    #[error("a perturbation ε of {epsilon}: it must be positive and finite")]
+    BadPerturbation {
+        /// The ε given.
+        epsilon: f64,
+    },
+    /// Points to which no power law can be fitted.
     #[error(
-        "no power law through {points} points: three are needed, positive and at different scales"
+        "a power law cannot be fitted to these {points} points: at least 3 are needed, with positive finite numbers \
+         and different scales"
     )]
     BadFit {
         /// Points given.
         points: usize,
     },
-    /// The Wada test needs three basins.
-    #[error("{labels} labels: the Wada property needs three basins")]
+    /// A Wada test of fewer than three basins.
+    #[error("an image with {labels} labels: the Wada test needs at least 3")]
     TooFewLabels {
         /// Labels found.
         labels: usize,

@@ -1,21 +1,24 @@
-//! Fates by traps: an orbit that enters a set it cannot leave is decided at once.
+//! Fates by traps: the fate of an orbit is decided as soon as it enters a set that no orbit leaves.
 
-use crate::{Error, Image, Interval, ScalarMap};
+use crate::error::Error;
+use crate::interval::Interval;
+use crate::scalar_map::{Image, ScalarMap};
 
 /// Sets that no orbit leaves, each with the label of its attractor.
 pub trait Traps {
-    /// The label of the trap that holds x, if one does.
+    /// The label of the trap that contains x; `None` outside all traps.
     fn label(&self, x: f64) -> Option<u16>;
 }
 
 /// Disjoint intervals as traps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TrapSet {
+    /// Disjoint, from left to right.
     traps: Vec<(Interval, u16)>,
 }
 
 impl TrapSet {
-    /// Traps with their labels. That orbits stay in them is the caller's knowledge.
+    /// Traps with their labels. The caller guarantees that orbits stay in them.
     ///
     /// # Errors
     /// [`Error::OverlappingTraps`] if two have a point in common.
@@ -43,42 +46,42 @@ impl Traps for TrapSet {
     }
 }
 
-/// Where an orbit ends up.
+/// The fate of an orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fate {
-    /// In the trap with this label.
+    /// The orbit enters the trap with this label.
     Trapped(u16),
-    /// The map has no value: the orbit stops.
+    /// The orbit reaches a point at which the map has no value.
     Stopped,
-    /// Not known, and why.
-    Undecided(Reason),
+    /// The fate is not known, for this reason.
+    Undecided(UndecidedReason),
 }
 
 /// Why a fate is not known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reason {
+pub enum UndecidedReason {
     /// The budget of steps was used up.
     Budget,
-    /// The image equals the point outside any trap: the step is below the precision of `f64`.
+    /// The computed image equals the point, outside any trap: the true step is shorter than the spacing of `f64`.
     Precision {
-        /// Where the orbit stands still.
+        /// The point at which the orbit stands still.
         at: f64,
     },
-    /// The map could not be evaluated, or not at a finite point.
+    /// The map could not be evaluated, or the point is not finite.
     Map {
         /// The point.
         at: f64,
     },
 }
 
-/// The fate of `start`, and the number of steps until it was known.
+/// The fate of `start`, and the number of steps after which it was known.
 ///
-/// Nothing is judged by closeness: a slow passage is no attractor. An orbit is trapped, or it
-/// stops, or its fate is undecided.
+/// Only a trap decides that an orbit is attracted; closeness to a point does not. An orbit that passes a point
+/// slowly is therefore never taken for one that is attracted by it. After `budget` steps the fate is undecided.
 ///
 /// ```
 /// use basin_of_attraction::{Fate, Interval, TrapSet, classify};
-/// // x + x²: 0 attracts [−1, 0], though ever more slowly; −½ is trapped in [−½, 0].
+/// // x + x²: 0 attracts [−1, 0], and [−½, 0] is a trap.
 /// let traps = TrapSet::new(vec![(Interval::new(-0.5, 0.0)?, 1)])?;
 /// let map = |x: f64| (x.abs() < 10.0).then(|| x + x * x);
 /// assert_eq!(classify(&map, &traps, -0.9, 100), (Fate::Trapped(1), 1));
@@ -94,7 +97,7 @@ pub fn classify(
     let mut x = start;
     for step in 0..=budget {
         if !x.is_finite() {
-            return (Fate::Undecided(Reason::Map { at: x }), step);
+            return (Fate::Undecided(UndecidedReason::Map { at: x }), step);
         }
         if let Some(label) = traps.label(x) {
             return (Fate::Trapped(label), step);
@@ -104,14 +107,14 @@ pub fn classify(
         }
         match map.image(x) {
             Image::Stops => return (Fate::Stopped, step + 1),
-            Image::Undecided => return (Fate::Undecided(Reason::Map { at: x }), step),
+            Image::Undecided => return (Fate::Undecided(UndecidedReason::Map { at: x }), step),
             Image::Point(image) if image == x => {
-                return (Fate::Undecided(Reason::Precision { at: x }), step);
+                return (Fate::Undecided(UndecidedReason::Precision { at: x }), step);
             }
             Image::Point(image) => x = image,
         }
     }
-    (Fate::Undecided(Reason::Budget), budget)
+    (Fate::Undecided(UndecidedReason::Budget), budget)
 }
 
 #[cfg(test)]
@@ -119,22 +122,25 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_fate_is_told() {
+    fn every_fate_occurs() {
         let traps = TrapSet::new(vec![(Interval::new(0.0, 0.1).unwrap(), 7)]).unwrap();
         let halve = |x: f64| Some(x / 2.0);
         assert_eq!(classify(&halve, &traps, 0.8, 10), (Fate::Trapped(7), 3));
-        assert_eq!(classify(&halve, &traps, 1e9, 10), (Fate::Undecided(Reason::Budget), 10));
+        assert_eq!(
+            classify(&halve, &traps, 1e9, 10),
+            (Fate::Undecided(UndecidedReason::Budget), 10)
+        );
         let stands = |x: f64| Some(x);
         assert_eq!(
             classify(&stands, &traps, 5.0, 10).0,
-            Fate::Undecided(Reason::Precision { at: 5.0 })
+            Fate::Undecided(UndecidedReason::Precision { at: 5.0 })
         );
         let breaks = |x: f64| Some(x / 0.0);
         let (fate, steps) = classify(&breaks, &traps, 5.0, 10);
-        assert!(matches!(fate, Fate::Undecided(Reason::Map { .. })) && steps == 1);
+        assert!(matches!(fate, Fate::Undecided(UndecidedReason::Map { .. })) && steps == 1);
         assert!(matches!(
             classify(&halve, &traps, f64::NAN, 10).0,
-            Fate::Undecided(Reason::Map { .. })
+            Fate::Undecided(UndecidedReason::Map { .. })
         ));
     }
 

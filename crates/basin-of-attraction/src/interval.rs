@@ -1,6 +1,6 @@
-//! Intervals, and sets of disjoint ones.
+//! Intervals, and sets of disjoint intervals.
 
-use crate::Error;
+use crate::error::Error;
 
 /// A closed interval [left, right].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,7 +15,7 @@ impl Interval {
     /// [left, right].
     ///
     /// # Errors
-    /// [`Error::BadInterval`] unless both are finite and in order.
+    /// [`Error::BadInterval`] unless both are finite and left ≤ right.
     pub fn new(left: f64, right: f64) -> Result<Self, Error> {
         if left <= right && left.is_finite() && right.is_finite() {
             Ok(Interval { left, right })
@@ -34,7 +34,7 @@ impl Interval {
         self.left <= x && x <= self.right
     }
 
-    /// The common part, if it has more than one point.
+    /// The common part; `None` if it is empty or a single point.
     pub fn intersection(&self, other: &Interval) -> Option<Interval> {
         let (left, right) = (self.left.max(other.left), self.right.min(other.right));
         (left < right).then_some(Interval { left, right })
@@ -44,6 +44,7 @@ impl Interval {
 /// A set of disjoint closed intervals in increasing order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct IntervalSet {
+    /// Disjoint, in increasing order: look-ups bisect them.
     parts: Vec<Interval>,
 }
 
@@ -66,7 +67,7 @@ impl IntervalSet {
         &self.parts
     }
 
-    /// Total length.
+    /// The Lebesgue measure: the total length.
     pub fn measure(&self) -> f64 {
         self.parts.iter().map(Interval::length).sum()
     }
@@ -77,7 +78,7 @@ impl IntervalSet {
         self.parts.get(at).is_some_and(|part| part.contains(x))
     }
 
-    /// The points of this set that are not inside `other`.
+    /// This set without the inside of `other`, as closed intervals: ends of `other` remain.
     pub fn minus(&self, other: &IntervalSet) -> IntervalSet {
         let mut rest = Vec::new();
         for part in &self.parts {
@@ -122,7 +123,7 @@ mod tests {
         }
 
         #[test]
-        fn measures_add_up(a in sets(), b in sets()) {
+        fn the_measures_of_disjoint_sets_add_up(a in sets(), b in sets()) {
             let both = IntervalSet::union([a.intervals(), b.intervals()].concat());
             let apart = a.minus(&b).measure() + b.measure();
             prop_assert!((both.measure() - apart).abs() < 1e-12);

@@ -1,83 +1,58 @@
-//! Basins of a scalar map as intervals, with all that is left undecided.
+//! The basins of a scalar map as intervals, and the length left undecided.
 
-use crate::{Branch, Error, Estimate, Interval, IntervalSet, ScalarMap};
+use crate::bounds::Bounds;
+use crate::branches::Branch;
+use crate::error::Error;
+use crate::fate::TrapSet;
+use crate::interval::{Interval, IntervalSet};
+use crate::refinement::{Refinement, StopReason};
+use crate::scalar_map::ScalarMap;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// An interval of a basin.
+/// An interval whose points all have one fate.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Part {
-    /// Where.
+pub struct LabelledInterval {
+    /// The interval.
     pub interval: Interval,
-    /// The label of the trap that it enters.
+    /// The label of the trap that its orbits enter.
     pub label: u16,
-    /// After how many steps.
+    /// The number of steps after which they enter it.
     pub level: usize,
 }
 
-/// When to stop refining. Long intervals come first.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Refinement {
-    /// Stop when less than this is undecided.
-    pub undecided: f64,
-    /// Preimages of intervals shorter than this are not looked for.
-    pub shortest: f64,
-    /// Most levels.
-    pub levels: usize,
-    /// Most intervals.
-    pub intervals: usize,
-}
-
-/// Why refining stopped.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
-    /// Less is undecided than was asked for, or nothing is left to be followed.
-    Resolved,
-    /// Only intervals shorter than asked for were left.
-    Shortest,
-    /// Only intervals of the last level were left.
-    Levels,
-    /// The number of intervals was used up.
-    Intervals,
-}
-
-impl Default for Refinement {
-    /// Until a millionth of the unit is undecided, with a million intervals at most.
-    fn default() -> Self {
-        Refinement { undecided: 1e-6, shortest: 1e-12, levels: 1_000_000, intervals: 1_000_000 }
-    }
-}
-
-/// The basins in a window.
+/// The basins in a window, as disjoint labelled intervals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IntervalBasins {
     window: Interval,
-    parts: Vec<Part>,
-    ended: Ended,
+    /// Disjoint, from left to right, inside the window.
+    parts: Vec<LabelledInterval>,
+    stop_reason: StopReason,
 }
 
-/// The basins of labelled intervals in `window`, level by level of preimages.
+/// The basins of `traps` in `window`: the traps, their preimages, the preimages of these, and so on.
 ///
-/// `traps` are sets that orbits do not leave, and, with labels of their own, parts on which the map
-/// has no value. `branches` must be all monotone branches of the map in the window, and outside it where
-/// orbits go and come back: that they are is the caller's knowledge. Ends are located to one ulp of the map as it is computed; every point
-/// enters at one level only, so that the parts are disjoint.
+/// A trap is an interval that no orbit leaves. An interval on which the map has no value may be given as a trap
+/// too, with a label of its own. `branches` must contain all monotone branches of the map in the window, and
+/// outside it wherever orbits leave the window and return. The caller guarantees both; they cannot be checked
+/// here. The ends of the intervals are located to one ulp of the computed map. An orbit enters a trap once, so
+/// that intervals of different levels are disjoint.
 ///
 /// ```
 /// use basin_of_attraction::{Branch, Interval, Refinement, interval_basins};
-/// // x + x²: everything in (−1, 0) goes to 0, ever more slowly.
+/// // x + x²: every orbit from (−1, 0) approaches 0, more and more slowly.
 /// let map = |x: f64| Some(x + x * x);
 /// let trap = (Interval::new(-0.1, 0.0)?, 1);
 /// let left = Branch { domain: Interval::new(-1.0, -0.5)?, at_left: 0.0, at_right: -0.25 };
 /// let right = Branch { domain: Interval::new(-0.5, 0.0)?, at_left: -0.25, at_right: 0.0 };
 /// let window = Interval::new(-1.0, 0.0)?;
 /// let basins = interval_basins(&map, &[trap], &[left, right], window, Refinement::default())?;
-/// assert!(basins.undecided() < 1e-6 && basins.measure(1).covers(1.0));
+/// assert!(basins.undecided() < 1e-6 && basins.basin_length(1).covers(1.0));
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
 /// # Errors
-/// [`Error::OverlappingTraps`] if two traps overlap.
+/// [`Error::OverlappingTraps`] if two traps have a point in common.
 pub fn interval_basins(
     map: &(impl ScalarMap + Sync),
     traps: &[(Interval, u16)],
@@ -85,52 +60,66 @@ pub fn interval_basins(
     window: Interval,
     refinement: Refinement,
 ) -> Result<IntervalBasins, Error> {
-    /// Intervals followed at once, between looks at the limits.
-    const TOGETHER: usize = 16_384;
-    crate::TrapSet::new(traps.to_vec())?;
-    let known = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
-    // Orbits may leave the window and come back: whole intervals are followed, their parts inside kept.
-    let inside = |part: &Part| {
-        part.interval.intersection(&window).map(|interval| Part { interval, ..*part })
+    /// Intervals followed in one parallel round. The limits are tested between rounds, so that the result does
+    /// not depend on the number of threads. Smaller rounds give the threads too little work; larger ones
+    /// exceed the limit on intervals by more.
+    const ROUND: usize = 16_384;
+    /// Intervals longer than this fraction of the window are followed first.
+    const FIRST_THRESHOLD: f64 = 0.01;
+    /// Once no longer intervals are pending, the threshold is divided by this. Both numbers were chosen. They
+    /// decide the order of the search only, and so the result only if a limit stops it.
+    const THRESHOLD_STEP: f64 = 8.0;
+    TrapSet::new(traps.to_vec())?;
+    let trapped = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
+    // Orbits may leave the window and return. Whole intervals are followed; their parts inside are kept.
+    let inside = |part: &LabelledInterval| {
+        part.interval.intersection(&window).map(|interval| LabelledInterval { interval, ..*part })
     };
-    let mut pending: Vec<Part> =
-        traps.iter().map(|&(interval, label)| Part { interval, label, level: 0 }).collect();
-    let mut parts: Vec<Part> = pending.iter().filter_map(inside).collect();
-    let mut left = window.length() - length(&parts);
-    let mut threshold = refinement.shortest.max(0.01 * window.length());
-    let ended = loop {
-        if left <= refinement.undecided || pending.is_empty() {
-            break Ended::Resolved;
+    let mut pending: Vec<LabelledInterval> = traps
+        .iter()
+        .map(|&(interval, label)| LabelledInterval { interval, label, level: 0 })
+        .collect();
+    let mut parts: Vec<LabelledInterval> = pending.iter().filter_map(inside).collect();
+    let mut undecided = window.length() - total_length(&parts);
+    let mut threshold = refinement.shortest.max(FIRST_THRESHOLD * window.length());
+    let stop_reason = loop {
+        if undecided <= refinement.undecided || pending.is_empty() {
+            break StopReason::Resolved;
         }
         if parts.len() >= refinement.intervals {
-            break Ended::Intervals;
+            break StopReason::IntervalLimit;
         }
-        let follow =
-            |part: &Part| part.level < refinement.levels && part.interval.length() >= threshold;
-        let (mut now, mut later): (Vec<Part>, Vec<Part>) = pending.drain(..).partition(follow);
+        let follow = |part: &LabelledInterval| {
+            part.level < refinement.levels && part.interval.length() >= threshold
+        };
+        let (mut now, mut later): (Vec<LabelledInterval>, Vec<LabelledInterval>) =
+            pending.drain(..).partition(follow);
         if now.is_empty() {
             pending = later;
             if threshold > refinement.shortest {
-                threshold = refinement.shortest.max(threshold / 8.0);
+                threshold = refinement.shortest.max(threshold / THRESHOLD_STEP);
                 continue;
             }
-            let last = pending.iter().all(|part| part.level >= refinement.levels);
-            break if last { Ended::Levels } else { Ended::Shortest };
+            let last_level = pending.iter().all(|part| part.level >= refinement.levels);
+            break if last_level { StopReason::LevelLimit } else { StopReason::ShortestInterval };
         }
-        later.extend(now.split_off(now.len().min(TOGETHER)));
-        let found: Vec<Part> =
-            now.par_iter().flat_map_iter(|part| preimages(map, branches, part, &known)).collect();
-        let kept: Vec<Part> = found.iter().filter_map(inside).collect();
-        left -= length(&kept);
+        later.extend(now.split_off(now.len().min(ROUND)));
+        let found: Vec<LabelledInterval> =
+            now.par_iter().flat_map_iter(|part| preimages(map, branches, part, &trapped)).collect();
+        let kept: Vec<LabelledInterval> = found.iter().filter_map(inside).collect();
+        undecided -= total_length(&kept);
         parts.extend(kept);
         pending = later;
         pending.extend(found);
     };
-    Ok(IntervalBasins { window, parts: apart(parts), ended })
+    Ok(IntervalBasins { window, parts: disjoint(parts), stop_reason })
 }
 
-/// Sorted, with the ulp or two cut off that neighbours share where the map has equal values.
-fn apart(mut parts: Vec<Part>) -> Vec<Part> {
+/// The parts from left to right, made disjoint.
+///
+/// Preimages of neighbouring intervals share an ulp or two where the map takes equal values at neighbouring
+/// points. The left one of two parts keeps the overlap.
+fn disjoint(mut parts: Vec<LabelledInterval>) -> Vec<LabelledInterval> {
     parts.sort_by(|a, b| a.interval.left.total_cmp(&b.interval.left));
     let mut end = f64::NEG_INFINITY;
     for part in &mut parts {
@@ -141,21 +130,25 @@ fn apart(mut parts: Vec<Part>) -> Vec<Part> {
     parts
 }
 
-fn length(parts: &[Part]) -> f64 {
+fn total_length(parts: &[LabelledInterval]) -> f64 {
     parts.iter().map(|part| part.interval.length()).sum()
 }
 
-/// The preimages of a part outside the traps.
+/// The preimages of a part, without the traps: a point of a trap has level 0.
 fn preimages(
     map: &impl ScalarMap,
     branches: &[Branch],
-    part: &Part,
-    known: &IntervalSet,
-) -> Vec<Part> {
+    part: &LabelledInterval,
+    trapped: &IntervalSet,
+) -> Vec<LabelledInterval> {
     let found = branches.iter().filter_map(|branch| branch.preimage(map, &part.interval)).collect();
-    let fresh = IntervalSet::union(found).minus(known);
+    let outside = IntervalSet::union(found).minus(trapped);
     let (label, level) = (part.label, part.level + 1);
-    fresh.intervals().iter().map(|&interval| Part { interval, label, level }).collect()
+    outside
+        .intervals()
+        .iter()
+        .map(|&interval| LabelledInterval { interval, label, level })
+        .collect()
 }
 
 impl IntervalBasins {
@@ -164,23 +157,25 @@ impl IntervalBasins {
         self.window
     }
 
-    /// The same basins, seen in a smaller window.
+    /// The same basins in a smaller window.
     #[must_use]
     pub fn within(&self, window: Interval) -> IntervalBasins {
-        let cut = |part: &Part| {
-            part.interval.intersection(&window).map(|interval| Part { interval, ..*part })
+        let cut = |part: &LabelledInterval| {
+            part.interval
+                .intersection(&window)
+                .map(|interval| LabelledInterval { interval, ..*part })
         };
         let parts = self.parts.iter().filter_map(cut).collect();
-        IntervalBasins { window, parts, ended: self.ended }
+        IntervalBasins { window, parts, stop_reason: self.stop_reason }
     }
 
-    /// Why refining stopped.
-    pub fn ended(&self) -> Ended {
-        self.ended
+    /// Which limit stopped the search.
+    pub fn stop_reason(&self) -> StopReason {
+        self.stop_reason
     }
 
-    /// All parts, from left to right.
-    pub fn parts(&self) -> &[Part] {
+    /// All intervals, disjoint and from left to right.
+    pub fn intervals(&self) -> &[LabelledInterval] {
         &self.parts
     }
 
@@ -192,43 +187,56 @@ impl IntervalBasins {
         labels
     }
 
-    /// The basin with a label, as a set.
+    /// The basin with a label, as a set of intervals.
     pub fn set(&self, label: u16) -> IntervalSet {
         let own = self.parts.iter().filter(|part| part.label == label);
         IntervalSet::union(own.map(|part| part.interval).collect())
     }
 
-    /// The label of a point, if it is decided.
+    /// The label of a point; `None` if it is undecided or outside the window.
     pub fn label(&self, x: f64) -> Option<u16> {
         let at = self.parts.partition_point(|part| part.interval.right < x);
         self.parts.get(at).filter(|part| part.interval.contains(x)).map(|part| part.label)
     }
 
-    /// The length that is left undecided.
+    /// The undecided length of the window.
     pub fn undecided(&self) -> f64 {
-        let rest = self.window.length() - length(&self.parts);
+        let rest = self.window.length() - total_length(&self.parts);
+        // All parts together may be longer than the window by rounding.
         rest.max(0.0)
     }
 
-    /// The length of the basin with a label: what is resolved, and bounds that hold whatever the
-    /// undecided rest is, given that the branches are all there are and each end is right to an ulp or so of
-    /// its place. (Where the map is flat, its rounding shifts ends by more.)
-    pub fn measure(&self, label: u16) -> Estimate {
-        self.measure_of(|other| other == label)
+    /// The length of the intervals found so far with this label.
+    pub fn resolved_length(&self, label: u16) -> f64 {
+        self.resolved_length_of(|other| other == label)
     }
 
-    /// The same for all labels that fulfil a condition, together.
-    pub fn measure_of(&self, condition: impl Fn(u16) -> bool) -> Estimate {
+    /// The length of the intervals found so far whose label fulfils a condition.
+    pub fn resolved_length_of(&self, condition: impl Fn(u16) -> bool) -> f64 {
         let own = self.parts.iter().filter(|part| condition(part.label));
-        let value: f64 = own.map(|part| part.interval.length()).sum();
-        // Two ends an ulp off for every part of any label, and the rounding of the sum.
-        let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
-        let ends = 3.0 * self.parts.len() as f64 * ulp;
-        let upper = (value + self.undecided() + ends).min(self.window.length());
-        Estimate { value, lower: (value - ends).max(0.0), upper }
+        own.map(|part| part.interval.length()).sum()
     }
 
-    /// Counts and lengths of the parts of a label, by level.
+    /// Bounds on the length of the basin with this label inside the window.
+    ///
+    /// The lower bound is the [resolved length](Self::resolved_length), less the rounding of the ends. The upper
+    /// bound adds all of the undecided length. The bounds hold if the branches are complete and each end is
+    /// right to an ulp of the window's larger end. (Where the map is flat, its rounding moves ends by more.)
+    pub fn basin_length(&self, label: u16) -> Bounds {
+        self.basin_length_of(|other| other == label)
+    }
+
+    /// Bounds on the total length of the basins whose label fulfils a condition.
+    pub fn basin_length_of(&self, condition: impl Fn(u16) -> bool) -> Bounds {
+        let resolved = self.resolved_length_of(condition);
+        // For every part of any label: one ulp for each of its two ends, and one for the rounding of the sum.
+        let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
+        let rounding = 3.0 * self.parts.len() as f64 * ulp;
+        let upper = (resolved + self.undecided() + rounding).min(self.window.length());
+        Bounds { lower: (resolved - rounding).max(0.0), upper }
+    }
+
+    /// The number and the total length of the intervals with a label, by level.
     pub fn levels(&self, label: u16) -> BTreeMap<usize, (usize, f64)> {
         let mut levels = BTreeMap::new();
         for part in self.parts.iter().filter(|part| part.label == label) {
@@ -239,8 +247,10 @@ impl IntervalBasins {
         levels
     }
 
-    /// The places where a label ends: between neighbours of different labels the common end, beside
-    /// an undecided gap longer than `resolution` both of its ends.
+    /// The points at which basins end, from left to right.
+    ///
+    /// Between neighbouring intervals with different labels this is their common end. Beside an undecided gap
+    /// longer than `resolution` both ends of the gap are given.
     pub fn boundary(&self, resolution: f64) -> Vec<f64> {
         let mut points = Vec::new();
         for pair in self.parts.windows(2) {
@@ -258,9 +268,9 @@ impl IntervalBasins {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Fate, TrapSet, classify};
+    use crate::fate::{Fate, classify};
 
-    /// Two attractors, the fixed points ±1 of a cubic.
+    /// A cubic map with two attractors, its fixed points ±1.
     fn cubic(x: f64) -> Option<f64> {
         Some(1.5 * x - 0.5 * x * x * x)
     }
@@ -280,7 +290,7 @@ mod tests {
         (branches, traps)
     }
 
-    /// x → x/2 on the right, x + 10 on the left: orbits leave the window [−1, 1] and come back.
+    /// The map is x/2 for x ≥ 0 and x + 10 for x < 0. Orbits leave the window [−1, 1] and return.
     #[test]
     fn orbits_may_leave_the_window() {
         let map = |x: f64| Some(if x < 0.0 { x + 10.0 } else { 0.5 * x });
@@ -297,12 +307,13 @@ mod tests {
         let window = Interval { left: -1.0, right: 1.0 };
         let basins =
             interval_basins(&map, &traps, &branches, window, Refinement::default()).unwrap();
-        assert_eq!(basins.ended(), Ended::Resolved);
-        let all = basins.measure_of(|_| true);
-        assert!(all.value <= 2.0 && all.covers(2.0) && basins.undecided() < 1e-6, "{all:?}");
+        assert_eq!(basins.stop_reason(), StopReason::Resolved);
+        let all = basins.basin_length_of(|_| true);
+        assert!(basins.resolved_length_of(|_| true) <= 2.0);
+        assert!(all.covers(2.0) && basins.undecided() < 1e-6, "{all:?}");
         assert!(
             basins
-                .parts()
+                .intervals()
                 .iter()
                 .all(|part| part.interval.left >= -1.0 && part.interval.right <= 1.0)
         );
@@ -314,44 +325,44 @@ mod tests {
         }
     }
 
-    /// Every limit ends the search, and is named; the undecided rest is under what was asked for or not.
+    /// Each limit stops the search with its own reason, and with more undecided than asked for.
     #[test]
-    fn why_it_ended() {
+    fn the_stop_reason_names_the_limit() {
         let (branches, traps) = branches_and_traps();
         let window = Interval { left: -2.2, right: 2.2 };
         let found =
             |refinement| interval_basins(&cubic, &traps, &branches, window, refinement).unwrap();
         let fine = Refinement { undecided: 1e-9, ..Refinement::default() };
         let resolved = found(fine);
-        assert!(resolved.ended() == Ended::Resolved && resolved.undecided() <= 1e-9);
-        for (refinement, ended) in [
-            (Refinement { shortest: 1e-2, ..fine }, Ended::Shortest),
-            (Refinement { levels: 3, ..fine }, Ended::Levels),
-            (Refinement { intervals: 8, ..fine }, Ended::Intervals),
+        assert!(resolved.stop_reason() == StopReason::Resolved && resolved.undecided() <= 1e-9);
+        for (refinement, reason) in [
+            (Refinement { shortest: 1e-2, ..fine }, StopReason::ShortestInterval),
+            (Refinement { levels: 3, ..fine }, StopReason::LevelLimit),
+            (Refinement { intervals: 8, ..fine }, StopReason::IntervalLimit),
         ] {
             let basins = found(refinement);
-            assert_eq!(basins.ended(), ended);
+            assert_eq!(basins.stop_reason(), reason);
             assert!(basins.undecided() > 1e-9);
-            assert!(basins.measure(1).covers(resolved.measure(1).value));
+            assert!(basins.basin_length(1).covers(resolved.resolved_length(1)));
         }
     }
 
     #[test]
-    fn parts_are_disjoint_symmetric_and_right() {
+    fn intervals_are_disjoint_symmetric_and_agree_with_fates() {
         let (branches, traps) = branches_and_traps();
         let window = Interval { left: -2.2, right: 2.2 };
         let basins =
             interval_basins(&cubic, &traps, &branches, window, Refinement::default()).unwrap();
-        for pair in basins.parts().windows(2) {
+        for pair in basins.intervals().windows(2) {
             assert!(pair[0].interval.right <= pair[1].interval.left);
         }
-        assert!((basins.measure(1).value - basins.measure(2).value).abs() < 1e-12);
+        assert!((basins.resolved_length(1) - basins.resolved_length(2)).abs() < 1e-12);
         assert!(basins.undecided() < 1e-6);
         let set = TrapSet::new(traps).unwrap();
         for k in 0..1000 {
             let x = -2.19 + 4.38 * (f64::from(k) + 0.37) / 1000.0;
             let (fate, steps) = classify(&cubic, &set, x, 1000);
-            let part = basins.parts().iter().find(|part| part.interval.contains(x));
+            let part = basins.intervals().iter().find(|part| part.interval.contains(x));
             assert_eq!(part.map(|p| (Fate::Trapped(p.label), p.level)), Some((fate, steps)));
         }
     }

@@ -1,61 +1,43 @@
-//! Power laws fitted to measurements, with what speaks against them.
+//! Power laws fitted to measurements, with warnings about poor fits.
 
-use crate::statistics::student_quantile;
-use crate::{Error, Estimate};
+use crate::confidence_interval::{ConfidenceInterval, student_quantile};
+use crate::error::Error;
+use crate::least_squares::fit_line;
 
 /// A fit of value ∝ scale^exponent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PowerLaw {
-    /// The exponent with the 95 % interval of its least-squares fit. The interval takes the law for
-    /// granted: see `warning` and `local`.
-    pub exponent: Estimate,
+    /// The exponent, with the 95 % interval of its least-squares fit. The interval assumes that the law holds:
+    /// see `warning` and `local`.
+    pub exponent: ConfidenceInterval,
     /// The smallest and the largest scale.
     pub range: (f64, f64),
-    /// Slopes between neighbouring scales, from fine to coarse. Look at them: a slope that drifts is
-    /// no exponent.
+    /// Slopes between neighbouring scales, from fine to coarse. If they drift, there is no single exponent.
     pub local: Vec<f64>,
-    /// Why the fit is not to be trusted.
+    /// Why the fit is not reliable; `None` if no test failed.
     pub warning: Option<Warning>,
 }
 
-/// What speaks against a power law.
+/// Why the fit of a power law is not reliable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Warning {
-    /// Fewer than four scales.
+    /// There are fewer than four scales.
     FewScales {
-        /// How many.
+        /// The number of scales.
         scales: usize,
     },
-    /// Less than one and a half decades.
+    /// The scales extend over less than one and a half decades.
     ShortRange {
-        /// Decades.
+        /// The number of decades.
         decades: f64,
     },
-    /// Local slopes change from the finest to the coarsest third by more than their scatter.
+    /// The local slopes of the finest third of the scales and of the coarsest third differ by more than their scatter.
     Drifts {
         /// Mean slope of the finest third.
         fine: f64,
         /// Mean slope of the coarsest third.
         coarse: f64,
     },
-}
-
-/// A least-squares line.
-pub(crate) struct Line {
-    pub(crate) slope: f64,
-    /// Sum of squared residuals.
-    pub(crate) residual: f64,
-    /// Σ (x − mean)².
-    spread: f64,
-}
-
-pub(crate) fn line(points: &[(f64, f64)]) -> Line {
-    let n = points.len() as f64;
-    let (mean_x, mean_y) = points.iter().fold((0.0, 0.0), |(x, y), p| (x + p.0 / n, y + p.1 / n));
-    let spread: f64 = points.iter().map(|p| (p.0 - mean_x) * (p.0 - mean_x)).sum();
-    let slope = points.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum::<f64>() / spread;
-    let off = |p: &(f64, f64)| (p.1 - mean_y) - slope * (p.0 - mean_x);
-    Line { slope, residual: points.iter().map(|p| off(p) * off(p)).sum(), spread }
 }
 
 /// Fits a power law to (scale, value), both positive.
@@ -81,36 +63,51 @@ pub fn power_law(points: &[(f64, f64)]) -> Result<PowerLaw, Error> {
     }
     let logarithms: Vec<_> =
         sorted.iter().map(|&(x, y)| (pxfm::f_log(x), pxfm::f_log(y))).collect();
-    let fit = line(&logarithms);
+    let fit = fit_line(&logarithms);
+    // A line through n points has n − 2 degrees of freedom left, and a slope of variance s²/Σ(x − mean)².
     let degrees = logarithms.len() - 2;
-    let half = student_quantile(degrees) * (fit.residual / degrees as f64 / fit.spread).sqrt();
+    let half =
+        student_quantile(degrees) * (fit.squared_residuals / degrees as f64 / fit.spread).sqrt();
     let local: Vec<f64> =
         logarithms.windows(2).map(|p| (p[1].1 - p[0].1) / (p[1].0 - p[0].0)).collect();
     let range = (sorted[0].0, sorted[sorted.len() - 1].0);
-    let exponent = Estimate { value: fit.slope, lower: fit.slope - half, upper: fit.slope + half };
+    let (lower, upper) = (fit.slope - half, fit.slope + half);
+    let exponent = ConfidenceInterval { value: fit.slope, lower, upper };
     let warning = warning(&sorted, &local);
     Ok(PowerLaw { exponent, range, local, warning })
 }
 
-/// Slopes that change by less than this are called constant.
+/// A change of the slope by less than this gives no warning, however small the scatter is. Without this limit
+/// exact data would be warned about for their rounding. Chosen.
 const STEADY: f64 = 0.05;
+
+/// A fit over fewer scales gives a warning. Chosen.
+const FEWEST_SCALES: usize = 4;
+
+/// A fit over fewer decades gives a warning. Chosen.
+const FEWEST_DECADES: f64 = 1.5;
+
+/// A drift is a difference of more than this number of standard errors of a third's mean. Chosen: a smaller number
+/// would warn about noise, a larger one would miss slow drifts.
+const STANDARD_ERRORS: f64 = 3.0;
 
 fn warning(points: &[(f64, f64)], local: &[f64]) -> Option<Warning> {
     let scales = points.len();
-    if scales < 4 {
+    if scales < FEWEST_SCALES {
         return Some(Warning::FewScales { scales });
     }
     let decades = pxfm::f_log10(points[scales - 1].0 / points[0].0);
-    if decades < 1.5 {
+    if decades < FEWEST_DECADES {
         return Some(Warning::ShortRange { decades });
     }
     let third = (local.len() / 3).max(1);
     let mean = |slopes: &[f64]| slopes.iter().sum::<f64>() / slopes.len() as f64;
     let (fine, coarse) = (mean(&local[..third]), mean(&local[local.len() - third..]));
-    // Scatter about a trend: half the mean squared second difference.
+    // The standard deviation about a smooth trend: neighbouring slopes differ by twice its square in the mean.
     let jumps: Vec<f64> = local.windows(2).map(|p| (p[1] - p[0]) * (p[1] - p[0])).collect();
     let scatter = (0.5 * mean(&jumps)).sqrt();
-    let drifts = (fine - coarse).abs() > STEADY.max(3.0 * scatter / (third as f64).sqrt());
+    let drifts =
+        (fine - coarse).abs() > STEADY.max(STANDARD_ERRORS * scatter / (third as f64).sqrt());
     drifts.then_some(Warning::Drifts { fine, coarse })
 }
 
@@ -119,12 +116,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn warnings_are_given_for_what_is_no_law() {
+    fn poor_fits_have_warnings() {
         let few: Vec<_> = (1..4).map(|k| (10f64.powi(k), 1.0 + f64::from(k))).collect();
         assert!(matches!(power_law(&few).unwrap().warning, Some(Warning::FewScales { scales: 3 })));
         let short: Vec<_> = (10..20).map(|k| (f64::from(k), f64::from(k))).collect();
         assert!(matches!(power_law(&short).unwrap().warning, Some(Warning::ShortRange { .. })));
-        // x + x²: the slope goes from 1 to 2.
+        // The slope of x + x² changes from 1 to 2.
         let bend: Vec<_> =
             (-6..=6).map(|k| pxfm::f_exp10(0.5 * f64::from(k))).map(|x| (x, x + x * x)).collect();
         let law = power_law(&bend).unwrap();
@@ -135,8 +132,8 @@ mod tests {
     }
 
     #[test]
-    fn the_interval_is_that_of_the_slope() {
-        // Slope 1 with residuals ±0.1: the textbook interval.
+    fn the_exponent_has_the_interval_of_the_slope() {
+        // A line of slope 1 with residuals ±0.1 has this textbook interval.
         let points: Vec<_> = (0..6)
             .map(|k| (f64::from(k), f64::from(k) + if k % 2 == 0 { 0.1 } else { -0.1 }))
             .map(|(x, y)| (pxfm::f_exp(x), pxfm::f_exp(y)))

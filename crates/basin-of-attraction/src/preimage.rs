@@ -1,13 +1,18 @@
-//! The basin of a trap, level by level: what enters it after exactly k steps.
+//! The basin of a trap by levels: level k enters the trap after exactly k steps.
 
-use crate::{Branch, Interval, IntervalSet, ScalarMap};
+use crate::branches::Branch;
+use crate::interval::{Interval, IntervalSet};
+use crate::scalar_map::ScalarMap;
 
-/// The levels of a basin: level 0 is the trap, level k all points of the branches' domains that
-/// enter it after exactly k steps.
+/// The levels 0 to `depth` of the basin of a trap.
+///
+/// Level 0 is the trap. Level k contains the points of the branches' domains that enter the trap after exactly
+/// k steps.
 ///
 /// ```
 /// use basin_of_attraction::{Branch, Interval, preimage_levels};
-/// // The tent map of slope 3 loses the middle third: level k has 2^k intervals of length 3^−(k+1).
+/// // The tent map of slope 3 maps the middle third of [0, 1] into the trap, and the rest onto [0, 1]. Level
+/// // k ≥ 1 has 2^(k−1) intervals, of total length (2/3)^(k−1)/3.
 /// let tent = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * (1.0 - x) });
 /// let left = Branch { domain: Interval::new(0.0, 0.5)?, at_left: 0.0, at_right: 1.5 };
 /// let right = Branch { domain: Interval::new(0.5, 1.0)?, at_left: 1.5, at_right: 0.0 };

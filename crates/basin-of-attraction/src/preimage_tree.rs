@@ -1,66 +1,71 @@
-//! The preimages of a trap as a tree, and what the tree leaves over.
+//! The preimages of a trap as a tree, and the set of points that never enter the trap.
 
-use crate::power_law::line;
-use crate::{Branch, Interval, IntervalSet, ScalarMap};
+use crate::branches::Branch;
+use crate::interval::{Interval, IntervalSet};
+use crate::least_squares::fit_line;
+use crate::scalar_map::ScalarMap;
 
 /// An interval of the tree, mapped onto its parent by one branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Node {
-    /// Where.
+pub struct TreeNode {
+    /// The interval.
     pub interval: Interval,
-    /// After how many steps it enters the trap.
+    /// The number of steps after which its points enter the trap.
     pub level: usize,
-    /// The node it is mapped into; none for the trap.
+    /// The index of the node it is mapped into; `None` for the trap.
     pub parent: Option<usize>,
-    /// The branch that maps it there, by its place in the list; 0 for the trap.
+    /// The index of the branch that maps it there; 0 for the trap.
     pub branch: usize,
 }
 
-/// The trap, its preimages, theirs, …
+/// A trap, its preimages, the preimages of these, and so on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreimageTree {
     window: Interval,
-    nodes: Vec<Node>,
-    /// Where each level begins among the nodes, and an end.
+    nodes: Vec<TreeNode>,
+    /// Level k has the nodes from starts[k] to starts[k + 1], without the last one.
     starts: Vec<usize>,
-    /// The first level from which a preimage may be missing, because its target has few ulps.
+    /// The first level that may lack a preimage, because its target is a few ulps wide.
     incomplete: Option<usize>,
 }
 
-/// Intervals narrower than so many ulps have no reliable preimages.
-const NARROW: f64 = 64.0;
+/// Intervals narrower than this number of ulps have no reliable preimages: their ends are wrong by an ulp or two. A
+/// larger number would end the complete levels earlier. Chosen.
+const NARROW_ULPS: f64 = 64.0;
 
-/// What remains of the window outside all levels, as far as the growth of the counts tells.
+/// The points of the window that no level contains, judged by the growth of the number of intervals a level.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Remainder {
-    /// Counts grow exponentially, by this logarithm a level: orbits that never enter form a Cantor set.
+pub enum ResidualSet {
+    /// The number of intervals grows exponentially with the level. The points that never enter the trap contain a
+    /// Cantor set.
     Cantor {
-        /// ln of the factor from level to level.
+        /// ln of the factor by which the number grows in a level.
         growth: f64,
     },
-    /// Counts grow like a power of the level, so that boundaries are countable.
+    /// The number of intervals grows like a power of the level. The boundaries of the basin are countably many
+    /// points.
     Countable {
-        /// The power.
+        /// The exponent of that power.
         power: f64,
     },
-    /// Too few levels, or neither fits better.
+    /// There are too few levels, or neither law fits better than the other.
     Undecided,
 }
 
 impl PreimageTree {
-    /// Grows `depth` levels in `window`, or until one is empty or there are a million nodes.
+    /// Grows `depth` levels. It stops earlier at an empty level, or at a level that ends beyond a million nodes.
     ///
-    /// `branches` must be all monotone branches of the map there.
+    /// `branches` must contain all monotone branches of the map in the window.
     ///
     /// ```
-    /// use basin_of_attraction::{Branch, Interval, PreimageTree, Remainder};
-    /// // The tent map of slope 3: what never leaves [0, 1] is Cantor's set.
+    /// use basin_of_attraction::{Branch, Interval, PreimageTree, ResidualSet};
+    /// // Under the tent map of slope 3 the points that never leave [0, 1] are Cantor's set.
     /// let tent = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * (1.0 - x) });
     /// let left = Branch { domain: Interval::new(0.0, 0.5)?, at_left: 0.0, at_right: 1.5 };
     /// let right = Branch { domain: Interval::new(0.5, 1.0)?, at_left: 1.5, at_right: 0.0 };
     /// let (window, hole) = (Interval::new(0.0, 1.0)?, Interval::new(1.0 + 1e-12, 1.5)?);
     /// let tree = PreimageTree::grow(&tent, &[left, right], hole, window, 12);
-    /// let Remainder::Cantor { growth } = tree.remainder() else { panic!() };
+    /// let ResidualSet::Cantor { growth } = tree.residual_set() else { panic!() };
     /// assert!((growth - 2f64.ln()).abs() < 1e-12);
     /// # Ok::<(), basin_of_attraction::Error>(())
     /// ```
@@ -71,14 +76,15 @@ impl PreimageTree {
         window: Interval,
         depth: usize,
     ) -> Self {
-        const MOST: usize = 1_000_000;
-        let known = IntervalSet::union(vec![trap]);
-        let root = Node { interval: trap, level: 0, parent: None, branch: 0 };
+        /// Bounds the memory: a node takes 48 bytes, and a level may have several times the nodes of the last.
+        const MOST_NODES: usize = 1_000_000;
+        let trapped = IntervalSet::union(vec![trap]);
+        let root = TreeNode { interval: trap, level: 0, parent: None, branch: 0 };
         let mut tree =
             PreimageTree { window, nodes: vec![root], starts: vec![0, 1], incomplete: None };
         for level in 1..=depth {
             let last = tree.starts[level - 1]..tree.starts[level];
-            if last.is_empty() || tree.nodes.len() > MOST {
+            if last.is_empty() || tree.nodes.len() > MOST_NODES {
                 break;
             }
             for parent in last {
@@ -86,19 +92,21 @@ impl PreimageTree {
                 for (branch, piece) in branches.iter().enumerate() {
                     let Some(found) = piece.preimage(map, &target) else { continue };
                     let ulps = |x: &Interval| x.length() / (f64::EPSILON * x.right.abs());
-                    let mut fresh =
-                        IntervalSet::union(vec![found]).minus(&known).intervals().to_vec();
-                    // What the two roundings of the trap's end leave between them is no preimage.
-                    fresh.retain(|x| {
+                    let mut outside =
+                        IntervalSet::union(vec![found]).minus(&trapped).intervals().to_vec();
+                    // At a fixed point on the trap's end, that end and its computed preimage differ by rounding.
+                    // The sliver between them is no preimage.
+                    outside.retain(|x| {
                         let beside = x.left == trap.right || x.right == trap.left;
-                        !(beside && ulps(x) < NARROW)
+                        !(beside && ulps(x) < NARROW_ULPS)
                     });
-                    // A target of a few ulps may lose its own preimages to rounding.
-                    if fresh.iter().any(|x| ulps(x) < NARROW) {
+                    // The preimages of a target of a few ulps may be lost to rounding: one level later.
+                    if outside.iter().any(|x| ulps(x) < NARROW_ULPS) {
                         tree.incomplete.get_or_insert(level + 1);
                     }
-                    let node = |&interval| Node { interval, level, parent: Some(parent), branch };
-                    tree.nodes.extend(fresh.iter().map(node));
+                    let node =
+                        |&interval| TreeNode { interval, level, parent: Some(parent), branch };
+                    tree.nodes.extend(outside.iter().map(node));
                 }
             }
             tree.starts.push(tree.nodes.len());
@@ -107,12 +115,12 @@ impl PreimageTree {
     }
 
     /// All nodes, level by level.
-    pub fn nodes(&self) -> &[Node] {
+    pub fn nodes(&self) -> &[TreeNode] {
         &self.nodes
     }
 
     /// The nodes of one level.
-    pub fn level(&self, level: usize) -> &[Node] {
+    pub fn level(&self, level: usize) -> &[TreeNode] {
         match (self.starts.get(level), self.starts.get(level + 1)) {
             (Some(&from), Some(&to)) => &self.nodes[from..to],
             _ => &[],
@@ -124,18 +132,18 @@ impl PreimageTree {
         self.starts.len() - 1
     }
 
-    /// Number of levels from which nothing can be missing: later ones have targets of a few ulps.
+    /// The number of levels that are certainly complete. Later levels are preimages of intervals a few ulps wide.
     pub fn complete_levels(&self) -> usize {
         self.incomplete.map_or(self.levels(), |level| level.min(self.levels()))
     }
 
-    /// The ends of all intervals: for box counts, whose slope is the dimension of what they accumulate at
-    /// (see [`occupied_boxes`](crate::occupied_boxes)).
+    /// The ends of all intervals. Their box counts give the dimension of the set at which the ends accumulate: see
+    /// [`occupied_boxes`](crate::occupied_boxes).
     pub fn ends(&self) -> Vec<f64> {
         self.nodes.iter().flat_map(|node| [node.interval.left, node.interval.right]).collect()
     }
 
-    /// How many intervals each level has.
+    /// The number of intervals of each level.
     pub fn counts(&self) -> Vec<usize> {
         (0..self.levels()).map(|level| self.level(level).len()).collect()
     }
@@ -143,20 +151,28 @@ impl PreimageTree {
     /// The length of each level inside the window.
     pub fn lengths(&self) -> Vec<f64> {
         let inside =
-            |node: &Node| node.interval.intersection(&self.window).map_or(0.0, |i| i.length());
+            |node: &TreeNode| node.interval.intersection(&self.window).map_or(0.0, |i| i.length());
         (0..self.levels()).map(|level| self.level(level).iter().map(inside).sum()).collect()
     }
 
-    /// What of the window no level up to `level` covers.
+    /// The part of the window that the levels up to `level` leave uncovered.
     pub fn gaps(&self, level: usize) -> IntervalSet {
         let end = self.starts.get(level + 1).copied().unwrap_or(self.nodes.len());
         let covered = IntervalSet::union(self.nodes[..end].iter().map(|n| n.interval).collect());
         IntervalSet::union(vec![self.window]).minus(&covered)
     }
 
-    /// How the counts grow over the later half of the complete levels: exponentially, which leaves a
-    /// Cantor set, or like a power of the level, which leaves a countable one.
-    pub fn remainder(&self) -> Remainder {
+    /// Fits an exponential and a power law to the number of intervals of the later half of the complete levels.
+    ///
+    /// The earlier half is left out because it follows neither law yet. The law with less than a quarter of the
+    /// other's squared residuals is the answer.
+    pub fn residual_set(&self) -> ResidualSet {
+        /// Two parameters leave two degrees of freedom to compare the fits by. Chosen as the least useful number.
+        const FEWEST_LEVELS: usize = 4;
+        /// A fit is better if its squared residuals are less than this part of the other's. Chosen.
+        const BETTER: f64 = 0.25;
+        /// Exact laws have residuals of rounding size on one side, or 0 on both. This makes the latter undecided.
+        const ROUNDING: f64 = 1e-12;
         let mut counts = self.counts();
         counts.truncate(self.complete_levels());
         let late: Vec<(f64, f64)> = counts
@@ -166,29 +182,31 @@ impl PreimageTree {
             .filter(|(_, count)| **count > 0)
             .map(|(level, &count)| (level as f64, pxfm::f_log(count as f64)))
             .collect();
-        if late.len() < 4 {
-            return Remainder::Undecided;
+        if late.len() < FEWEST_LEVELS {
+            return ResidualSet::Undecided;
         }
+        // A constant number fits both laws exactly. It is the power law with exponent 0.
         if late.iter().all(|point| point.1 == late[0].1) {
-            return Remainder::Countable { power: 0.0 };
+            return ResidualSet::Countable { power: 0.0 };
         }
-        let exponential = line(&late);
+        // ln(count) is linear in the level for an exponential, and in ln(level) for a power.
+        let exponential = fit_line(&late);
         let logarithmic: Vec<_> = late.iter().map(|&(k, n)| (pxfm::f_log(k), n)).collect();
-        let power = line(&logarithmic);
-        // An exact fit may have no residual at all.
-        let tiny = 1e-12;
-        if exponential.residual + tiny < 0.25 * power.residual {
-            Remainder::Cantor { growth: exponential.slope }
-        } else if power.residual + tiny < 0.25 * exponential.residual {
-            Remainder::Countable { power: power.slope }
+        let power = fit_line(&logarithmic);
+        if exponential.squared_residuals + ROUNDING < BETTER * power.squared_residuals {
+            ResidualSet::Cantor { growth: exponential.slope }
+        } else if power.squared_residuals + ROUNDING < BETTER * exponential.squared_residuals {
+            ResidualSet::Countable { power: power.slope }
         } else {
-            Remainder::Undecided
+            ResidualSet::Undecided
         }
     }
 }
 
-/// The limit of a sum whose terms fall geometrically in the end, by Aitken's extrapolation, with its
-/// change under one more term as error; nothing for fewer than four terms or if they do not fall.
+/// The limit of a sum whose terms fall geometrically in the end, and an estimate of its error.
+///
+/// Aitken's extrapolation: the terms not given are taken to fall by the ratio of the last two. The error is the
+/// change that the last term made. `None` for fewer than four terms, and if the terms do not fall.
 ///
 /// ```
 /// let terms: Vec<f64> = (0..12).map(|k| 0.5f64.powi(k)).collect();
@@ -215,8 +233,8 @@ mod tests {
     use proptest::prelude::*;
 
     proptest! {
-        /// Two linear branches with a gap between them: every level doubles, nodes are disjoint, and each is
-        /// mapped onto its parent by its branch.
+        /// Two linear branches with a gap between them. The number of nodes doubles in every level, nodes are
+        /// disjoint, and each is mapped onto its parent by its branch.
         #[test]
         fn trees_of_two_linear_branches(left in 0.15..0.45f64, right in 0.55..0.85f64, flip: bool) {
             let map = move |x: f64| {
@@ -236,10 +254,10 @@ mod tests {
             let gap = Interval { left, right };
             let tree = PreimageTree::grow(&map, &branches, gap, Interval { left: 0.0, right: 1.0 }, 8);
             prop_assert_eq!(tree.counts(), (0..=8).map(|k| 1 << k).collect::<Vec<usize>>());
-            let share = left + (1.0 - right);
+            let fraction = left + (1.0 - right);
             for (level, length) in tree.lengths().into_iter().enumerate() {
-                prop_assert!((length - (right - left) * share.powi(level as i32)).abs() < 1e-12);
-                prop_assert!((tree.gaps(level).measure() - share.powi(level as i32 + 1)).abs() < 1e-12);
+                prop_assert!((length - (right - left) * fraction.powi(level as i32)).abs() < 1e-12);
+                prop_assert!((tree.gaps(level).measure() - fraction.powi(level as i32 + 1)).abs() < 1e-12);
             }
             for node in tree.nodes().iter().skip(1) {
                 let Some(parent) = node.parent.map(|at| tree.nodes()[at]) else { panic!() };
@@ -251,7 +269,7 @@ mod tests {
             let mut sorted: Vec<Interval> = tree.nodes().iter().map(|node| node.interval).collect();
             sorted.sort_by(|a, b| a.left.total_cmp(&b.left));
             prop_assert!(sorted.windows(2).all(|pair| pair[0].right <= pair[1].left + 1e-15));
-            let cantor = matches!(tree.remainder(), Remainder::Cantor { .. });
+            let cantor = matches!(tree.residual_set(), ResidualSet::Cantor { .. });
             prop_assert!(cantor);
         }
     }

@@ -1,14 +1,15 @@
 //! Label images over a window of the plane, computed in parallel, column by column.
 
-use crate::{Error, Interval};
+use crate::error::Error;
+use crate::interval::Interval;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
-/// A window of the plane and its resolution.
+/// A window of the plane, divided into pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// Horizontal range; a parameter is best put here, because its columns can share work.
+    /// Horizontal range. A parameter of the map belongs here, because the pixels of a column can share work.
     pub x: Interval,
     /// Vertical range.
     pub y: Interval,
@@ -18,19 +19,19 @@ pub struct Grid {
     pub rows: usize,
 }
 
-/// Pixels of a raster, at most: 32 GiB of labels.
+/// The largest number of pixels of a raster: 32 GiB of labels. More would fail to be allocated on most machines.
 const MOST_PIXELS: u64 = 1 << 34;
 
 impl Grid {
     /// The number of pixels.
     ///
     /// # Errors
-    /// [`Error::BadRaster`] for none, and for more than 2³⁴.
+    /// [`Error::BadRaster`] for no pixels, and for more than 2³⁴.
     pub fn pixels(&self) -> Result<usize, Error> {
         let Grid { columns, rows, .. } = *self;
         let pixels = columns.checked_mul(rows).filter(|&pixels| pixels > 0);
-        let few = pixels.filter(|&pixels| pixels as u64 <= MOST_PIXELS);
-        few.ok_or(Error::BadRaster { columns, rows })
+        let accepted = pixels.filter(|&pixels| pixels as u64 <= MOST_PIXELS);
+        accepted.ok_or(Error::BadRaster { columns, rows })
     }
 
     /// x at the middle of a column.
@@ -54,13 +55,13 @@ pub struct LabelImage {
 }
 
 impl LabelImage {
-    /// The label of a pixel; rows count from below.
+    /// The label of a pixel; `None` outside the image. Rows count from below.
     pub fn at(&self, column: usize, row: usize) -> Option<u16> {
         let inside = column < self.grid.columns && row < self.grid.rows;
         inside.then(|| self.labels.get(row * self.grid.columns + column).copied())?
     }
 
-    /// How many pixels have each label, in increasing order of labels.
+    /// The number of pixels of each label, in increasing order of labels.
     pub fn counts(&self) -> Vec<(u16, usize)> {
         let mut counts = std::collections::BTreeMap::new();
         for &label in &self.labels {
@@ -76,22 +77,21 @@ impl LabelImage {
     }
 }
 
-/// What a label of an image stands for.
+/// A label of an image, with its meaning.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LegendEntry {
     /// The label.
     pub label: u16,
     /// Its name.
     pub name: String,
-    /// How many pixels have it.
+    /// The number of pixels with this label.
     pub pixels: usize,
 }
 
-/// Labels every pixel of `grid` by its middle, columns in parallel, pixel by pixel.
+/// Labels every pixel of `grid` by its middle. Columns are computed in parallel, each pixel by pixel.
 ///
-/// `prepare` does the work that a column shares; `label` labels a point of it. `progress` hears
-/// how many columns are finished and may break off. The image does not depend on the number of
-/// threads.
+/// `prepare` does the work that a column shares. `label` labels a point of the column. `progress` is called with
+/// the number of finished columns, and may stop the work. The image does not depend on the number of threads.
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval, raster};
@@ -104,7 +104,7 @@ pub struct LegendEntry {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadRaster`] without pixels; [`Error::Interrupted`] if `progress` breaks off.
+/// [`Error::BadRaster`] as for [`Grid::pixels`]; [`Error::Interrupted`] if `progress` stops the work.
 pub fn raster<C>(
     grid: Grid,
     prepare: impl Fn(f64) -> C + Sync,
@@ -119,13 +119,15 @@ pub fn raster<C>(
     raster_by_strips(grid, 1, strip, progress)
 }
 
-/// Labels in a cache line.
+/// Rows of the image that are filled together: 32 labels of two bytes are one cache line of 64 bytes. A lower band
+/// would read each line of a column several times. A higher one is no faster.
 const BAND: usize = 32;
 
-/// Labels every pixel of `grid` by its middle, in strips of `width` columns, in parallel.
+/// Labels every pixel of `grid` by its middle. Strips of `width` neighbouring columns are computed in parallel.
 ///
-/// `strip` takes the x of neighbouring columns and all y of the grid, both in increasing order, and gives the labels
-/// of every column: whoever can label many points faster together than one by one. The rest is as for [`raster`].
+/// `strip` takes the x of neighbouring columns and all y of the grid, both in increasing order. It gives the labels of
+/// every column, from the lowest y up. This form is for maps that can label many points together faster than one
+/// by one. `progress` is as for [`raster`].
 ///
 /// ```
 /// use basin_of_attraction::{Error, Grid, Interval, raster_by_strips};
@@ -140,7 +142,7 @@ const BAND: usize = 32;
 /// ```
 ///
 /// # Errors
-/// As [`raster`], [`Error::BadStrip`] for a strip with another number of columns or labels, and those of `strip`.
+/// As [`raster`]; [`Error::BadStrip`] if `strip` gives another number of columns or of labels; errors of `strip`.
 pub fn raster_by_strips<E: From<Error> + Send>(
     grid: Grid,
     width: usize,
@@ -178,7 +180,7 @@ pub fn raster_by_strips<E: From<Error> + Send>(
         return Err(Error::Interrupted { finished: finished.into_inner(), columns }.into());
     }
     let mut labels = vec![0; pixels];
-    // In bands as high as a cache line is long: every line of a column is read once.
+    // The columns are transposed into rows, band by band, so that every cache line of a column is read once.
     labels.par_chunks_mut(BAND * columns).enumerate().for_each(|(band, lines)| {
         for (at, column) in by_column.iter().enumerate() {
             let places = lines.iter_mut().skip(at).step_by(columns);
@@ -201,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn the_number_of_threads_does_not_matter() {
+    fn the_image_does_not_depend_on_the_number_of_threads() {
         let compute =
             || raster(grid(), |x| x, |&x, y| ((x * 1000.0) * y) as u16, |_| Continue(())).unwrap();
         let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
@@ -209,7 +211,7 @@ mod tests {
     }
 
     #[test]
-    fn it_can_be_interrupted() {
+    fn a_raster_can_be_interrupted() {
         let stop = |done| if done >= 5 { Break(()) } else { Continue(()) };
         let error = raster(grid(), |_| (), |(), _| 0, stop).unwrap_err();
         assert!(matches!(error, Error::Interrupted { columns: 64, .. }));

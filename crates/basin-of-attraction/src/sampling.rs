@@ -1,12 +1,16 @@
-//! Measures of basins from points, each with an interval.
+//! Basin fractions from sample points.
 
-use crate::statistics::{Estimate, student, wilson};
-use crate::{Error, Interval};
+use crate::bounds::Bounds;
+use crate::confidence_interval::{ConfidenceInterval, student_interval, wilson_interval};
+use crate::error::Error;
+use crate::golden_section::INVERSE_GOLDEN_RATIO;
+use crate::interval::Interval;
+use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// How many of `count` equally spaced points of `window`, the middles of `count` equal parts, have
-/// each label.
+/// How many of `count` equally spaced points of `window` have each label. The points are the middles of `count`
+/// equal parts of the window.
 ///
 /// ```
 /// use basin_of_attraction::{Interval, equally_spaced_counts};
@@ -23,131 +27,137 @@ pub fn equally_spaced_counts(
     tally(&labels(count, |k| middle(window, count, k), label))
 }
 
-/// The shares of the labels among equally spaced points, with the interval that they leave open.
+/// The fraction of equally spaced points that have a label.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EquallySpacedFraction {
+    /// The fraction of the points.
+    pub value: f64,
+    /// Bounds on the basin fraction. They hold if no part of a basin, and no gap in it, is narrower than the
+    /// spacing of the points. Narrower parts can lie between the points unseen.
+    pub bounds: Bounds,
+}
+
+/// The basin fractions among `count` equally spaced points, with the bounds that the spacing leaves.
 ///
-/// Between neighbours with equal labels the label is taken to hold; a step between two labels may lie
-/// anywhere. So the interval is certain for a basin without parts narrower than the spacing, and says
-/// nothing about narrower ones.
+/// The label is assumed to be constant between neighbouring points with equal labels. Between points with
+/// different labels the boundary may lie anywhere.
 ///
 /// # Errors
-/// [`Error::BadTrials`] without points.
-pub fn equally_spaced_shares(
+/// [`Error::BadTrials`] for a `count` of 0.
+pub fn equally_spaced_fractions(
     window: Interval,
     count: usize,
     label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, Estimate>, Error> {
+) -> Result<BTreeMap<u16, EquallySpacedFraction>, Error> {
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
     let labels = labels(count, |k| middle(window, count, k), label);
-    let mut steps: BTreeMap<u16, usize> = BTreeMap::new();
+    // The number of ends of runs of each label.
+    let mut ends: BTreeMap<u16, usize> = BTreeMap::new();
     for pair in labels.windows(2).filter(|pair| pair[0] != pair[1]) {
-        pair.iter().for_each(|&label| *steps.entry(label).or_insert(0) += 1);
+        pair.iter().for_each(|&label| *ends.entry(label).or_insert(0) += 1);
     }
-    // The half cells at the ends of the window are beyond any point.
-    for end in [labels.first(), labels.last()].into_iter().flatten() {
-        *steps.entry(*end).or_insert(0) += 1;
+    // Between an end of the window and its nearest point lies half a spacing without any point.
+    for label in [labels.first(), labels.last()].into_iter().flatten() {
+        *ends.entry(*label).or_insert(0) += 1;
     }
-    let estimate = |(label, found): (u16, usize)| {
+    let fraction = |(label, found): (u16, usize)| {
         let value = found as f64 / count as f64;
-        // Each step may be half a cell off.
-        let open = 0.5 * steps.get(&label).copied().unwrap_or(0) as f64 / count as f64;
-        let (lower, upper) = ((value - open).max(0.0), (value + open).min(1.0));
-        (label, Estimate { value, lower, upper })
+        // Each end of a run is known to half a spacing on either side.
+        let open = 0.5 * ends.get(&label).copied().unwrap_or(0) as f64 / count as f64;
+        let bounds = Bounds { lower: (value - open).max(0.0), upper: (value + open).min(1.0) };
+        (label, EquallySpacedFraction { value, bounds })
     };
-    Ok(tally(&labels).into_iter().map(estimate).collect())
+    Ok(tally(&labels).into_iter().map(fraction).collect())
 }
 
-/// The shares of the labels among independent uniform points, with Wilson's 95 % intervals.
+/// The basin fractions among `count` independent uniform points, with Wilson's 95 % intervals.
 ///
 /// The same seed gives the same points, with any number of threads. A label that no point has is not in the
-/// result: its share is [`wilson`]`(0, count)`.
+/// result: its fraction is [`wilson_interval`]`(0, count)`.
 ///
 /// # Errors
-/// [`Error::BadTrials`] without points.
-pub fn random_shares(
+/// [`Error::BadTrials`] for a `count` of 0.
+pub fn random_fractions(
     window: Interval,
     count: usize,
     seed: u64,
     label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, Estimate>, Error> {
-    let at = |k| window.left + window.length() * uniform(seed, k as u64);
+) -> Result<BTreeMap<u16, ConfidenceInterval>, Error> {
+    let random = SplitMix64::from_seed(seed);
+    let at = |k| window.left + window.length() * random.uniform(k as u64);
     let counts = tally(&labels(count, at, label));
-    counts.into_iter().map(|(label, found)| Ok((label, wilson(found, count)?))).collect()
+    counts.into_iter().map(|(label, found)| Ok((label, wilson_interval(found, count)?))).collect()
 }
 
-/// The shares of the labels among `replicates` low-discrepancy sets of `count` points each: golden
-/// rotations with random starts, with Student's 95 % intervals over the replicates.
+/// The basin fractions among `replicates` low-discrepancy sets of `count` points each, with Student's 95 %
+/// intervals over the replicates.
 ///
-/// For basins of few intervals the error falls like 1/`count` instead of its square root. Labels with few
-/// points are given Wilson's interval if that is wider; one that no point has is not in the result: its share
-/// is [`wilson`]`(0, count * replicates)`.
+/// A set is a golden rotation, x_k = x₀ + k (√5 − 1)/2 mod 1, with a random x₀. For basins of few intervals the
+/// error falls like 1/`count`; that of independent points falls like 1/√`count`. A label with few points has
+/// Wilson's interval if that is wider. A label that no point has is not in the result: its fraction is
+/// [`wilson_interval`]`(0, count * replicates)`.
 ///
 /// # Errors
-/// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] without points.
-pub fn low_discrepancy_shares(
+/// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] for a `count` of 0.
+pub fn low_discrepancy_fractions(
     window: Interval,
     count: usize,
     replicates: usize,
     seed: u64,
     label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, Estimate>, Error> {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+) -> Result<BTreeMap<u16, ConfidenceInterval>, Error> {
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
     if replicates < 2 {
         return Err(Error::TooFewReplicates { replicates });
     }
+    let random = SplitMix64::from_seed(seed);
     let tallies: Vec<BTreeMap<u16, usize>> = (0..replicates)
         .map(|replicate| {
-            let start = uniform(seed, replicate as u64);
+            let start = random.uniform(replicate as u64);
             let at = |k| {
-                let turn = start + GOLDEN * k as f64;
+                let turn = start + INVERSE_GOLDEN_RATIO * k as f64;
                 window.left + window.length() * (turn - turn.floor())
             };
             tally(&labels(count, at, &label))
         })
         .collect();
-    let mut shares = BTreeMap::new();
+    let mut fractions = BTreeMap::new();
     for label in tallies.iter().flat_map(BTreeMap::keys) {
-        let share = |tally: &BTreeMap<u16, usize>| {
+        let fraction = |tally: &BTreeMap<u16, usize>| {
             tally.get(label).map_or(0.0, |&n| n as f64 / count as f64)
         };
-        let estimate = student(&tallies.iter().map(share).collect::<Vec<_>>())?;
+        let estimate = student_interval(&tallies.iter().map(fraction).collect::<Vec<_>>())?;
         let found: usize = tallies.iter().filter_map(|tally| tally.get(label)).sum();
-        shares.insert(*label, with_few(estimate, found, count * replicates)?);
+        fractions.insert(*label, widened_for_few_points(estimate, found, count * replicates)?);
     }
-    Ok(shares)
+    Ok(fractions)
 }
 
-/// Hits, or misses, from which on a spread over replicates tells an error.
-const ENOUGH: usize = 100;
+/// From this number of points with a label, and of points without it, the spread over replicates measures the
+/// error. The number was chosen; with it the intervals cover as they should in `tests/confidence_intervals.rs`.
+const ENOUGH_POINTS: usize = 100;
 
-/// An estimate over replicates, widened to Wilson's interval where a label has few hits or few misses: then
-/// replicates may all agree by chance.
-fn with_few(estimate: Estimate, found: usize, all: usize) -> Result<Estimate, Error> {
-    let Estimate { value, mut lower, mut upper } = estimate;
-    if found.min(all - found) < ENOUGH {
-        let few = wilson(found, all)?;
+/// A Student interval, widened to Wilson's if `found` of `all` points are few, or all but few.
+///
+/// The replicates may then agree by chance: if all of them have 0 points, or 1, Student's interval has length 0.
+fn widened_for_few_points(
+    estimate: ConfidenceInterval,
+    found: usize,
+    all: usize,
+) -> Result<ConfidenceInterval, Error> {
+    let ConfidenceInterval { value, mut lower, mut upper } = estimate;
+    if found.min(all - found) < ENOUGH_POINTS {
+        let few = wilson_interval(found, all)?;
         (lower, upper) = (lower.min(few.lower), upper.max(few.upper));
     }
-    Ok(Estimate { value, lower: lower.max(0.0), upper: upper.min(1.0) })
+    Ok(ConfidenceInterval { value, lower: lower.max(0.0), upper: upper.min(1.0) })
 }
 
-/// The k-th of a sequence of uniform numbers in [0, 1), by the SplitMix64 mixer.
-pub(crate) fn uniform(seed: u64, k: u64) -> f64 {
-    let mut z = mix(seed).wrapping_add(k.wrapping_mul(0x9e37_79b9_7f4a_7c15));
-    z = mix(z);
-    (z >> 11) as f64 / (1u64 << 53) as f64
-}
-
-fn mix(mut z: u64) -> u64 {
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
-}
-
+/// The middle of part k of `count` equal parts of the window.
 fn middle(window: Interval, count: usize, k: usize) -> f64 {
     window.left + window.length() * ((k as f64 + 0.5) / count as f64)
 }

@@ -1,23 +1,24 @@
 //! Maps of the line.
 
-/// What a map makes of a point.
+/// The image of a point under a map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Image {
-    /// Another point.
+    /// The image is this point.
     Point(f64),
-    /// Nothing: the orbit ends here.
+    /// The map has no value: the orbit ends here.
     Stops,
-    /// The map could not be evaluated; its own error tells why.
+    /// The map could not be evaluated. The map's own error says why.
     Undecided,
 }
 
+/// `None` is [`Image::Stops`].
 impl From<Option<f64>> for Image {
     fn from(image: Option<f64>) -> Self {
         image.map_or(Image::Stops, Image::Point)
     }
 }
 
-/// A map of the line into itself. Closures `Fn(f64) -> Option<f64>` are maps.
+/// A map of the line into itself. All closures `Fn(f64) -> Option<f64>` are maps.
 pub trait ScalarMap {
     /// f(x).
     fn image(&self, x: f64) -> Image;

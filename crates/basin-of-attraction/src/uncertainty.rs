@@ -1,69 +1,77 @@
-//! How often an error of ε in the start changes the fate.
+//! How often a perturbation ε of the start changes the fate.
 
-use crate::sampling::uniform;
-use crate::statistics::wilson;
-use crate::{Error, Estimate, Interval, IntervalBasins, IntervalSet};
+use crate::bounds::Bounds;
+use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
+use crate::error::Error;
+use crate::interval::{Interval, IntervalSet};
+use crate::interval_basins::IntervalBasins;
+use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 
-/// The share of starts x whose label differs from that of x + ε or of x − ε (Grebogi, McDonald, Ott,
-/// Yorke 1983), with Wilson's 95 % interval.
+/// The fraction of starts x whose label differs from that of x + ε or of x − ε (Grebogi, McDonald, Ott, Yorke
+/// 1983), with Wilson's 95 % interval.
 ///
-/// Its growth with ε is the uncertainty exponent: fit it with [`power_law`](crate::power_law).
+/// `count` uniform random starts in `window` are tried. For small ε the fraction grows like a power of ε. Its
+/// exponent is the uncertainty exponent, which [`power_law`](crate::power_law) fits.
 ///
 /// # Errors
-/// [`Error::BadTrials`] without points, [`Error::BadBoxSize`] unless `epsilon` is positive.
-pub fn uncertain_share(
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::BadPerturbation`] unless `epsilon` is positive and finite.
+pub fn uncertain_fraction(
     window: Interval,
     epsilon: f64,
     count: usize,
     seed: u64,
     label: impl Fn(f64) -> u16 + Sync,
-) -> Result<Estimate, Error> {
-    if !(epsilon > 0.0 && epsilon.is_finite()) {
-        return Err(Error::BadBoxSize { size: epsilon });
-    }
+) -> Result<ConfidenceInterval, Error> {
+    check_perturbation(epsilon)?;
+    let random = SplitMix64::from_seed(seed);
     let uncertain = |k: usize| {
-        let x = window.left + window.length() * uniform(seed, k as u64);
+        let x = window.left + window.length() * random.uniform(k as u64);
         let here = label(x);
         label(x + epsilon) != here || label(x - epsilon) != here
     };
-    wilson((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
+    wilson_interval((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
+}
+
+fn check_perturbation(epsilon: f64) -> Result<(), Error> {
+    if epsilon > 0.0 && epsilon.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::BadPerturbation { epsilon })
+    }
 }
 
 impl IntervalBasins {
-    /// The share of the window within ε of the boundary, with bounds.
+    /// The fraction of the window within ε of the boundary between basins.
     ///
-    /// The lower bound knows of boundaries between decided parts only, the upper one takes every
-    /// undecided gap longer than `resolution` for boundary throughout.
+    /// The lower bound counts only points that are within ε of a boundary wherever the boundary lies in its
+    /// gap. The upper bound counts every undecided gap longer than `resolution` as boundary, all of it.
     ///
     /// # Errors
-    /// [`Error::BadBoxSize`] unless `epsilon` is positive and finite.
-    pub fn uncertain_share(&self, epsilon: f64, resolution: f64) -> Result<Estimate, Error> {
-        if !(epsilon > 0.0 && epsilon.is_finite()) {
-            return Err(Error::BadBoxSize { size: epsilon });
-        }
+    /// [`Error::BadPerturbation`] unless `epsilon` is positive and finite.
+    pub fn uncertain_fraction(&self, epsilon: f64, resolution: f64) -> Result<Bounds, Error> {
+        check_perturbation(epsilon)?;
         let window = self.window();
-        let (mut sure, mut possible) = (Vec::new(), Vec::new());
-        for pair in self.parts().windows(2) {
+        let (mut certain, mut possible) = (Vec::new(), Vec::new());
+        for pair in self.intervals().windows(2) {
             let (before, after) = (pair[0].interval.right, pair[1].interval.left);
-            let ball = Interval { left: before - epsilon, right: after + epsilon };
             let differ = pair[0].label != pair[1].label;
             if differ {
-                // Wherever in the gap the boundary is: within ε of all of the gap's points at least.
+                // The boundary b is somewhere in [before, after]. |x − b| ≤ ε for all such b means
+                // after − ε ≤ x ≤ before + ε.
                 let (left, right) = (after - epsilon, before + epsilon);
                 if left < right {
-                    sure.push(Interval { left, right });
+                    certain.push(Interval { left, right });
                 }
             }
             if differ || after - before > resolution {
-                possible.push(ball);
+                possible.push(Interval { left: before - epsilon, right: after + epsilon });
             }
         }
-        let share = |balls: Vec<Interval>| {
-            let inside = balls.iter().filter_map(|ball| ball.intersection(&window)).collect();
+        let fraction = |parts: Vec<Interval>| {
+            let inside = parts.iter().filter_map(|part| part.intersection(&window)).collect();
             IntervalSet::union(inside).measure() / window.length()
         };
-        let (lower, upper) = (share(sure), share(possible).min(1.0));
-        Ok(Estimate { value: 0.5 * (lower + upper), lower, upper })
+        Ok(Bounds { lower: fraction(certain), upper: fraction(possible).min(1.0) })
     }
 }

@@ -1,21 +1,26 @@
-//! Wada's property by merging (Daza, Wagemakers, Sanjuán 2018): do all basins share one boundary?
+//! The Wada property by merging basins (Daza, Wagemakers, Sanjuán 2018).
+//!
+//! Basins have the Wada property if all of them share one boundary. Equivalently, the boundary between one basin
+//! and the union of all others is the same for each basin.
 
-use crate::{Error, LabelImage};
+use crate::error::Error;
+use crate::raster::LabelImage;
 
 /// How far apart the boundaries of the basins are.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WadaTest {
-    /// The distance tested, in pixels along rows and columns.
+    /// The distance tested, in steps along rows and columns.
     pub distance: usize,
-    /// The largest share of the window's pixels that belong to the boundary of one basin against all
-    /// others, and lie farther from that of another basin. Zero: the Wada property at this distance.
-    pub apart: f64,
-    /// The same as a share of the boundary's own pixels.
-    pub boundary_apart: f64,
+    /// Pixels on the boundary of one basin that are farther than `distance` from the boundary of another basin,
+    /// as a fraction of all pixels of the image: the largest over all pairs of basins. Zero means that the Wada
+    /// property holds at this distance.
+    pub far_image_fraction: f64,
+    /// The same pixels as a fraction of the pixels on the first basin's boundary.
+    pub far_boundary_fraction: f64,
 }
 
 impl LabelImage {
-    /// Compares the boundaries of each basin against the union of the others.
+    /// Compares the boundaries of all pairs of basins. Each is a boundary against the union of all other basins.
     ///
     /// # Errors
     /// [`Error::TooFewLabels`] for fewer than three labels.
@@ -28,8 +33,9 @@ impl LabelImage {
             labels.iter().map(|&label| self.boundary_of(label)).collect();
         let distances: Vec<Vec<usize>> =
             boundaries.iter().map(|boundary| self.distances(boundary)).collect();
-        let (mut apart, mut boundary_apart) = (0.0f64, 0.0f64);
+        let (mut of_image, mut of_boundary) = (0.0f64, 0.0f64);
         for (one, boundary) in boundaries.iter().enumerate() {
+            // With three labels every label has a boundary. The 1 only keeps the division below safe.
             let own = boundary.iter().filter(|&&on| on).count().max(1);
             for other in (0..labels.len()).filter(|&other| other != one) {
                 let far = boundary
@@ -37,21 +43,22 @@ impl LabelImage {
                     .zip(&distances[other])
                     .filter(|&(&on, &away)| on && away > distance)
                     .count() as f64;
-                apart = apart.max(far / boundary.len() as f64);
-                boundary_apart = boundary_apart.max(far / own as f64);
+                of_image = of_image.max(far / boundary.len() as f64);
+                of_boundary = of_boundary.max(far / own as f64);
             }
         }
-        Ok(WadaTest { distance, apart, boundary_apart })
+        Ok(WadaTest { distance, far_image_fraction: of_image, far_boundary_fraction: of_boundary })
     }
 
-    /// The pixels with a neighbour across the border of a label, on both sides of it.
+    /// The pixels on either side of the border of a label: one of the pixel and its neighbour has the label.
     fn boundary_of(&self, label: u16) -> Vec<bool> {
         let inside = |at: usize| self.labels[at] == label;
         let borders = |at: usize| self.neighbours(at).any(|next| inside(next) != inside(at));
         (0..self.labels.len()).map(borders).collect()
     }
 
-    /// Steps along rows and columns from every pixel to the nearest marked one.
+    /// The number of steps along rows and columns from every pixel to the nearest marked one, by a breadth-first
+    /// search from all marked pixels; `usize::MAX` if none is marked.
     fn distances(&self, marked: &[bool]) -> Vec<usize> {
         let mut distances = vec![usize::MAX; marked.len()];
         let mut front: Vec<usize> = (0..marked.len()).filter(|&at| marked[at]).collect();
@@ -73,6 +80,7 @@ impl LabelImage {
         distances
     }
 
+    /// The two to four pixels beside a pixel, by their index in `labels`.
     fn neighbours(&self, at: usize) -> impl Iterator<Item = usize> + use<> {
         let (columns, pixels) = (self.grid.columns, self.labels.len());
         let column = at % columns;

@@ -1,11 +1,11 @@
-//! Basins that are known exactly, each by the name of its case.
+//! Basins that are known exactly, each with the name of its test case (b1, b2, …).
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::{
     BoxCount, Branch, Fate, Grid, Interval, IntervalBasins, LabelImage, PreimageTree, Refinement,
-    Remainder, TrapSet, classify, entropy, equally_spaced_shares, geometric_limit, interval_basins,
-    occupied_boxes, power_law, raster, uncertain_share,
+    ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
+    interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -27,7 +27,7 @@ fn cantor_label(x: f64, colours: u16) -> u16 {
     colours
 }
 
-/// The gap (1/3, 2/3) and its preimages, with the level as label.
+/// The gap (1/3, 2/3) and its preimages.
 fn cantor_levels(depth: usize) -> IntervalBasins {
     let map = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * x - 2.0 });
     let branches = [
@@ -40,10 +40,10 @@ fn cantor_levels(depth: usize) -> IntervalBasins {
     interval_basins(&map, &[gap], &branches, interval(0.0, 1.0), refinement).unwrap()
 }
 
-/// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the one before.
+/// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the length before.
 fn extrapolated(levels: &IntervalBasins, colours: usize, label: usize) -> f64 {
     let lengths: Vec<f64> = levels.levels(0).values().map(|(_, length)| *length).collect();
-    // More levels would add more rounding than digits.
+    // Twelve levels: the rounding errors of further ones exceed their length.
     let own: Vec<f64> = lengths.into_iter().take(12).skip(label).step_by(colours).collect();
     let (value, error) = geometric_limit(&own).unwrap();
     assert!(error < 1e-12, "{error:e}");
@@ -66,11 +66,11 @@ fn b1_two_colour_cantor_basin() {
     let law = power_law(&points).unwrap();
     assert!((law.exponent.value + 2f64.ln() / 3f64.ln()).abs() < 1e-12);
     assert_eq!(law.warning, None);
-    // The uncertainty exponent is what is left of the dimension of the line.
+    // The uncertainty exponent is the dimension of the line less that of the boundary.
     assert!((1.0 + law.exponent.value - 0.369_070_246_428_543).abs() < 1e-12);
-    let shares = [extrapolated(&levels, 2, 0), extrapolated(&levels, 2, 1)];
-    assert!((entropy(shares) - 0.673_011_667_009_256_5).abs() < 1e-12);
-    // The tool on what 16 levels decide: (2/3)^13 of a box at the third level is left.
+    let fractions = [extrapolated(&levels, 2, 0), extrapolated(&levels, 2, 1)];
+    assert!((entropy(fractions) - 0.673_011_667_009_256_5).abs() < 1e-12);
+    // From the intervals of 16 levels: (2/3)^13 of a box at the third level is undecided.
     let count = coloured(&levels, 2).boxes(1.0 / 27.0, 1e-4).unwrap();
     let boundary = count.boundary_entropy().unwrap();
     assert!((boundary - 0.673_011_667_009_256_5).abs() < (2.0f64 / 3.0).powi(13), "{boundary}");
@@ -92,10 +92,10 @@ fn b1_leaves_a_cantor_set() {
         assert_eq!(gaps.intervals().len(), 2 << level);
         assert!((gaps.measure() - (2.0f64 / 3.0).powi(level as i32 + 1)).abs() < 1e-12);
     }
-    let Remainder::Cantor { growth } = tree.remainder() else { panic!() };
+    let ResidualSet::Cantor { growth } = tree.residual_set() else { panic!() };
     assert!((growth - 2f64.ln()).abs() < 1e-12);
     assert_eq!(tree.complete_levels(), 13);
-    // Told by its dimension too: ends fill boxes a little off the triadic grid like 2ⁿ.
+    // The dimension of the ends agrees: 2ⁿ boxes of size 3⁻ⁿ, laid a little off the triadic grid, contain ends.
     let boxes: Vec<(f64, f64)> = (2..=10)
         .map(|n| {
             let size = 3f64.powi(-n);
@@ -106,7 +106,7 @@ fn b1_leaves_a_cantor_set() {
     assert!((law.exponent.value + 0.630_929_753_571_457).abs() < 1e-12, "{law:?}");
 }
 
-/// B4's map leaves no Cantor set: two intervals a level, for ever.
+/// The map of case b4 has two intervals in every level, so that no Cantor set remains.
 #[test]
 fn b4_leaves_a_countable_set() {
     let map = |x: f64| Some(x + x * x);
@@ -116,8 +116,8 @@ fn b4_leaves_a_countable_set() {
     ];
     let trap = interval(-0.01, 0.0);
     let tree = PreimageTree::grow(&map, &branches, trap, interval(-1.0, 0.0), 60);
-    assert_eq!(tree.remainder(), Remainder::Countable { power: 0.0 });
-    // A tree that holds together: every node maps into its parent.
+    assert_eq!(tree.residual_set(), ResidualSet::Countable { power: 0.0 });
+    // Every node is mapped into its parent.
     for node in tree.nodes().iter().skip(1) {
         let parent = tree.nodes()[node.parent.unwrap()];
         assert_eq!(node.level, parent.level + 1);
@@ -127,37 +127,40 @@ fn b4_leaves_a_countable_set() {
     }
 }
 
-/// The levels as `colours` basins.
+/// The intervals as `colours` basins: the label of an interval is its level modulo `colours`.
 fn coloured(levels: &IntervalBasins, colours: usize) -> IntervalBasins {
-    let traps: Vec<_> =
-        levels.parts().iter().map(|part| (part.interval, (part.level % colours) as u16)).collect();
-    let nothing = |_: f64| None;
-    interval_basins(&nothing, &traps, &[], levels.window(), Refinement::default()).unwrap()
+    let traps: Vec<_> = levels
+        .intervals()
+        .iter()
+        .map(|part| (part.interval, (part.level % colours) as u16))
+        .collect();
+    let no_map = |_: f64| None;
+    interval_basins(&no_map, &traps, &[], levels.window(), Refinement::default()).unwrap()
 }
 
 #[test]
 fn b2_three_colour_cantor_basin() {
     let levels = cantor_levels(18);
     let exact = [9.0 / 19.0, 6.0 / 19.0, 4.0 / 19.0];
-    let shares = [0, 1, 2].map(|label| extrapolated(&levels, 3, label));
-    for (share, exact) in shares.into_iter().zip(exact) {
-        assert!((share - exact).abs() < 1e-12, "{share} {exact}");
+    let fractions = [0, 1, 2].map(|label| extrapolated(&levels, 3, label));
+    for (fraction, exact) in fractions.into_iter().zip(exact) {
+        assert!((fraction - exact).abs() < 1e-12, "{fraction} {exact}");
     }
-    assert!((entropy(shares) - 1.045_978_165_699_395).abs() < 1e-12);
+    assert!((entropy(fractions) - 1.045_978_165_699_395).abs() < 1e-12);
     for n in 1..=9 {
         let count = coloured(&levels, 3).boxes(3f64.powi(-n), 1e-4).unwrap();
         assert_eq!(count.mixed, 1 << n, "3^-{n}");
-        // What is decided of a mixed box is above ln 2: fractal.
+        // An entropy above ln 2 shows that the boundary is fractal.
         assert!(count.boundary_entropy().unwrap() > 2f64.ln());
     }
-    // One boundary for all three.
+    // All three basins share one boundary.
     let pixels = 729;
     let window = interval(0.0, 1.0);
     let grid = Grid { x: window, y: window, columns: pixels, rows: 3 };
     let image = raster(grid, |x| cantor_label(x, 3), |&label, _| label, |_| Continue(())).unwrap();
-    // A gap of one colour is 3 pixels wide at the last but one level: 4 pixels reach all colours.
-    assert_eq!(image.wada(4).unwrap().boundary_apart, 0.0);
-    assert!(image.wada(1).unwrap().boundary_apart > 0.1);
+    // At the last level but one a gap of one colour is 3 pixels wide. Within 4 pixels there are all colours.
+    assert_eq!(image.wada(4).unwrap().far_boundary_fraction, 0.0);
+    assert!(image.wada(1).unwrap().far_boundary_fraction > 0.1);
 }
 
 #[test]
@@ -166,13 +169,13 @@ fn b4_one_way_fixed_point() {
     let traps = TrapSet::new(vec![(interval(-0.5, 0.0), 1)]).unwrap();
     let label = |x: f64| u16::from(classify(&map, &traps, x, 100_000).0 == Fate::Trapped(1));
     let window = interval(-1.5, 0.5);
-    // The basin is [−1, 0]. Points just right of 0 pass slowly and leave.
+    // The basin is [−1, 0]. Orbits that start right of 0 leave slowly.
     assert_eq!(label(-1.0 + 1e-12), 1);
     assert_eq!(label(-1.0 - 1e-12), 0);
     assert_eq!((label(0.0), label(1e-4)), (1, 0));
-    let shares = equally_spaced_shares(window, 1000, label).unwrap();
-    assert!(shares[&1].covers(0.5) && shares[&1].half_width() < 2e-3);
-    // From −½ the distance to 0 falls under these after so many steps.
+    let bounds = equally_spaced_fractions(window, 1000, label).unwrap()[&1].bounds;
+    assert!(bounds.covers(0.5) && bounds.half_width() < 2e-3);
+    // Pairs of a distance to 0 and the number of steps from −½ until the orbit is closer.
     let mut x = -0.5;
     let mut marks =
         [(1e-2, 94), (1e-3, 992), (1e-4, 9990), (1e-5, 99_987), (1e-6, 999_985)].into_iter();
@@ -202,41 +205,41 @@ fn b6_stripes() {
     assert!((boxes.basin_entropy() - 0.318_257_084_147_406_4).abs() < 1e-15);
     assert!((boxes.boundary_entropy().unwrap() - 0.636_514_168_294_812_8).abs() < 1e-15);
     let test = image.wada(1).unwrap();
-    assert!((test.apart - 1.0 / 6.0).abs() < 1e-15, "{test:?}");
-    assert_eq!(image.wada(4).unwrap().apart, 0.0);
+    assert!((test.far_image_fraction - 1.0 / 6.0).abs() < 1e-15, "{test:?}");
+    assert_eq!(image.wada(4).unwrap().far_image_fraction, 0.0);
     let legend = image.legend(|label| format!("basin {label}"));
     assert_eq!(legend.len(), 3);
     assert_eq!((legend[1].name.as_str(), legend[1].pixels), ("basin 1", 48));
 }
 
-/// The entropy of a ball that a smooth boundary cuts at a random distance from its middle.
+/// The mean entropy of a ball that a smooth boundary cuts at a random distance from its middle.
 #[test]
 fn b7_smooth_boundaries() {
-    // Shares of a ball on one side of a cut at distance t.
+    // The fraction of a unit ball in one, two and three dimensions beyond a cut at distance t from its middle.
     let one = |t: f64| 0.5 * (1.0 - t);
     let two = |t: f64| (t.acos() - t * (1.0 - t * t).sqrt()) / std::f64::consts::PI;
     let three = |t: f64| 0.25 * (1.0 - t) * (1.0 - t) * (2.0 + t);
-    let mean = |share: &dyn Fn(f64) -> f64| {
+    let mean = |fraction: &dyn Fn(f64) -> f64| {
         let steps = 200_000;
         let at = |k: u32| -1.0 + 2.0 * (f64::from(k) + 0.5) / f64::from(steps);
-        (0..steps).map(|k| entropy([share(at(k)), 1.0 - share(at(k))])).sum::<f64>()
+        (0..steps).map(|k| entropy([fraction(at(k)), 1.0 - fraction(at(k))])).sum::<f64>()
             / f64::from(steps)
     };
     let known: [(&dyn Fn(f64) -> f64, f64); 3] =
         [(&one, 0.5), (&two, 0.439_509_330_638), (&three, 0.396_091_762_873)];
-    for (share, exact) in known {
-        assert!((mean(share) - exact).abs() < 1e-9, "{} {exact}", mean(share));
+    for (fraction, exact) in known {
+        assert!((mean(fraction) - exact).abs() < 1e-9, "{} {exact}", mean(fraction));
     }
-    // And by boxes on intervals: one smooth boundary, boxes laid at many offsets.
+    // The same in one dimension by box counts of intervals: one boundary, at many offsets from the boxes.
     let offsets = 2000;
     let sum: f64 = (0..offsets)
         .map(|k| {
             let cut = 0.25 + 0.1 * (f64::from(k) + 0.5) / f64::from(offsets);
             let traps = [(interval(0.0, cut), 1), (interval(cut.next_up(), 1.0), 2)];
-            let nothing = |_: f64| None;
+            let no_map = |_: f64| None;
             let window = interval(0.0, 1.0);
             let basins =
-                interval_basins(&nothing, &traps, &[], window, Refinement::default()).unwrap();
+                interval_basins(&no_map, &traps, &[], window, Refinement::default()).unwrap();
             let count: BoxCount = basins.boxes(0.1, 1e-6).unwrap();
             assert_eq!((count.mixed, count.open), (1, 0));
             count.entropy
@@ -245,7 +248,8 @@ fn b7_smooth_boundaries() {
     assert!((sum / f64::from(offsets) - 0.5).abs() < 1e-5);
 }
 
-/// θ → θ + a sin 2θ − b sin 4θ − x sin θ, x → −J cos θ: does the orbit end at θ = 0 or π?
+/// The map θ → θ + a sin 2θ − b sin 4θ − x sin θ, x → −J cos θ. The label says whether the orbit ends at θ = 0 or
+/// at θ = π.
 #[test]
 fn b8_grebogi_mcdonald_ott_yorke() {
     const A: f64 = 1.32;
@@ -257,7 +261,7 @@ fn b8_grebogi_mcdonald_ott_yorke() {
             let next = theta + A * (2.0 * theta).sin() - B * (4.0 * theta).sin() - x * theta.sin();
             x = -J * theta.cos();
             theta = next.rem_euclid(std::f64::consts::TAU);
-            // Both fixed points attract from well beyond a thousandth.
+            // Both fixed points attract from a distance much larger than a thousandth.
             if theta.sin().abs() < 1e-3 && (x.abs() - J).abs() < 1e-3 {
                 return if theta.cos() > 0.0 { 1 } else { 2 };
             }
@@ -268,8 +272,8 @@ fn b8_grebogi_mcdonald_ott_yorke() {
     let points: Vec<(f64, f64)> = (2..=7)
         .map(|k| {
             let epsilon = 10f64.powi(-k);
-            let share = uncertain_share(window, epsilon, 20_000, 7, label).unwrap();
-            (epsilon, share.value)
+            let fraction = uncertain_fraction(window, epsilon, 20_000, 7, label).unwrap();
+            (epsilon, fraction.value)
         })
         .collect();
     let law = power_law(&points).unwrap();
@@ -289,7 +293,7 @@ fn b9_newtons_method_for_three_roots() {
                 return 0;
             }
             (x, y) = ((2.0 * x + square_x / size) / 3.0, (2.0 * y - square_y / size) / 3.0);
-            // Within ¼ of a root Newton's method contracts towards it.
+            // Newton's method converges to a root from every point within ¼ of it.
             for (k, angle) in [0.0, 2.0, 4.0].into_iter().enumerate() {
                 let (sin, cos) = (angle * std::f64::consts::PI / 3.0).sin_cos();
                 if (x - cos).hypot(y - sin) < 0.25 {
@@ -303,35 +307,40 @@ fn b9_newtons_method_for_three_roots() {
     let grid = Grid { x: window, y: window, columns: 1024, rows: 1024 };
     let image = raster(grid, |x| x, |&x, y| label(x, y), |_| Continue(())).unwrap();
     let pixels = (1024 * 1024) as f64;
-    for ((found, count), (label, share)) in
+    for ((found, count), (label, fraction)) in
         image.counts().into_iter().zip([(1, 0.3452), (2, 0.3274), (3, 0.3274)])
     {
         assert_eq!(found, label);
-        assert!((count as f64 / pixels - share).abs() < 5e-4, "{label}: {}", count as f64 / pixels);
+        assert!(
+            (count as f64 / pixels - fraction).abs() < 5e-4,
+            "{label}: {}",
+            count as f64 / pixels
+        );
     }
-    // Under eight pixels boxes see the pixels, not the boundary.
+    // Boxes of fewer than eight pixels count the steps of the pixels, not the boundary.
     let points: Vec<(f64, f64)> = [8, 12, 16, 24, 32, 48, 64]
         .into_iter()
         .map(|side| image.boxes(side).map(|b| (b.size, b.mixed as f64)).unwrap())
         .collect();
     let law = power_law(&points).unwrap();
     assert!((1.35..1.5).contains(&-law.exponent.value), "{law:?}");
-    // Wada: all three share one boundary, to a pixel or two.
-    assert!(image.wada(3).unwrap().boundary_apart < 0.05);
+    // The Wada property: all three basins share one boundary, to three pixels.
+    assert!(image.wada(3).unwrap().far_boundary_fraction < 0.05);
     let exponents: Vec<(f64, f64)> = [-2, -3, -4]
         .into_iter()
         .map(|k| {
             let epsilon = 10f64.powi(k);
-            // On the line y = 0.3 the boundary has one dimension less.
-            let share = uncertain_share(window, epsilon, 100_000, 3, |x| label(x, 0.3)).unwrap();
-            (epsilon, share.value)
+            // On the line y = 0.3 the dimension of the boundary is smaller by one than in the plane.
+            let fraction =
+                uncertain_fraction(window, epsilon, 100_000, 3, |x| label(x, 0.3)).unwrap();
+            (epsilon, fraction.value)
         })
         .collect();
     let exponent = power_law(&exponents).unwrap().exponent.value;
     assert!((0.55..0.65).contains(&exponent), "{exponent}");
 }
 
-/// {k^−3}: countable, of dimension 1/4.
+/// The set {k^−3} is countable and has box dimension 1/4.
 #[test]
 fn the_cubes_of_one_over_k_have_dimension_one_quarter() {
     let points: Vec<f64> = (1..=200_000u32).map(|k| f64::from(k).powi(-3)).collect();
@@ -342,36 +351,36 @@ fn the_cubes_of_one_over_k_have_dimension_one_quarter() {
     assert_eq!(law.warning, None);
 }
 
-/// By balls about the boundary, exactly: 2ε for each of the two ends of [−1, 0].
+/// The points within ε of the two ends of [−1, 0] are 2ε of a window of length 2.
 #[test]
-fn exact_uncertain_shares() {
+fn uncertain_fractions_of_an_interval() {
     let traps = [
         (interval(-1.5, -1.0), 0),
         (interval((-1.0f64).next_up(), 0.0), 1),
         (interval(f64::MIN_POSITIVE, 0.5), 0),
     ];
-    let nothing = |_: f64| None;
+    let no_map = |_: f64| None;
     let window = interval(-1.5, 0.5);
-    let basins = interval_basins(&nothing, &traps, &[], window, Refinement::default()).unwrap();
+    let basins = interval_basins(&no_map, &traps, &[], window, Refinement::default()).unwrap();
     for epsilon in [1e-1, 1e-3, 1e-6] {
-        let share = basins.uncertain_share(epsilon, 1e-12).unwrap();
-        assert!((share.value - 2.0 * epsilon).abs() < 1e-12);
+        let exact = basins.uncertain_fraction(epsilon, 1e-12).unwrap().middle();
+        assert!((exact - 2.0 * epsilon).abs() < 1e-12);
         let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
-        let sampled = uncertain_share(window, epsilon, 100_000, 5, label).unwrap();
-        assert!(sampled.lower < share.value && share.value < sampled.upper, "{sampled:?}");
+        let sampled = uncertain_fraction(window, epsilon, 100_000, 5, label).unwrap();
+        assert!(sampled.lower < exact && exact < sampled.upper, "{sampled:?}");
     }
 }
 
 #[test]
 fn open_boxes_are_counted() {
-    // Known on [0, 0.1] and [0.9, 1] only: sixteen boxes of 0.05 between are open.
+    // The label is known on [0, 0.1] and [0.9, 1] only. The sixteen boxes of 0.05 between them are open.
     let traps = [(interval(0.0, 0.1), 1), (interval(0.9, 1.0), 2)];
-    let nothing = |_: f64| None;
+    let no_map = |_: f64| None;
     let basins =
-        interval_basins(&nothing, &traps, &[], interval(0.0, 1.0), Refinement::default()).unwrap();
+        interval_basins(&no_map, &traps, &[], interval(0.0, 1.0), Refinement::default()).unwrap();
     let count = basins.boxes(0.05, 1e-6).unwrap();
     assert_eq!((count.boxes, count.mixed, count.open), (20, 0, 16));
     let nowhere =
-        interval_basins(&nothing, &[], &[], interval(0.0, 1.0), Refinement::default()).unwrap();
+        interval_basins(&no_map, &[], &[], interval(0.0, 1.0), Refinement::default()).unwrap();
     assert_eq!(nowhere.boxes(0.05, 1e-6).unwrap().open, 20);
 }

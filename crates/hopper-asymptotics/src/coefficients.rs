@@ -1,18 +1,23 @@
-//! β, λ and Δ of the approximate map, as printed and corrected.
+//! β, λ and Δ of the leading-order map, as printed in the paper and as corrected.
 
-use crate::Error;
+use crate::error::Error;
 use passive_hopper::{MassRatio, alpha_star};
 
-/// Which λ.
+/// The λ of the paper, or the corrected one.
 ///
-/// The paper's Eqs. (18)–(20) drop a term of the same order as the one they keep: in
-/// α'² − α² = 2αμ [α t⁴/24 − (2α − sin 2α) δ t] the first bracket is a quarter of the second for
-/// t = β δ^{1/3}. The printed λ is 4/3 of the true one.
+/// The paper's Eqs. (18)–(20) drop a term of the same order as the one they keep. With t = β δ^{1/3},
+///
+/// ```text
+///   α'² − α² = 2αμ [α t⁴/24 − (2α − sin 2α) δ t]
+/// ```
+///
+/// By the definition of β, (2α − sin 2α) δ t = α t⁴/6. The first term is a quarter of the second, and the paper
+/// drops it. The printed λ is therefore 4/3 of the true one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Form {
-    /// λ = β μ (2α* − sin 2α*), as in the paper.
+    /// λ = β μ (2α* − sin 2α*), as printed. Use it only to reproduce the paper's numbers.
     Printed,
-    /// λ = ¾ β μ (2α* − sin 2α*), what the map has.
+    /// λ = ¾ β μ (2α* − sin 2α*), as the exact map has it.
     Corrected,
 }
 
@@ -23,7 +28,8 @@ pub struct Coefficients {
     pub n: u64,
     /// α*_n.
     pub alpha_star: f64,
-    /// β = [6 (2α* − sin 2α*)/α*]^{1/3}: the flight is longer by t ≈ β δ^{1/3} (Eq. 14).
+    /// β = [6 (2α* − sin 2α*)/α*]^{1/3}: the first flight from α* + δ takes longer than 2α* by t ≈ β δ^{1/3}
+    /// (Eq. 14).
     pub beta: f64,
     /// λ of f(α* + δ) ≈ α* + δ − λ δ^{4/3} (Eqs. 18, 19).
     pub lambda: f64,
@@ -32,19 +38,20 @@ pub struct Coefficients {
 impl Coefficients {
     /// The constants at α*_n, in the given form.
     ///
-    /// By tan α* = α*: sin 2α* = 2α*/(1+α*²), so 2α* − sin 2α* = 2α*³/(1+α*²).
-    ///
     /// # Errors
     /// [`Error::Index`] for n = 0.
     pub fn new(n: u64, mass_ratio: MassRatio, form: Form) -> Result<Self, Error> {
         if n == 0 {
             return Err(Error::Index { n });
         }
-        let alpha_star = alpha_star(n).high;
+        // From tan α* = α* follows sin 2α* = 2α*/(1+α*²), and therefore
+        //   2α* − sin 2α* = 2α*³/(1+α*²)      β³ = 12α*²/(1+α*²)
+        // Neither cancels, and neither needs a sine.
+        let alpha_star = alpha_star(n);
         let square = alpha_star * alpha_star;
-        let gap = 2.0 * alpha_star * (square / (1.0 + square));
+        let double_minus_sine = 2.0 * alpha_star * (square / (1.0 + square));
         let beta = pxfm::f_cbrt(12.0 * (square / (1.0 + square)));
-        let printed = beta * mass_ratio.mu() * gap;
+        let printed = beta * mass_ratio.mu() * double_minus_sine;
         let lambda = match form {
             Form::Printed => printed,
             Form::Corrected => 0.75 * printed,
@@ -52,8 +59,10 @@ impl Coefficients {
         Ok(Coefficients { n, alpha_star, beta, lambda })
     }
 
-    /// Δ = λ⁻³, the leading estimate of the interval of attraction (Eq. 20).
-    pub fn delta(&self) -> f64 {
+    /// Δ = λ⁻³, the leading estimate of the length of the trapping region (Eq. 20).
+    ///
+    /// It is the δ at which the leading-order map gives δ′ = δ − λ δ^{4/3} = 0.
+    pub fn trap_length(&self) -> f64 {
         1.0 / (self.lambda * self.lambda * self.lambda)
     }
 }

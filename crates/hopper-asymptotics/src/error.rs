@@ -1,4 +1,4 @@
-//! What an expansion refuses.
+//! Input that the expansions refuse.
 
 use thiserror::Error;
 
@@ -6,14 +6,15 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The expansions are about α*_n with n ≥ 1; at α*_0 = 0 the exponents are others.
-    #[error("there is no expansion of this kind about the fixed point α*_{n}")]
+    /// The index 0. At α*_0 = 0 the expansion has other exponents: see
+    /// [`small_hop_loss`](crate::small_hop_loss).
+    #[error("an expansion about the fixed point α*_{n}: the index must be at least 1")]
     Index {
         /// The index given.
         n: u64,
     },
-    /// Outside the range in which the error of the expansion was measured: of an offset, a speed, or λ.
-    #[error("the expansion holds from {left} to {right}, not at {value}")]
+    /// An offset, a speed, a number of hops, or λ, outside the range in which the error was measured.
+    #[error("{value} is outside the range of the expansion: it holds from {left} to {right}")]
     OutsideRange {
         /// The value given.
         value: f64,

@@ -1,4 +1,4 @@
-//! The passive hopper's lift-off map near its lossless hops, in powers of δ^{1/3}.
+//! The passive hopper's lift-off map f near its fixed points α*_n, in powers of δ^{1/3} with δ = α − α*_n.
 //!
 //! ```text
 //!   f(α* + δ) = α* + δ −    λ  δ^{4/3} + …       δ > 0: attracts, algebraically
@@ -6,14 +6,18 @@
 //!   λ = ¾ β μ (2α* − sin 2α*),   β = [6 (2α* − sin 2α*)/α*]^{1/3},   Δ ≈ λ⁻³
 //! ```
 //!
+//! Δ is the length of the trapping region [α*, α* + Δ], from which no orbit escapes. The paper calls it the interval
+//! of attraction. All numbers are dimensionless, as in `passive-hopper`.
+//!
 //! | item | role |
 //! |---|---|
-//! | [`Coefficients`] | β, λ, Δ and the approximate map of a fixed point at a mass ratio |
-//! | [`Form`] | the paper's λ, or the corrected one |
-//! | [`LEFT_FACTOR`] | the 10 |
-//! | [`Right`], [`Left`], [`Expansion`] | the map to higher orders on either side, with its error |
-//! | [`Decay`] | the law of the algebraic approach, and the number of hops it takes |
-//! | [`ladder`], [`interval_length`] | α*_n and Δ_n for large n |
+//! | [`Coefficients`] | β, λ, Δ and the leading-order map of a fixed point at a mass ratio |
+//! | [`Form`] | the printed λ, or the corrected one |
+//! | [`LEFT_FACTOR`] | the factor 10 |
+//! | [`RightExpansion`], [`LeftExpansion`] | the map to higher orders on either side |
+//! | [`ExpansionValue`] | a value of an expansion, with a bound on its error |
+//! | [`Decay`] | the law of the algebraic approach, and the number of hops that it takes |
+//! | [`fixed_point_series`], [`trap_length_series`] | α*_n for large n, and Δ_n for large λ |
 //! | [`small_hop_loss`] | the map about α*_0 = 0 |
 //!
 //! ```
@@ -23,36 +27,40 @@
 //! let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?;
 //! let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
 //! assert!((corrected.lambda - 3.616949794602146).abs() < 1e-14);
-//! assert!((printed.delta() / corrected.delta() - 27.0 / 64.0).abs() < 1e-14);
+//! assert!((printed.trap_length() / corrected.trap_length() - 27.0 / 64.0).abs() < 1e-14);
 //! # Ok::<(), hopper_asymptotics::Error>(())
 //! ```
 //!
 //! # Accuracy
-//! The coefficients are right to a few ulps. [`Right`] and [`Left`] give every value with a bound on its
-//! error, measured against the exact map in (n, δ), and refuse what lies outside the range of that
-//! measurement; the leading-order map of [`Coefficients`] errs by the next term, which it states.
+//! The coefficients are right to a few ulps. Every [`ExpansionValue`] has a bound on its error, whose coefficient was
+//! measured against the exact map. Input outside the range of that measurement is an error. The leading-order map of
+//! [`Coefficients`] has no range; its documentation states the next term.
 //!
 //! # Not here
-//! Values where no expansion holds: the exact map is in `passive-hopper`, exact Δ in `hopper-basin`.
+//! - Values where no expansion holds: the exact map is in `passive-hopper`, the exact Δ in `hopper-basin`.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
-//! Phys. Rev. E, Sec. IV; the factor ¾ and the left side are derived in `docs/model.md`.
+//! Phys. Rev. E, Sec. IV (cited as "paper"). The factor ¾ and the left side are derived in `docs/model.md`.
 
 mod coefficients;
 mod decay;
 mod error;
-mod ladder;
-mod left;
+mod expansion_value;
+mod fixed_point_series;
+mod left_expansion;
 mod local_map;
-mod right;
+mod right_expansion;
 mod small_alpha;
+mod trap_length_series;
 
 pub use coefficients::{Coefficients, Form};
 pub use decay::Decay;
 pub use error::Error;
-pub use ladder::{SMALLEST_LAMBDA, interval_length, ladder};
-pub use left::{LEFT_RANGE, Left};
+pub use expansion_value::ExpansionValue;
+pub use fixed_point_series::fixed_point_series;
+pub use left_expansion::{LEFT_RANGE, LeftExpansion};
 pub use local_map::LEFT_FACTOR;
-pub use right::{Expansion, RIGHT_RANGE, Right};
+pub use right_expansion::{RIGHT_RANGE, RightExpansion};
 pub use small_alpha::{SMALL_ALPHA_RANGE, small_hop_loss};
+pub use trap_length_series::{SMALLEST_LAMBDA, trap_length_series};

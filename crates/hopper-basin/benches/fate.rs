@@ -4,16 +4,15 @@
 
 use basin_of_attraction::{Grid, Interval};
 use criterion::{Criterion, criterion_group, criterion_main};
-use hopper_basin::{Error, Fates, basin_columns, basin_raster};
-use passive_hopper::{MassRatio, alpha_star};
+use hopper_basin::{Error, Fates, basin_columns, basin_raster, first_humps};
+use passive_hopper::MassRatio;
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
 /// The window of Fig. 6 from M = 0.1 on.
 fn window(columns: usize, rows: usize) -> Grid {
     let x = Interval { left: 0.1, right: 1.0 };
-    let y = Interval { left: alpha_star(1).high, right: alpha_star(6).high };
-    Grid { x, y, columns, rows }
+    Grid { x, y: first_humps(5), columns, rows }
 }
 
 fn fates(criterion: &mut Criterion) {

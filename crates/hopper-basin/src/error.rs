@@ -1,43 +1,56 @@
-//! What cannot be asked.
+//! Errors of traps, fates and basins.
 
 use thiserror::Error;
 
-/// Why a trap, crisis or basin could not be computed.
+/// Why a trap, a crisis, a fate or a basin could not be computed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The hopper refused.
+    /// An error of the hopper's model, such as a lift-off speed that is not positive.
     #[error(transparent)]
     Hopper(#[from] passive_hopper::Error),
-    /// The basin tools refused.
+    /// An error of the generic basin tools, such as an empty raster.
     #[error(transparent)]
-    Basin(#[from] basin_of_attraction::Error),
-    /// A bracket that theory guarantees did not hold numerically.
-    #[error("no root where theory has one, on hump {n}: {source}")]
-    Root {
-        /// The hump.
+    BasinOfAttraction(#[from] basin_of_attraction::Error),
+    /// The root search failed on a bracket that theory guarantees.
+    #[error("theory guarantees a root on hump {n}, but the search failed: {source}")]
+    RootSearch {
+        /// The index of the hump.
         n: u64,
-        /// What the root finder said.
+        /// The error of the root finder.
         source: hybrid_system::Error,
     },
-    /// A window whose fixed points do not fit the labels, or that goes below zero.
-    #[error("a window of lift-off speeds must lie in [0, {largest}], not [{bottom}, {top}]")]
+    /// A window of lift-off speeds that is empty, starts below zero, or contains fixed points
+    /// whose indices have no labels.
+    #[error(
+        "a window of lift-off speeds must increase and lie in [0, {largest}], not [{bottom}, {top}]"
+    )]
     Window {
-        /// Lowest speed.
+        /// The lowest speed of the window.
         bottom: f64,
-        /// Highest speed.
+        /// The highest speed of the window.
         top: f64,
-        /// Highest speed whose fixed points have labels.
+        /// The highest speed whose fixed point has a label.
         largest: f64,
     },
-    /// A measure by no points at all.
-    #[error("no points: {points} on each interval from α*_{from} to α*_{to}")]
+    /// A range of columns that the raster does not have.
+    #[error("the raster has {columns} columns; the range {first}..{end} lies outside")]
+    ColumnRange {
+        /// The number of columns of the raster.
+        columns: usize,
+        /// The first column asked for.
+        first: usize,
+        /// The end of the range, one past the last column asked for.
+        end: usize,
+    },
+    /// Basin fractions need at least one point.
+    #[error("no points to count: {points} on each interval from α*_{from} to α*_{to}")]
     NoPoints {
-        /// First fixed point.
+        /// The index of the first fixed point.
         from: u64,
-        /// Last fixed point.
+        /// The index of the last fixed point.
         to: u64,
-        /// Points asked for on each interval.
+        /// The number of points asked for on each interval.
         points: usize,
     },
     /// An index for which the quantity is not defined or not resolved.
@@ -45,17 +58,28 @@ pub enum Error {
     Index {
         /// The index given.
         n: u64,
-        /// The smallest accepted.
+        /// The smallest index accepted.
         smallest: u64,
-        /// The largest accepted.
+        /// The largest index accepted.
         largest: u64,
     },
-    /// A spacing too fine or too coarse to scan with.
-    #[error("cannot scan a length of {length} at a spacing of {width}")]
-    Width {
+    /// A scan spacing that is not positive, exceeds the length to be scanned, or needs too many
+    /// points.
+    #[error("cannot scan a length of {length} at a spacing of {spacing}")]
+    Spacing {
         /// The spacing asked for.
-        width: f64,
-        /// The length to be scanned, or the largest mass ratio tried.
+        spacing: f64,
+        /// The length to be scanned.
         length: f64,
+    },
+    /// The largest mass ratio of a search is too small: orbits still fall there.
+    #[error(
+        "orbits still fall through α*_{n} at M = {largest}, the largest mass ratio of the search"
+    )]
+    LargestMassRatio {
+        /// The index of the fixed point.
+        n: u64,
+        /// The largest mass ratio of the search.
+        largest: f64,
     },
 }

@@ -1,68 +1,65 @@
 //! Traps, fates and basins of the passive hopper.
 //!
 //! ```text
-//!   f(α) ≤ α      orbits go down the ladder 0 = α*_0 < α*_1 < α*_2 < …
-//!   trap of α*_n = [α*_n, α*_n + Δ_n(M)]: f ≥ α*_n on it, so whoever enters stays and converges
+//!   f(α) ≤ α      orbits descend past the fixed points … > α*_2 > α*_1 > α*_0 = 0
+//!   trap of α*_n = [α*_n, α*_n + Δ_n(M)]: f ≥ α*_n on it, so that an orbit that enters stays and converges to α*_n
 //! ```
+//!
+//! The paper calls the trap an interval of attraction. It is a trapping region: f maps it into itself.
 //!
 //! | item | role |
 //! |---|---|
 //! | [`Trap`] | Δ_n, and why the trap ends there |
+//! | [`crisis`], [`grounding`] | mass ratios from which orbits of a hump fall below its fixed point, or to the ground |
+//! | [`immediate_basin`], [`ImmediateBasin`] | the trap continued into the sudden window, by a scan of stated spacing |
+//! | [`upper_crisis_bracket`] | the mass ratio above 1 from which no orbit of a hump falls, by such scans |
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
-//! | [`crisis`], [`grounding`] | mass ratios at which a hump falls through its fixed point, or to the ground |
-//! | [`reach`], [`Reach`], [`recovery`] | how far a basin reaches into the sudden windows, down to a stated width; mass ratios from which none falls through |
-//! | [`hopper_basins`], [`HopperBasins`] | all basins at fixed M as intervals, with what is undecided |
-//! | [`shares`], [`Shares`] | measures by the paper's protocol |
-//! | [`basin_raster`], [`basin_columns`] | basins over (M, α), whole or some columns at a time |
-//! | [`Fates::labels`] | the fates of many speeds, hopping together |
-//! | [`basin_levels`], [`branches`] | a basin as intervals, level by level, from the map itself |
+//! | [`Fates::labels`] | the fates of many speeds, whose orbits hop together |
+//! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
+//! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
+//! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
+//! | [`basin_levels`], [`branches`] | one basin level by level, from the branches of the map |
+//! | [`first_humps`] | the lift-off speeds [α*_1, α*_{k+1}]; the paper's window has k = 5 |
 //!
 //! ```
-//! use hopper_basin::shares;
+//! use hopper_basin::basin_fractions;
 //! use passive_hopper::MassRatio;
 //! // The paper's 0.037 at M = 0.2.
-//! let share = shares(MassRatio::new(0.2)?, 1, 6, 10_000)?.incessant();
-//! assert!((share - 0.037).abs() < 0.0005);
+//! let fraction = basin_fractions(MassRatio::new(0.2)?, 1, 6, 10_000)?.incessant();
+//! assert!((fraction - 0.037).abs() < 0.0005);
 //! # Ok::<(), hopper_basin::Error>(())
 //! ```
 //!
 //! # Accuracy
-//! Fates are decided by traps, never by closeness; what the budget of hops or the precision of
-//! `f64` leaves open is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles
-//! narrower than any `f64` spacing (canards): a basin there is the one seen at that width.
+//! Traps decide fates; closeness to a fixed point decides none. A fate that the budget of hops or the precision of
+//! `f64` leaves open is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles (canards) narrower
+//! than any spacing of `f64`. A scan there finds what is wider than its spacing.
 //!
-//! Dimensions, entropies and shares with intervals are the generic crate's, and take these basins:
-//! [`basin_of_attraction::IntervalBasins`].
+//! # Not here
+//! Dimensions, entropies and fractions with confidence intervals are in the generic crate `basin_of_attraction`, and work
+//! on these basins.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
 //! Phys. Rev. E, Secs. V and VI.
 
-mod arcs;
-mod basin;
-mod column;
-mod crisis;
+mod basins;
 mod error;
-mod fate;
-mod five_humps;
-mod hump;
-mod intervals;
-mod itinerary;
-mod known;
-mod labels;
-mod ladder;
-mod map;
-mod reach;
-mod strip;
-mod trap;
-mod window;
+mod fates;
+mod raster;
+mod traps;
 
-pub use basin::{Shares, basin_columns, basin_levels, basin_raster, branches, shares};
-pub use crisis::{Crisis, crisis, grounding};
+pub use basins::branches::branches;
+pub use basins::fractions::{BasinFractions, basin_fractions};
+pub use basins::intervals::{HopperBasins, hopper_basins};
+pub use basins::levels::basin_levels;
+pub use basins::rasters::{basin_columns, basin_raster};
+pub use basins::window::first_humps;
 pub use error::Error;
-pub use fate::{Fates, HOP_BUDGET, HopperFate};
-pub use five_humps::five_humps;
-pub use intervals::{HopperBasins, hopper_basins};
-pub use reach::{Reach, ReachEdge, reach, recovery};
-pub use trap::{Trap, TrapEdge};
-pub use window::{RisingWindow, rising_window};
+pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
+pub use fates::hopper_fate::HopperFate;
+pub use traps::crisis::{Crisis, crisis, grounding};
+pub use traps::immediate_basin::{
+    ImmediateBasin, ImmediateBasinEdge, immediate_basin, upper_crisis_bracket,
+};
+pub use traps::trap::{Trap, TrapEdge};

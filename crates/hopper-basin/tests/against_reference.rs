@@ -1,13 +1,13 @@
-//! Traps, crises, fates and the paper's measures against independent values.
+//! Traps, crises, fates and the paper's basin fractions agree with independent values.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use basin_of_attraction::{Interval, PreimageTree, Refinement, Remainder};
+use basin_of_attraction::{Interval, PreimageTree, Refinement, ResidualSet};
 use hopper_basin::{
-    Fates, HopperFate, ReachEdge, Trap, TrapEdge, crisis, grounding, hopper_basins, reach,
-    recovery, shares,
+    Fates, HopperFate, ImmediateBasinEdge, Trap, TrapEdge, basin_fractions, crisis, grounding,
+    hopper_basins, immediate_basin, upper_crisis_bracket,
 };
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use serde_json::Value;
@@ -20,8 +20,7 @@ fn number(value: &Value) -> f64 {
     value.as_str().unwrap().parse().unwrap()
 }
 
-/// Computed with 50 to 130 digits (mpmath). The edge is a root whose position magnifies the rounding
-/// of α*_n, μ and Γ a little; the largest α here is 36, the smallest Δ 4e-5.
+/// The reference was computed with 50 to 130 digits (mpmath). The largest α is 36, the smallest Δ 4e-5.
 #[test]
 fn delta_agrees_with_forty_digits_on_the_contact_intervals() {
     let mut compared = 0;
@@ -67,7 +66,7 @@ fn grounding_opens_where_theory_says() {
 }
 
 #[test]
-fn every_reference_fate() {
+fn fates_agree_with_the_reference() {
     let mut seen = [0; 3];
     for line in include_str!("data/fates.jsonl").lines() {
         let row: Value = serde_json::from_str(line).unwrap();
@@ -85,60 +84,65 @@ fn every_reference_fate() {
     assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
 }
 
-/// Sec. VI B: 1 and 0.953 at M = 0.1, 0.037 at M = 0.2, by the paper's 10 000 points an interval.
+/// Sec. VI B: 1 and 0.953 at M = 0.1, 0.037 at M = 0.2, with 10 000 points on each interval.
 #[test]
-fn the_papers_measures() {
-    let low = shares(MassRatio::new(0.1).unwrap(), 1, 6, 10_000).unwrap();
+fn the_papers_basin_fractions() {
+    let low = basin_fractions(MassRatio::new(0.1).unwrap(), 1, 6, 10_000).unwrap();
     assert_eq!(low.incessant(), 1.0);
     assert!((low.of(1) - 0.953).abs() < 0.0005);
-    let high = shares(MassRatio::new(0.2).unwrap(), 1, 6, 10_000).unwrap();
+    let high = basin_fractions(MassRatio::new(0.2).unwrap(), 1, 6, 10_000).unwrap();
     assert!((high.incessant() - 0.037).abs() < 0.0005);
-    assert!(shares(MassRatio::ONE, 1, 6, 0).is_err() && shares(MassRatio::ONE, 6, 1, 10).is_err());
+    assert!(
+        basin_fractions(MassRatio::ONE, 1, 6, 0).is_err()
+            && basin_fractions(MassRatio::ONE, 6, 1, 10).is_err()
+    );
 }
 
-/// Δ_n λ³ → 1, far beyond the spacing of α: Δ is 5e-24 at n = 10⁷.
+/// Δ_n λ³ → 1 as n grows. At n = 10⁷ Δ is 5e-24, far below the spacing of α.
 #[test]
-fn tiny_traps_keep_their_digits() {
+fn tiny_traps_have_all_their_digits() {
     for n in [1_000, 100_000, 10_000_000] {
         let trap = Trap::new(n, MassRatio::ONE).unwrap();
-        let square = trap.star.high * trap.star.high;
+        let square = trap.fixed_point.value() * trap.fixed_point.value();
         // 2 (1+α*²)⁴/(81 μ³ α*¹¹), with relative corrections of 32/(15 α*²).
-        let leading = 2.0 * 64.0 / 81.0 * (1.0 + 1.0 / square).powi(4) / (square * trap.star.high);
+        let leading =
+            2.0 * 64.0 / 81.0 * (1.0 + 1.0 / square).powi(4) / (square * trap.fixed_point.value());
         assert_relative_eq!(trap.delta, leading, max_relative = 1e-12 + 40.0 / square);
     }
     assert!(Trap::new(u64::MAX, MassRatio::ONE).is_err());
 }
 
-/// For tiny M every hop loses next to nothing, and the fate is known without following it.
+/// For tiny M no hop loses enough to pass a fixed point, and the fate is known without a hop.
 #[test]
 fn tiny_mass_ratios_are_decided_at_once() {
     for m in [1e-300, 1e-9, 1e-3] {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
-        let below = passive_hopper::alpha_star(3).high - 1e-9;
+        let below = passive_hopper::alpha_star(3) - 1e-9;
         assert_eq!(fates.fate_within(below, 0).unwrap().0, HopperFate::Incessant { n: 2 });
     }
-    // The bound holds: the lowest image of the sudden window is above.
+    // The bound is true: every sampled image of the sudden window lies above the fixed point.
     for m in [0.005, 0.01, 0.02] {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
         for n in (1..6).filter(|&n| fates.trap(n).unwrap().edge == TrapEdge::NextFixedPoint) {
             let (left, right) =
-                ((n + 1) as f64 * std::f64::consts::PI, passive_hopper::alpha_star(n + 1).high);
+                ((n + 1) as f64 * std::f64::consts::PI, passive_hopper::alpha_star(n + 1));
             for k in 1..200 {
                 let alpha = left + (right - left) * f64::from(k) / 200.0;
                 assert!(
-                    fates.map().image(alpha).unwrap().unwrap() > fates.trap(n).unwrap().star.high
+                    fates.map().image(alpha).unwrap().unwrap()
+                        > fates.trap(n).unwrap().fixed_point.value()
                 );
             }
         }
     }
 }
 
-/// Every point that a random look finds trapped after k hops lies in level k, and the other way.
+/// A speed lies in level k exactly if its orbit enters the trap after k hops.
 #[test]
 fn levels_are_complete() {
     let fates = Fates::new(MassRatio::new(0.4).unwrap()).unwrap();
     let levels = hopper_basin::basin_levels(&fates, 1, 4, 4, 4001).unwrap();
-    let (left, right) = (passive_hopper::alpha_star(1).high, passive_hopper::alpha_star(4).high);
+    let (left, right) = (passive_hopper::alpha_star(1), passive_hopper::alpha_star(4));
     let mut seen = [0; 5];
     for k in 1..40_000 {
         let alpha = left + (right - left) * (f64::from(k) * 0.618_033_988_749_895).fract();
@@ -156,10 +160,10 @@ fn fates(mass_ratio: f64) -> Fates {
     Fates::new(MassRatio::new(mass_ratio).unwrap()).unwrap()
 }
 
-/// Means over the five humps, from theory's counts at 10⁶ points a hump (part e.4); its error is the
-/// square root of a count.
+/// The reference values are means over five humps, counted with 10⁶ points on each. Their error is the square root of a
+/// count.
 #[test]
-fn interval_basins_have_the_known_measures() {
+fn interval_basins_have_the_counted_fractions() {
     for (m, all, first) in
         [(0.1, 1.0, 0.953_197), (0.2, 0.037_044, 0.031_596), (0.5, 0.007_283, 0.006_227)]
     {
@@ -167,11 +171,11 @@ fn interval_basins_have_the_known_measures() {
         let found = hopper_basins(&fates(m), 1, 6, 400, refinement).unwrap().basins;
         let (mut incessant, mut to_first, mut open) = (0.0, 0.0, 0.0);
         for n in 1..6 {
-            let hump = Interval::new(alpha_star(n).high, alpha_star(n + 1).high).unwrap();
+            let hump = Interval::new(alpha_star(n), alpha_star(n + 1)).unwrap();
             let part = found.within(hump);
             let share = |length: f64| length / hump.length() / 5.0;
-            incessant += share(part.measure_of(|label| (1..100).contains(&label)).value);
-            to_first += share(part.measure(1).value);
+            incessant += share(part.resolved_length_of(|label| (1..100).contains(&label)));
+            to_first += share(part.resolved_length(1));
             open += share(part.undecided());
         }
         assert!(
@@ -186,7 +190,7 @@ fn interval_basins_have_the_known_measures() {
     }
 }
 
-/// Every decided part against the fate of points in it; grounding included.
+/// The decided intervals agree with the fates of speeds in them, grounding included.
 #[test]
 fn interval_basins_agree_with_fates() {
     for m in [0.05, 0.3, 0.7, 0.9] {
@@ -196,7 +200,7 @@ fn interval_basins_agree_with_fates() {
         let (mut decided, mut grounded) = (0, 0);
         for k in 0..3000 {
             let part = (f64::from(k) + 0.5) / 3000.0;
-            let alpha = alpha_star(1).high + (alpha_star(4).high - alpha_star(1).high) * part;
+            let alpha = alpha_star(1) + (alpha_star(4) - alpha_star(1)) * part;
             let Some(label) = found.basins.label(alpha) else { continue };
             assert_eq!(fates.fate(alpha).unwrap().label(), label, "M = {m}, α = {alpha}");
             decided += 1;
@@ -207,33 +211,42 @@ fn interval_basins_agree_with_fates() {
     }
 }
 
-/// Theory's table of Δ: at M = 10 the edge of hump 1 lies in the sudden window, on a chain of six.
+/// At M = 10 the immediate basin of α*_1 ends in the sudden window, where hops have six sudden lift-offs.
 #[test]
-fn reaches_in_the_sudden_windows() {
-    let found = reach(&fates(10.0), 1, 1e-3).unwrap();
-    assert_eq!(found.edge, ReachEdge::Sudden { width: 1e-3 });
+fn immediate_basins_in_the_sudden_windows() {
+    let found = immediate_basin(fates(10.0).map(), 1, 1e-3).unwrap();
+    assert_eq!(found.edge, ImmediateBasinEdge::Sudden { width: 1e-3 });
     assert_relative_eq!(found.delta, 2.577_461_789_994_586_2, max_relative = 1e-13);
-    let found = reach(&fates(0.1), 1, 1e-3).unwrap();
-    assert_eq!(found.edge, ReachEdge::NotFound { width: 1e-3 });
+    let found = immediate_basin(fates(0.1).map(), 1, 1e-3).unwrap();
+    assert_eq!(found.edge, ImmediateBasinEdge::NotFound { width: 1e-3 });
     assert_relative_eq!(found.delta, 3.231_842_379_028_643, max_relative = 1e-14);
-    assert_eq!(reach(&fates(1.0), 1, 1e-3).unwrap().edge, ReachEdge::Contact);
-    // At M = 20 the first fall is 2.4e-8 wide: a scan at 1e-3 does not see it.
-    assert_eq!(reach(&fates(20.0), 1, 1e-3).unwrap().edge, ReachEdge::NotFound { width: 1e-3 });
-    assert!(reach(&fates(10.0), 1, 0.0).is_err() && reach(&fates(10.0), 1, f64::NAN).is_err());
+    assert_eq!(
+        immediate_basin(fates(1.0).map(), 1, 1e-3).unwrap().edge,
+        ImmediateBasinEdge::Contact
+    );
+    // At M = 20 the first interval with f < α*_1 is 2.4e-8 wide: a scan at 1e-3 misses it.
+    assert_eq!(
+        immediate_basin(fates(20.0).map(), 1, 1e-3).unwrap().edge,
+        ImmediateBasinEdge::NotFound { width: 1e-3 }
+    );
+    assert!(
+        immediate_basin(fates(10.0).map(), 1, 0.0).is_err()
+            && immediate_basin(fates(10.0).map(), 1, f64::NAN).is_err()
+    );
 }
 
-/// The counts of the tree are 2k − 3 on two humps, and grow like k² on three: countable.
+/// On two humps level k of the tree has 2k − 1 intervals; on three the number grows like k². What remains is countable.
 #[test]
-fn the_preimage_tree_leaves_a_countable_set() {
+fn the_residual_set_of_the_preimage_tree_is_countable() {
     let fates = fates(0.2);
     let trap = fates.trap(1).unwrap();
-    let trap = Interval::new(trap.star.high, trap.right()).unwrap();
+    let trap = Interval::new(trap.fixed_point.value(), trap.right()).unwrap();
     for (top, power) in [(3, 1.0), (4, 2.0)] {
-        let window = Interval::new(alpha_star(1).high, alpha_star(top).high).unwrap();
+        let window = Interval::new(alpha_star(1), alpha_star(top)).unwrap();
         let branches = hopper_basin::branches(&fates, 1, top, 400).unwrap();
         let tree = PreimageTree::grow(&fates, &branches, trap, window, 40);
-        let Remainder::Countable { power: found } = tree.remainder() else {
-            panic!("{:?} of {:?}, {}", tree.remainder(), tree.counts(), tree.complete_levels())
+        let ResidualSet::Countable { power: found } = tree.residual_set() else {
+            panic!("{:?} of {:?}, {}", tree.residual_set(), tree.counts(), tree.complete_levels())
         };
         assert!((found - power).abs() < 0.35, "{top}: {found}");
         if top == 3 {
@@ -243,8 +256,8 @@ fn the_preimage_tree_leaves_a_countable_set() {
     }
 }
 
-/// No hop is grounded for M below the onset on the contact parts; nor is one found in the sudden windows,
-/// where nothing is proved, at this spacing.
+/// Below the onset of grounding on the contact parts no hop of a scan is grounded. In the sudden windows there is no
+/// proof of this; the scan covers them too.
 #[test]
 fn grounding_is_not_found_below_its_onset() {
     for m in [0.05, 0.2, 0.32, 3.2, 5.0, 20.0] {
@@ -256,14 +269,14 @@ fn grounding_is_not_found_below_its_onset() {
     }
 }
 
-/// Labels that say why: each reason, and fixed points beyond the labels.
+/// Each reason has a label, and so have fixed points beyond the labels.
 #[test]
-fn labels_say_why() {
-    use basin_of_attraction::Reason;
+fn labels_tell_the_reason() {
+    use basin_of_attraction::UndecidedReason;
     let labels = [
-        HopperFate::Undecided(Reason::Budget),
-        HopperFate::Undecided(Reason::Precision { at: 1.0 }),
-        HopperFate::Undecided(Reason::Map { at: 1.0 }),
+        HopperFate::Undecided(UndecidedReason::Budget),
+        HopperFate::Undecided(UndecidedReason::Precision { at: 1.0 }),
+        HopperFate::Undecided(UndecidedReason::Map { at: 1.0 }),
         HopperFate::Grounded,
         HopperFate::Decaying,
         HopperFate::Incessant { n: 3 },
@@ -277,17 +290,30 @@ fn labels_say_why() {
     }
     // An ulp left of a fixed point an orbit stands still in f64; from a little farther it takes long.
     let fates = fates(0.2);
-    let alpha = alpha_star(2).high.next_down();
+    let alpha = alpha_star(2).next_down();
     let (fate, _) = fates.fate_within(alpha, 5).unwrap();
-    assert_eq!(fate, HopperFate::Undecided(Reason::Precision { at: alpha }));
+    assert_eq!(fate, HopperFate::Undecided(UndecidedReason::Precision { at: alpha }));
     let (fate, hops) = fates.fate_within(alpha - 1e-9, 5).unwrap();
-    assert_eq!((fate, hops), (HopperFate::Undecided(Reason::Budget), 5));
+    assert_eq!((fate, hops), (HopperFate::Undecided(UndecidedReason::Budget), 5));
 }
 
 #[test]
-fn recoveries_depend_on_the_width() {
-    let (coarse, fine) = (recovery(1, 1e-2, 40.0).unwrap(), recovery(1, 1e-3, 40.0).unwrap());
+fn upper_crises_depend_on_the_width() {
+    let bracket = |width| upper_crisis_bracket(1, width, 40.0).unwrap();
+    let (coarse, fine) = (bracket(1e-2), bracket(1e-3));
     assert!(coarse.0 < coarse.1 && coarse.1 - coarse.0 < 1e-4);
-    // A finer look sees falls at larger mass ratios; both are beyond the contact part's 9.67.
+    // A finer scan finds falls at larger mass ratios. Both brackets lie above 1/M_c = 9.67 of the contact part.
     assert!(9.665 < coarse.1 && coarse.1 < fine.1, "{coarse:?} {fine:?}");
+}
+
+/// Each wrong argument has an error of its own.
+#[test]
+fn errors_name_the_wrong_argument() {
+    use hopper_basin::Error;
+    let basin = |width| immediate_basin(fates(10.0).map(), 1, width);
+    assert!(matches!(basin(0.0), Err(Error::Spacing { spacing: 0.0, .. })));
+    assert_eq!(
+        upper_crisis_bracket(1, 1e-2, 9.7),
+        Err(Error::LargestMassRatio { n: 1, largest: 9.7 })
+    );
 }

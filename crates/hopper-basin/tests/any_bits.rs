@@ -24,7 +24,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(3000))]
 
     #[test]
-    fn nothing_panics_or_hangs(words in proptest::array::uniform6(word())) {
+    fn no_function_panics_or_hangs(words in proptest::array::uniform6(word())) {
         body::try_all(words);
     }
 }

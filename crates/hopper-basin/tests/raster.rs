@@ -1,14 +1,14 @@
-//! A raster is its pixels.
+//! Rasters and labels of many speeds agree with the fates of single speeds.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::{Grid, Interval};
-use hopper_basin::{Fates, HopperFate, basin_columns, basin_raster};
+use hopper_basin::{Error, Fates, HopperFate, basin_columns, basin_raster, first_humps};
 use passive_hopper::{MassRatio, alpha_star};
 use proptest::prelude::*;
 use std::ops::ControlFlow::Continue;
 
-/// Every pixel against the fate of its middle.
+/// Compares every pixel with the fate of its middle.
 fn check(x: (f64, f64), y: (f64, f64), columns: usize, rows: usize) {
     let (x, y) = (Interval::new(x.0, x.1).unwrap(), Interval::new(y.0, y.1).unwrap());
     let grid = Grid { x, y, columns, rows };
@@ -25,22 +25,23 @@ fn check(x: (f64, f64), y: (f64, f64), columns: usize, rows: usize) {
 }
 
 #[test]
-fn of_the_papers_windows() {
-    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+fn rasters_of_the_papers_windows_agree_with_single_fates() {
+    let humps = first_humps(5);
+    let (low, high) = (humps.left, humps.right);
     check((0.1, 1.0), (low, high), 1024, 1024);
     check((0.17, 0.18), (17.0, 17.8), 1024, 1024);
     check((1.0, 10.0), (low, high), 64, 256);
 }
 
 #[test]
-fn of_windows_nobody_would_choose() {
+fn rasters_of_unusual_windows_agree_with_single_fates() {
     check((0.001, 0.02), (0.0, 9.0), 5, 300);
     check((5.0, 200.0), (0.5, 40.0), 9, 100);
     check((0.1, 0.9), (190.0, 230.0), 7, 200);
-    check((0.5, 0.6), (alpha_star(2).high - 1e-6, alpha_star(2).high + 1e-6), 4, 200);
+    check((0.5, 0.6), (alpha_star(2) - 1e-6, alpha_star(2) + 1e-6), 4, 200);
 }
 
-/// Every label against the fate of its speed.
+/// Compares every label with the fate of its speed.
 fn check_speeds(m: f64, speeds: &[f64]) {
     let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
     let labels = fates.labels(speeds).unwrap();
@@ -49,10 +50,10 @@ fn check_speeds(m: f64, speeds: &[f64]) {
     }
 }
 
-/// Speeds in any order, twice, beyond all tables, and next to where fates part.
+/// Speeds in any order, repeated ones, some beyond all tables, some next to a fixed point.
 #[test]
-fn of_speeds_in_no_order() {
-    let star = alpha_star(2).high;
+fn labels_of_unsorted_speeds_agree_with_single_fates() {
+    let star = alpha_star(2);
     let near = (0..60).map(|k| star + (f64::from(k) - 30.0) * star * f64::EPSILON);
     let far = (1..400).map(|k| 40.0 * (f64::from(k) * 0.618_033_988_75).fract());
     let odd = [1e12, 300.0, 7.0, 7.0, 1e-300, 5e-324];
@@ -62,9 +63,9 @@ fn of_speeds_in_no_order() {
     }
 }
 
-/// Orbits that come into the last ulps of a trap, which the map as computed leaves again.
+/// The orbits of these speeds enter the last ulps of a trap. The computed map leaves the trap again.
 #[test]
-fn of_orbits_to_the_last_ulps_of_a_trap() {
+fn orbits_that_enter_the_last_ulps_of_a_trap_end_there() {
     for (m, alpha) in [
         (0.330_499_999_999_999_96, 3.398_198_266_583_449),
         (0.3326, 3.384_241_188_234_909_7),
@@ -77,7 +78,7 @@ fn of_orbits_to_the_last_ulps_of_a_trap() {
 }
 
 #[test]
-fn of_what_can_not_be_labelled() {
+fn invalid_speeds_and_rasters_are_errors() {
     let fates = Fates::new(MassRatio::new(0.2).unwrap()).unwrap();
     assert!(fates.labels(&[]).unwrap().is_empty());
     for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e14] {
@@ -90,7 +91,8 @@ fn of_what_can_not_be_labelled() {
     let (x, y) = (Interval::new(0.1, 1.0).unwrap(), Interval::new(4.0, 9.0).unwrap());
     let grid = Grid { x, y, columns: 10, rows: 40 };
     assert!(basin_columns(&grid, 3..3).unwrap().is_empty());
-    assert!(basin_columns(&grid, 3..11).is_err());
+    let error = basin_columns(&grid, 3..11).unwrap_err();
+    assert_eq!(error, Error::ColumnRange { columns: 10, first: 3, end: 11 });
     for (columns, rows) in [(10, usize::MAX), (10, 0), (0, 10), (1 << 20, 1 << 20)] {
         let grid = Grid { columns, rows, ..grid };
         assert!(basin_columns(&grid, 0..0).is_err(), "{columns} {rows}");
@@ -101,15 +103,15 @@ fn of_what_can_not_be_labelled() {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 150, ..ProptestConfig::default() })]
 
-    /// Windows anywhere, and deep zooms to where the map breaks or fates part.
+    /// Windows of any size, next to fixed points, to multiples of π, and elsewhere.
     #[test]
-    fn of_any_window(
+    fn rasters_of_any_window_agree_with_single_fates(
         exponent in -2.0..1.2f64,
         narrow in -4.0..-1.0f64,
         (n, place, away) in (1..10u64, 0..3usize, -9.0..0.0f64),
         (width, rows) in (-8.0..0.5f64, 33..150usize),
     ) {
-        let near = [alpha_star(n).high, n as f64 * std::f64::consts::PI, 3.3 * n as f64][place];
+        let near = [alpha_star(n), n as f64 * std::f64::consts::PI, 3.3 * n as f64][place];
         let (m, bottom) = (10f64.powf(exponent), near - 10f64.powf(away).min(0.5 * near));
         let right = m * (1.0 + 10f64.powf(narrow));
         check((m, right), (bottom, bottom + 10f64.powf(width)), 3, rows);

@@ -9,6 +9,9 @@ pub enum Error {
     /// A file of the repository or of the results could not be used.
     #[error(transparent)]
     Repository(#[from] repository_tools::Error),
+    /// A file could not be written, or another run is at work in its folder.
+    #[error(transparent)]
+    Job(#[from] resumable_job::Error),
     /// A figure could not be rendered, or a table could not be encoded.
     #[error(transparent)]
     Figure(#[from] journal_figures::Error),

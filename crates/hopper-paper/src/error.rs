@@ -21,14 +21,9 @@ pub enum Error {
         /// The system's message.
         source: std::io::Error,
     },
-    /// A finished piece of a job that cannot be used.
-    #[error("{path}: {reason}; remove it, or give another folder")]
-    Piece {
-        /// Its file.
-        path: PathBuf,
-        /// What is wrong with it.
-        reason: &'static str,
-    },
+    /// A long job on disk cannot continue.
+    #[error(transparent)]
+    Job(#[from] resumable_job::Error),
     /// A reference value of the repository is missing or malformed.
     #[error(
         "the reference values: {reason}; the files under crates/*/tests/data have been changed"

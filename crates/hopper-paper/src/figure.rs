@@ -1,6 +1,6 @@
 //! A figure with the texts that the reports print beside it.
 
-use journal_figures::DataFile;
+use journal_figures::{DataFile, Svg};
 
 /// A figure with everything the report says of it.
 #[derive(Debug, Clone)]
@@ -13,8 +13,8 @@ pub struct Figure {
     pub paper: String,
     /// What was chosen where the paper's details are lost, and what the figure shows.
     pub notes: String,
-    /// The drawing, with its labels as text.
-    pub svg: String,
+    /// The drawing.
+    pub svg: Svg,
     /// Its data.
     pub data: Vec<DataFile>,
 }

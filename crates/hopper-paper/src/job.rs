@@ -1,31 +1,34 @@
 //! Long computations whose finished rows are kept on disk.
 
-use crate::checkpoint::{Checkpoint, program_digest};
 use crate::error::Error;
 use repository_tools::Progress;
+use resumable_job::{Lock, Pieces, program_digest};
 use std::path::{Path, PathBuf};
 
-/// A run whose scans keep their finished rows on disk until all of it is done.
-#[derive(Debug, Clone)]
+/// A run, and the folder that keeps the finished rows of its scans until all its results are written.
+#[derive(Debug)]
 pub struct Job {
     scans: PathBuf,
+    /// Two runs in one folder would remove each other's rows at their end.
+    _lock: Lock,
 }
 
 impl Job {
-    /// A run whose rows are kept in a folder beside its results. Each build of the program has a folder of its own, since
-    /// another build may compute other numbers.
+    /// A run that keeps its scans in a folder beside its results, which exists. Each build of the program has a
+    /// folder of its own. While the run lasts, another one with the same results folder is an error.
     pub fn new(results: &Path) -> Result<Self, Error> {
-        Ok(Job { scans: results.join("scans").join(program_digest()?) })
+        let _lock = Lock::take(results, "scans")?;
+        Ok(Job { scans: results.join("scans").join(program_digest()?), _lock })
     }
 
-    /// `count` rows of numbers. A row that an earlier run finished is read instead of computed.
+    /// `count` rows of numbers. Rows that an earlier run finished are read; the others are computed.
     pub(crate) fn scan(
         &self,
         name: &'static str,
         count: usize,
         row: impl Fn(usize) -> Result<Vec<f64>, Error>,
     ) -> Result<Vec<Vec<f64>>, Error> {
-        let kept = Checkpoint::open(&self.scans.join(name), name)?;
+        let kept = Pieces::open(&self.scans.join(name), name)?;
         let bar = Progress.bar(name, count as u64);
         let mut rows = Vec::with_capacity(count);
         for k in 0..count {
@@ -45,7 +48,7 @@ impl Job {
         Ok(rows)
     }
 
-    /// Removes the kept rows. Called once all results are written.
+    /// Removes the finished rows. To be called when all results are written.
     pub fn done(self) -> Result<(), Error> {
         match std::fs::remove_dir_all(&self.scans) {
             Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
@@ -53,7 +56,7 @@ impl Job {
             }
             _ => {}
         }
-        // Another build may keep its rows beside: then the folder is not empty and stays.
+        // The folder of another build may stand beside: then the parent is not empty and stays.
         let _ = self.scans.parent().map(std::fs::remove_dir);
         Ok(())
     }
@@ -63,11 +66,13 @@ impl Job {
 mod tests {
     use super::*;
 
-    /// A scan that breaks off is continued with the first row that is missing.
+    /// A scan that was interrupted computes only the missing rows, and returns the same rows.
     #[test]
-    fn scans_go_on() {
+    fn an_interrupted_scan_goes_on() {
         let folder = std::env::temp_dir().join(format!("hopper_scans_{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
         let job = Job::new(&folder).unwrap();
+        assert!(matches!(Job::new(&folder), Err(Error::Job(_))), "two runs in one folder");
         let row = |k: usize| vec![k as f64, (k as f64).sqrt(), f64::MIN_POSITIVE];
         let breaks = |k: usize| {
             if k < 5 { Ok(row(k)) } else { Err(Error::CheckFailed("broken off".into())) }

@@ -10,10 +10,9 @@
 //! | [`models`] | figures of the generic crates |
 //! | [`report`] | `report.html` |
 //! | [`commands`] | the commands, one file each |
-//! | [`checkpoint`], [`job`] | finished pieces of long computations, kept on disk |
+//! | [`job`] | finished pieces of long computations, kept on disk |
 
 pub mod beyond;
-pub mod checkpoint;
 mod choice;
 pub mod claims;
 pub mod cli;

@@ -1,4 +1,4 @@
-//! What an event costs: in closed form under bounds, by enclosures, by samples, along an integrated flow.
+//! Cost of an event for each kind of guard: quasi-polynomial, enclosures, samples, integrated flow.
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
@@ -7,12 +7,12 @@ use hybrid_system::*;
 use nalgebra::Vector2;
 use std::hint::black_box;
 
-/// A swing watched for its zeros.
+/// A harmonic oscillator whose zeros are events.
 struct Swing(Search);
 
 #[derive(Clone, Copy, PartialEq)]
 enum Search {
-    Signal,
+    QuasiPolynomial,
     Enclosure,
     Samples,
 }
@@ -32,8 +32,9 @@ impl HybridSystem<2> for Swing {
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn guard_signal(&self, _: (), _: (), x: &State<2>) -> Option<Signal> {
-        (self.0 == Search::Signal).then(|| Signal::cosine(x[0], 1.0) + Signal::sine(x[1], 1.0))
+    fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<2>) -> Option<QuasiPolynomial> {
+        (self.0 == Search::QuasiPolynomial)
+            .then(|| QuasiPolynomial::cosine(x[0], 1.0) + QuasiPolynomial::sine(x[1], 1.0))
     }
     fn guard_enclosure(
         &self,
@@ -46,7 +47,7 @@ impl HybridSystem<2> for Swing {
         if self.0 != Search::Enclosure {
             return None;
         }
-        // x⁽ᵏ⁾ moves by no more than the amplitude over a unit of time.
+        // |x⁽ᵏ⁺¹⁾| is at most the amplitude: x⁽ᵏ⁾ changes by no more than amplitude · time. 1e-15 is for rounding.
         let middle = self.flow(mode, x, 0.5 * (from + to));
         let value = [middle[0], middle[1], -middle[0]].get(order as usize).copied()?;
         Some(Enclosure::around(value, x.norm() * (0.5 * (to - from) + 1e-15)))
@@ -56,7 +57,7 @@ impl HybridSystem<2> for Swing {
     }
 }
 
-/// The same, integrated.
+/// The same oscillator, integrated.
 struct Integrated;
 
 impl VectorField<2> for Integrated {
@@ -92,9 +93,11 @@ impl HybridSystem<2> for Integrated {
 }
 
 fn zeros(criterion: &mut Criterion) {
-    for (name, search) in
-        [("signal", Search::Signal), ("enclosure", Search::Enclosure), ("samples", Search::Samples)]
-    {
+    for (name, search) in [
+        ("quasi-polynomial", Search::QuasiPolynomial),
+        ("enclosure", Search::Enclosure),
+        ("samples", Search::Samples),
+    ] {
         criterion.bench_function(&format!("ten zeros of a swing: {name}"), |bencher| {
             let swing = Swing(search);
             let start = Vector2::new(1.0, 0.0);

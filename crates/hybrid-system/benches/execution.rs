@@ -1,4 +1,4 @@
-//! A bouncing ball: closed-form arcs, guards found by sampling.
+//! Cost of ten bounces of a ball in closed form, with a sampled guard.
 
 #![allow(missing_docs)]
 

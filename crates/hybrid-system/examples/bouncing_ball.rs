@@ -1,11 +1,11 @@
-//! A ball that bounces with any restitution, and rests where its bounces accumulate.
+//! A ball that bounces with any restitution, and rests after the Zeno limit of its bounces.
 //!
-//! Rest is a mode of its own: the floor carries the ball as long as its force is positive. On a floor at rest
-//! that is for ever; a table that shakes with more than gravity throws it.
+//! Rest is a mode of its own: the floor carries the ball as long as its force is positive. A fixed floor carries it for
+//! ever. A table that shakes with more than the acceleration of gravity throws it.
 //!
 //! Run with `cargo run -p hybrid-system --example bouncing_ball`.
 
-#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and bits do not matter
+#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program whose last bits may differ by machine
 
 use hybrid_system::*;
 use nalgebra::Vector3;
@@ -18,7 +18,7 @@ enum Mode {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Surface {
-    /// The gap to the table closes.
+    /// The ball reaches the table.
     Impact,
     /// The force of the table vanishes.
     Release,
@@ -80,17 +80,23 @@ impl HybridSystem<3> for Ball {
         }
     }
 
-    fn guard_signal(&self, _: Mode, surface: Surface, x: &State<3>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        _: Mode,
+        surface: Surface,
+        x: &State<3>,
+    ) -> Option<QuasiPolynomial> {
         let (sin, cos) = x[2].sin_cos();
         // sin(φ₀ + ωt)
-        let shake = Signal::sine(cos, self.frequency) + Signal::cosine(sin, self.frequency);
+        let shake = QuasiPolynomial::sine(cos, self.frequency)
+            + QuasiPolynomial::cosine(sin, self.frequency);
         Some(match surface {
             Surface::Impact => {
-                Signal::polynomial(&[x[0], x[1], -0.5 * self.gravity])
+                QuasiPolynomial::polynomial(&[x[0], x[1], -0.5 * self.gravity])
                     + shake.scaled(self.amplitude)
             }
             Surface::Release => {
-                Signal::polynomial(&[self.gravity])
+                QuasiPolynomial::polynomial(&[self.gravity])
                     + shake.scaled(self.amplitude * self.frequency.powi(2))
             }
         })
@@ -104,7 +110,7 @@ impl HybridSystem<3> for Ball {
                 Reset::Jump { mode: Mode::Air, state: Vector3::new(height, rebound, x[2]) }
             }
             Surface::Impact => {
-                // Without a rebound it is carried, if the table does not fall faster than it.
+                // Without a rebound the table carries the ball, unless the table itself falls faster than gravity.
                 let carried = self.guard_value(Surface::Release, x) > 0.0;
                 let mode = if carried { Mode::OnTable } else { Mode::Air };
                 Reset::Jump { mode, state: Vector3::new(height, velocity, x[2]) }
@@ -158,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn every_restitution_comes_to_rest_at_its_time() {
+    fn a_ball_of_any_restitution_comes_to_rest_at_its_time() {
         for restitution in [0.0, 0.05, 0.3, 0.5, 0.7, 0.9, 0.99] {
             let ball = Ball::over_floor(2.0, restitution);
             let arcs = arcs(&ball, Mode::Air, Vector3::new(1.0, 0.0, 0.0), 1e6);
@@ -174,9 +180,9 @@ mod tests {
         assert_eq!(arcs.len(), 501);
     }
 
-    /// Carried up to sin φ = −g/Aω², thrown, and caught again.
+    /// The table carries the ball up to sin φ = −g/Aω², throws it, and catches it again.
     #[test]
-    fn a_table_that_shakes_throws() {
+    fn a_shaking_table_throws_the_ball() {
         let ball = Ball { gravity: 1.0, restitution: 0.0, amplitude: 1.2, frequency: 1.0 };
         let arcs = arcs(&ball, Mode::OnTable, Vector3::zeros(), 40.0);
         let release = std::f64::consts::PI + (1.0f64 / 1.2).asin();
@@ -184,14 +190,14 @@ mod tests {
         for pair in arcs.windows(2) {
             assert_ne!(pair[0].mode, pair[1].mode);
         }
-        // In the air it is never below the table.
+        // In the air the ball is never below the table.
         for arc in arcs.iter().filter(|arc| arc.mode == Mode::Air) {
             for k in 0..=100 {
                 let state = arc.state(&ball, arc.duration * f64::from(k) / 100.0).unwrap();
                 assert!(ball.guard_value(Surface::Impact, &state) > -1e-14);
             }
         }
-        // A weaker shake never throws.
+        // A table that shakes with less than gravity never throws it.
         let ball = Ball { amplitude: 0.999, ..ball };
         let arcs = self::arcs(&ball, Mode::OnTable, Vector3::zeros(), 1000.0);
         assert_eq!(arcs.len(), 1);

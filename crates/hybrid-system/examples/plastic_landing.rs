@@ -1,12 +1,12 @@
-//! Two masses and a spring that land without a bounce, stay, and lift off: the model of `DifferentialEquations.jl`
-//! issue 647, which ended there in a crash.
+//! Two masses on a spring that land without a bounce, stay on the floor, and lift off. This is the model of issue
+//! 647 of `DifferentialEquations.jl`, whose program crashed.
 //!
-//! Contact is a mode: it holds while the floor's force is positive, and ends where that vanishes. At that
-//! instant the lower mass has neither speed nor acceleration, so that it leaves the floor like t³.
+//! Contact is a mode: it lasts while the force of the floor is positive, and ends where that force vanishes. At
+//! that instant the lower mass has neither velocity nor acceleration. So it leaves the floor like t³.
 //!
 //! Run with `cargo run -p hybrid-system --example plastic_landing`.
 
-#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and bits do not matter
+#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program whose last bits may differ by machine
 
 use hybrid_system::*;
 use nalgebra::Vector4;
@@ -19,7 +19,7 @@ enum Mode {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Surface {
-    /// The lower mass comes to the floor.
+    /// The lower mass reaches the floor.
     Landing,
     /// The force of the floor vanishes.
     LiftOff,
@@ -44,17 +44,17 @@ impl Masses {
         (self.stiffness * self.mass() / (self.lower * self.upper)).sqrt()
     }
 
-    /// ω with the lower mass held.
+    /// ω of the spring with the lower mass on the floor.
     fn held_frequency(&self) -> f64 {
         (self.stiffness / self.upper).sqrt()
     }
 
-    /// Height of the upper mass at which the spring carries it, the lower one on the floor.
+    /// Height of the upper mass at rest, with the lower mass on the floor.
     fn balance(&self) -> f64 {
         self.length - self.upper * self.gravity / self.stiffness
     }
 
-    /// The floor's force on the lower mass while it lies there.
+    /// Force of the floor on the lower mass while that mass is on it.
     fn force(&self, x: &State<4>) -> f64 {
         self.lower * self.gravity - self.stiffness * (x[1] - x[0] - self.length)
     }
@@ -67,7 +67,7 @@ impl HybridSystem<4> for Masses {
     fn flow(&self, mode: Mode, x: &State<4>, t: f64) -> State<4> {
         match mode {
             Mode::Flight => {
-                // The centre of mass falls, the spring swings about it.
+                // The centre of mass falls freely, and the masses oscillate about it.
                 let center = (x[0] * self.lower + x[1] * self.upper) / self.mass();
                 let drift = (x[2] * self.lower + x[3] * self.upper) / self.mass();
                 let (stretch, rate) = (x[1] - x[0] - self.length, x[3] - x[2]);
@@ -109,26 +109,31 @@ impl HybridSystem<4> for Masses {
         }
     }
 
-    /// Both guards are polynomials and sines of time: their crossings are certain.
-    fn guard_signal(&self, _: Mode, surface: Surface, x: &State<4>) -> Option<Signal> {
+    /// Both guards are quasi-polynomials: their crossings are certain.
+    fn guard_quasi_polynomial(
+        &self,
+        _: Mode,
+        surface: Surface,
+        x: &State<4>,
+    ) -> Option<QuasiPolynomial> {
         Some(match surface {
             Surface::Landing => {
-                // x₁ = center − m₂/m (length + stretch)
+                // x₁ = center − m₂/m · (length + stretch)
                 let share = self.upper / self.mass();
                 let (stretch, rate) = (x[1] - x[0] - self.length, x[3] - x[2]);
                 let omega = self.free_frequency();
                 let drift = x[2] + share * rate;
-                Signal::polynomial(&[x[0] + share * stretch, drift, -0.5 * self.gravity])
-                    - Signal::cosine(share * stretch, omega)
-                    - Signal::sine(share * rate / omega, omega)
+                QuasiPolynomial::polynomial(&[x[0] + share * stretch, drift, -0.5 * self.gravity])
+                    - QuasiPolynomial::cosine(share * stretch, omega)
+                    - QuasiPolynomial::sine(share * rate / omega, omega)
             }
             Surface::LiftOff => {
                 let omega = self.held_frequency();
                 let off = x[1] - self.balance();
                 let weight = self.mass() * self.gravity;
-                Signal::polynomial(&[weight])
-                    - Signal::cosine(self.stiffness * off, omega)
-                    - Signal::sine(self.stiffness * x[3] / omega, omega)
+                QuasiPolynomial::polynomial(&[weight])
+                    - QuasiPolynomial::cosine(self.stiffness * off, omega)
+                    - QuasiPolynomial::sine(self.stiffness * x[3] / omega, omega)
             }
         })
     }
@@ -136,13 +141,13 @@ impl HybridSystem<4> for Masses {
     fn reset(&self, _: Mode, surface: Surface, x: &State<4>) -> Reset<Mode, 4> {
         let landed = Vector4::new(0.0, x[1], 0.0, x[3]);
         match surface {
-            // A spring that pulls harder than the weight lifts it off again at once.
+            // The spring pulls harder than the weight: the mass lifts off again at once.
             Surface::Landing if self.force(&landed) <= 0.0 => {
                 Reset::Jump { mode: Mode::Flight, state: landed }
             }
             Surface::Landing => Reset::Jump { mode: Mode::Contact, state: landed },
             Surface::LiftOff => {
-                // Where the force is zero, to the last bit.
+                // The height at which the force is exactly zero.
                 let upper = self.length + self.lower * self.gravity / self.stiffness;
                 Reset::Jump { mode: Mode::Flight, state: Vector4::new(0.0, upper, 0.0, x[3]) }
             }
@@ -171,7 +176,7 @@ fn main() -> Result<(), Error> {
 mod tests {
     use super::*;
 
-    /// Thirty published digits each.
+    /// The published answers have thirty digits; here they are rounded.
     #[test]
     fn sciml_647() {
         let start = Vector4::new(5.0, 6.0, 0.0, 0.0);
@@ -189,7 +194,7 @@ mod tests {
         close(hop.start[3], 9.8703475116127497);
         close(hop.time + hop.duration, 2.15693455833089148);
         close(hop.event().unwrap().before[2], -9.61984490010233);
-        // It leaves the floor like t³.
+        // The lower mass leaves the floor like t³.
         let just_after = hop.state(&ISSUE_647, 1e-4).unwrap()[0];
         assert!((just_after / 8.22488e-10 - 1.0).abs() < 1e-5, "{just_after:e}");
         let shortest = (0..=1000)
@@ -200,9 +205,9 @@ mod tests {
         assert!((shortest - 0.537247475466967).abs() < 1e-5);
     }
 
-    /// Dropped from no height, the floor carries it for ever.
+    /// At rest on the floor the masses stay there for ever.
     #[test]
-    fn contact_that_holds() {
+    fn masses_at_rest_stay_in_contact() {
         let rest = Vector4::new(0.0, ISSUE_647.balance(), 0.0, 0.0);
         let mut execution = Execution::new(&ISSUE_647, Mode::Contact, rest, Limits::new(1e4, 100));
         let arc = execution.next().unwrap().unwrap();
@@ -212,7 +217,7 @@ mod tests {
 
     /// Energy is lost at landings only.
     #[test]
-    fn energy() {
+    fn energy_is_lost_at_landings_only() {
         let energy = |x: &State<4>| {
             let h = &ISSUE_647;
             let stretch = x[1] - x[0] - h.length;

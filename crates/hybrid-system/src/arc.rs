@@ -1,6 +1,10 @@
 //! Arcs and events: the pieces of an execution.
 
-use crate::{Accumulation, Certainty, Error, HybridSystem, State};
+use crate::crossing::Certainty;
+use crate::error::Error;
+use crate::state::State;
+use crate::system::HybridSystem;
+use crate::zeno::ZenoLimit;
 
 /// A jump between two arcs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,31 +17,32 @@ pub struct Event<M, S, const N: usize> {
     pub jump: usize,
     /// The state before the jump, x⁻.
     pub before: State<N>,
-    /// Mode and state after the jump, (m⁺, x⁺); nothing if the execution stops here.
+    /// Mode and state after the jump, (m⁺, x⁺); `None` if the execution ends here.
     pub after: Option<(M, State<N>)>,
-    /// How sure it is that no event came earlier.
+    /// How sure it is that no event came before.
     pub certainty: Certainty,
 }
 
 /// How an arc ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ArcEnd<M, S, const N: usize> {
-    /// In an event.
+    /// The arc ends in an event.
     Event(Event<M, S, N>),
-    /// In infinitely many events, each sooner than the one before (Zeno); the arc stands for all of them.
-    Accumulation {
-        /// Where and when they end.
-        limit: Accumulation<N>,
-        /// Mode and state in which the model goes on; nothing if it names none.
+    /// The arc ends in a Zeno limit. It stands for infinitely many arcs, each shorter than the one before.
+    Zeno {
+        /// Time and state of the limit.
+        limit: ZenoLimit<N>,
+        /// Mode and state after the limit; `None` if the model names none.
         after: Option<(M, State<N>)>,
     },
-    /// At the limit on time: no event before it, as surely as the search of the mode's guards is.
+    /// The arc reaches the limit on time, without an event. Whether an event may have been missed depends on how the
+    /// guards of the mode are searched, see [`Certainty`].
     TimeLimit,
-    /// Never: no event ever follows, and there is no limit on time.
+    /// The arc does not end: no event follows, and there is no limit on time.
     Never,
 }
 
-/// A stretch of continuous motion in one mode.
+/// A piece of continuous motion in one mode, between two events.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Arc<M, S, const N: usize> {
     /// The mode.
@@ -48,17 +53,17 @@ pub struct Arc<M, S, const N: usize> {
     pub jump: usize,
     /// The state at the start.
     pub start: State<N>,
-    /// How long the arc lasts; infinite if it [never](ArcEnd::Never) ends.
+    /// Duration; infinite if the arc [never](ArcEnd::Never) ends.
     pub duration: f64,
     /// How it ends.
     pub end: ArcEnd<M, S, N>,
 }
 
 impl<M: Copy, S: Copy, const N: usize> Arc<M, S, N> {
-    /// The state `elapsed` after the start of the arc, by the flow of `system`.
+    /// The state at `elapsed` time after the start of the arc, by the flow of `system`.
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`] where the flow has none.
+    /// [`Error::StateNotFinite`] where the flow is not defined.
     pub fn state<T>(&self, system: &T, elapsed: f64) -> Result<State<N>, Error>
     where
         T: HybridSystem<N, Mode = M, Surface = S>,
@@ -71,11 +76,11 @@ impl<M: Copy, S: Copy, const N: usize> Arc<M, S, N> {
         Err(Error::StateNotFinite { time, jumps, state: state.iter().copied().collect() })
     }
 
-    /// The event that ends the arc, if one does.
+    /// The event that ends the arc; `None` if the arc ends in another way.
     pub fn event(&self) -> Option<&Event<M, S, N>> {
         match &self.end {
             ArcEnd::Event(event) => Some(event),
-            ArcEnd::Accumulation { .. } | ArcEnd::TimeLimit | ArcEnd::Never => None,
+            ArcEnd::Zeno { .. } | ArcEnd::TimeLimit | ArcEnd::Never => None,
         }
     }
 }

@@ -1,12 +1,12 @@
-//! What can go wrong while following a hybrid system.
+//! The errors of this crate.
 
 use thiserror::Error;
 
-/// Why an execution or a root search could not go on.
+/// Why an execution, a search or an integration failed.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The ends of a bracket do not have opposite signs.
+    /// A function has the same sign at both ends of a bracket.
     #[error("no sign change on [{left}, {right}]: values {at_left} and {at_right}")]
     NoSignChange {
         /// Left end of the bracket.
@@ -18,64 +18,69 @@ pub enum Error {
         /// Function value at the right end.
         at_right: f64,
     },
-    /// A function that must be finite was not.
+    /// A function, a bracket or a coefficient is infinite or NaN.
     #[error("the function is {value} at {at}")]
     NotFinite {
-        /// Where it was evaluated.
+        /// Argument of the function.
         at: f64,
-        /// What it returned.
+        /// Its value.
         value: f64,
     },
-    /// The root finder used up its iterations.
-    #[error("no root to full precision on [{left}, {right}] within {iterations} iterations")]
+    /// A search reached its limit of iterations or intervals.
+    #[error("the search on [{left}, {right}] did not end within {iterations} iterations")]
     NoConvergence {
-        /// Left end of the bracket.
+        /// Left end of the part not searched yet, or of the bracket.
         left: f64,
-        /// Right end of the bracket.
+        /// Its right end.
         right: f64,
         /// Iterations allowed.
         iterations: usize,
     },
-    /// A guard without a closed-form crossing was to be searched, and no sampling interval was given.
-    #[error("guard {surface} has no closed-form crossing: give a sampling interval")]
+    /// A guard must be sampled, because the model gives no bounds on it, and there is no sampling interval.
+    #[error("guard {surface} has neither bounds nor a solution: set a sampling interval")]
     NoSamplingInterval {
         /// Name of the guard's surface.
         surface: String,
     },
-    /// A sampling interval that cannot be stepped with.
+    /// A sampling interval that is not positive, or too short to reach the horizon, or a horizon that is not finite.
     #[error("cannot sample guards at an interval of {interval} up to time {horizon}")]
     BadSamplingInterval {
-        /// The interval asked for.
+        /// The interval.
         interval: f64,
-        /// The time up to which the guards were to be watched.
+        /// The time up to which the guards are searched.
         horizon: f64,
     },
-    /// A guard starts at zero and lies beyond its surface a little later: it may have crossed at once, or
-    /// gone up and come back within a sampling interval or within rounding.
+    /// A guard starts at zero and is beyond its surface a little later. It may have crossed at once, or it may have
+    /// left to the other side and come back, within a sampling interval or within rounding.
     #[error(
-        "guard {surface} starts at zero and is on its other side {interval} later: sample it more often, or \
-         let the model solve this crossing"
+        "guard {surface} is zero at the start and beyond its surface {interval} later: sample more often, or \
+         solve this crossing in the model"
     )]
     UndecidedStart {
         /// Name of the guard's surface.
         surface: String,
-        /// The sampling interval in use, or the time by which it is clear of rounding.
+        /// The sampling interval, or the time up to which rounding hides the guard.
         interval: f64,
     },
-    /// A signal whose first derivative that is not zero at the start is hidden by its rounding.
-    #[error("derivative {order} of the signal is {value} at the start, within its rounding error")]
+    /// A guard under bounds starts at zero, and rounding hides to which side it leaves: lower derivatives that may
+    /// be zero could outweigh the first one that is not.
+    #[error(
+        "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}"
+    )]
     UndecidedSign {
-        /// Order of the derivative.
+        /// Order of the first derivative that is not zero within rounding; 0 under enclosures, for the guard itself.
         order: u32,
         /// Its value.
         value: f64,
     },
-    /// A bound on a guard that is no interval.
-    #[error("the guard's bounds of order {order} on [{from}, {to}] are [{low}, {high}]")]
+    /// An enclosure whose lower bound is above its upper bound, or whose bounds are NaN.
+    #[error(
+        "the enclosure of derivative {order} of the guard on [{from}, {to}] is no interval: [{low}, {high}]"
+    )]
     BadEnclosure {
         /// Order of the derivative.
         order: u32,
-        /// Start of the stretch of time.
+        /// Start of the interval of time.
         from: f64,
         /// Its end.
         to: f64,
@@ -84,69 +89,71 @@ pub enum Error {
         /// Upper bound.
         high: f64,
     },
-    /// A guard that comes so close to its surface that rounding hides whether it crosses.
+    /// A guard comes so close to its surface that rounding hides whether it crosses.
     #[error("guard {surface} grazes its surface at time {time}, with value {value}")]
     Grazing {
         /// Name of the guard's surface.
         surface: String,
-        /// When, since the start of the arc.
+        /// Time since the start of the arc.
         time: f64,
-        /// The value of the guard there.
+        /// The value of the guard at that time.
         value: f64,
     },
-    /// Events that follow one another without time passing.
-    #[error("{events} events in a row at time {time}: the resets lead in a circle")]
+    /// Too many events in a row without time passing.
+    #[error("{events} events in a row at time {time}: the resets lead back to each other")]
     TimelessChain {
-        /// When.
+        /// Time of the events.
         time: f64,
-        /// How many.
+        /// Number of events.
         events: usize,
     },
-    /// An event at which the guard is crossed too slowly for a derivative: nearby orbits may miss it.
+    /// A guard is crossed too slowly for a derivative: nearby orbits may miss the event.
     #[error(
         "no sensitivity through the event at time {time}: the guard changes at a rate of {rate}"
     )]
     GrazingSensitivity {
-        /// When.
+        /// Time of the event.
         time: f64,
-        /// ∇g·f⁻.
+        /// The rate, ∇g·f⁻.
         rate: f64,
     },
-    /// An arc without an end that a change of its start could be followed to.
-    #[error("no sensitivity along the arc from time {time}: it does not end in one event")]
+    /// A sensitivity along an arc without an event at its end, or with a flow that has no derivative.
+    #[error(
+        "no sensitivity along the arc from time {time}: it does not end in one event, or its flow has no derivative"
+    )]
     NoSensitivity {
-        /// Its start.
+        /// Start of the arc.
         time: f64,
     },
-    /// The model could not answer.
+    /// An error of the model itself.
     #[error("the model failed: {reason}")]
     Model {
-        /// The model's own words, with its numbers.
+        /// The message of the model, with its numbers.
         reason: String,
     },
-    /// A start state or a limit that is not a number, or a negative limit.
-    #[error("{what} must be a non-negative number, not {value}")]
+    /// A limit, horizon or time that is negative or NaN, or infinite where a search needs a finite one.
+    #[error("{what} cannot be {value}")]
     BadLimit {
-        /// Which limit.
+        /// The quantity.
         what: &'static str,
         /// Its value.
         value: f64,
     },
-    /// A tolerance that no integrator can meet.
+    /// A tolerance that is not positive and finite.
     #[error("a tolerance must be positive and finite, not {value}")]
     BadTolerance {
-        /// The value given.
+        /// The tolerance.
         value: f64,
     },
-    /// An integration that could not go on.
+    /// An integration failed.
     #[error("the integration stopped at time {time}: {reason}")]
     Integration {
-        /// Why.
+        /// The reason.
         reason: &'static str,
-        /// Where, since its start.
+        /// Time since the start of the integration.
         time: f64,
     },
-    /// A state with a component that is infinite or not a number.
+    /// A component of a state is infinite or NaN.
     #[error("the state is not finite after {time} time units and {jumps} jumps: {state:?}")]
     StateNotFinite {
         /// Continuous time t.

@@ -1,29 +1,31 @@
-//! Executions: arcs and events, one after the other, in hybrid time.
+//! Executions: arcs and events in hybrid time, one after the other.
 
-use crate::accumulation::History;
-use crate::simultaneous::{next_of, together};
-use crate::{
-    Accumulation, Arc, ArcEnd, Certainty, Crossing, Error, Event, HybridSystem, Reset, State,
-};
+use crate::arc::{Arc, ArcEnd, Event};
+use crate::crossing::{Certainty, Crossing};
+use crate::error::Error;
+use crate::simultaneous::{also_at_surface, next_at_same_instant};
+use crate::state::State;
+use crate::system::{HybridSystem, Reset};
+use crate::zeno::{History, ZenoLimit};
 
-/// How far an execution may go.
+/// Limits of an execution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Continuous time; may be infinite if the model solves its own crossings.
+    /// Largest continuous time; may be infinite if the model solves its own crossings.
     pub time: f64,
-    /// Number of events.
+    /// Largest number of events.
     pub events: usize,
-    /// The interval at which guards without closed-form crossings are sampled.
+    /// The interval at which guards without bounds are sampled.
     pub sampling_interval: Option<f64>,
 }
 
 impl Limits {
-    /// Up to `time`, with at most `events` events, for models that solve their own crossings.
+    /// Limits for models whose guards need no samples.
     pub const fn new(time: f64, events: usize) -> Self {
         Limits { time, events, sampling_interval: None }
     }
 
-    /// The same with a sampling interval for guards without closed-form crossings.
+    /// The same with a sampling interval for guards without bounds.
     pub const fn sampled(time: f64, events: usize, interval: f64) -> Self {
         Limits { time, events, sampling_interval: Some(interval) }
     }
@@ -38,19 +40,18 @@ pub enum Stop {
     EventLimit,
     /// A reset ended the execution.
     Terminal,
-    /// No event ever follows.
+    /// No event follows, and there is no limit on time.
     NoFurtherEvent,
-    /// Events accumulate, and the model names no mode that they lead to.
-    Accumulation,
+    /// The events have a Zeno limit, and the model names no mode after it.
+    Zeno,
     /// An error was returned.
     Failed,
 }
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
-/// It ends by itself: at a limit, at a terminal event, where events accumulate (unless the model goes on
-/// from there), when no event can follow, or after an error;
-/// [`stop`](Self::stop) tells which.
+/// The iterator ends at a limit, at a terminal event, at a Zeno limit after which the model names no mode, when no
+/// event can follow, or after an error. [`stop`](Self::stop) tells which.
 #[derive(Debug, Clone)]
 pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     system: &'a T,
@@ -61,13 +62,14 @@ pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     jump: usize,
     stop: Option<Stop>,
     history: History<N>,
-    /// Events in a row that took no time.
+    /// Number of events in a row between which no time passed.
     timeless: usize,
-    /// Surfaces that were met at the same instant as the last one crossed.
+    /// Surfaces that the state reached at the same instant as the last one crossed.
     pending: Vec<T::Surface>,
 }
 
-/// Events that may follow one another without time passing.
+/// Most events in a row without time passing. A few are normal where several guards are crossed together; more mean
+/// that the resets lead back to each other. The execution then ends with [`Error::TimelessChain`].
 const MOST_TIMELESS: usize = 1000;
 
 impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
@@ -88,35 +90,38 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         }
     }
 
-    /// Why the execution ended, or nothing if it has not.
+    /// Why the execution ended; `None` while it continues.
     pub fn stop(&self) -> Option<Stop> {
         self.stop
     }
 
+    /// The next arc, and the state moved to its end.
     fn arc(&mut self) -> Result<Arc<T::Mode, T::Surface, N>, Error> {
         if !(self.limits.time >= 0.0) {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
         self.check_state()?;
-        if let Some(limit) = self.history.accumulation(self.time, self.jump, false) {
-            return Ok(self.accumulate(limit));
+        if let Some(limit) = self.history.zeno_limit(self.time, self.jump, false) {
+            return Ok(self.zeno_arc(limit));
         }
-        // An event at the limit may round beyond it.
+        // The time of an event at the limit may be rounded up beyond it.
         let horizon = (self.limits.time - self.time).max(0.0);
-        let crossing = match self.at_once(horizon) {
+        let crossing = match self.at_same_instant(horizon) {
             Some(crossing) => Some(crossing),
             None => match self.search(horizon) {
+                // After many short bounces rounding hides the next one: a Zeno limit, if the durations say so.
                 Err(
                     hidden @ (Error::UndecidedStart { .. }
                     | Error::UndecidedSign { .. }
                     | Error::Grazing { .. }),
                 ) => {
-                    let limit = self.history.accumulation(self.time, self.jump, true);
-                    return limit.map(|limit| self.accumulate(limit)).ok_or(hidden);
+                    let limit = self.history.zeno_limit(self.time, self.jump, true);
+                    return limit.map(|limit| self.zeno_arc(limit)).ok_or(hidden);
                 }
                 other => other?,
             },
         };
+        // A model's own `first_crossing` may return anything.
         if let Some(crossing) = crossing.filter(|crossing| !(crossing.time >= 0.0)) {
             return Err(Error::BadLimit { what: "the time of a crossing", value: crossing.time });
         }
@@ -132,8 +137,10 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             Some(crossing) => {
                 arc.duration = crossing.time;
                 if crossing.time > 0.0 {
-                    self.pending = together(self.system, &arc, crossing.surface, &crossing.state);
+                    self.pending =
+                        also_at_surface(self.system, &arc, crossing.surface, &crossing.state);
                 } else {
+                    // An event at the same instant as the last one: the other surfaces still wait.
                     self.pending.retain(|&surface| surface != crossing.surface);
                 }
                 let time = self.time + crossing.time;
@@ -141,7 +148,6 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
                     Reset::Jump { mode, state } => Some((mode, state)),
                     Reset::Stop => None,
                 };
-                arc.duration = crossing.time;
                 arc.end = ArcEnd::Event(Event {
                     surface: crossing.surface,
                     time,
@@ -175,12 +181,13 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         self.system.first_crossing(self.mode, &self.state, horizon, interval)
     }
 
-    /// The next of the events at the instant of the last one.
-    fn at_once(&mut self, horizon: f64) -> Option<Crossing<T::Surface, N>> {
+    /// The next event at the same instant as the last one.
+    fn at_same_instant(&mut self, horizon: f64) -> Option<Crossing<T::Surface, N>> {
         if self.pending.is_empty() {
             return None;
         }
-        let surface = next_of(self.system, self.mode, &self.state, &self.pending, horizon);
+        let surface =
+            next_at_same_instant(self.system, self.mode, &self.state, &self.pending, horizon);
         if surface.is_none() {
             self.pending.clear();
         }
@@ -188,8 +195,9 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         surface.map(|surface| Crossing { surface, time: 0.0, state, certainty })
     }
 
-    /// The last arc before the limit of infinitely many events, and what follows it.
-    fn accumulate(&mut self, limit: Accumulation<N>) -> Arc<T::Mode, T::Surface, N> {
+    /// The arc that stands for infinitely many events up to their limit. The execution continues after it if the model
+    /// names a mode.
+    fn zeno_arc(&mut self, limit: ZenoLimit<N>) -> Arc<T::Mode, T::Surface, N> {
         if limit.time > self.limits.time {
             self.stop = Some(Stop::TimeLimit);
             return Arc {
@@ -208,14 +216,14 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
             jump: self.jump,
             start: self.state,
             duration: (limit.time - self.time).max(0.0),
-            end: ArcEnd::Accumulation { limit, after },
+            end: ArcEnd::Zeno { limit, after },
         };
         self.time = limit.time;
         self.jump += 1;
         self.history.clear();
         match after {
             Some((mode, state)) => (self.mode, self.state) = (mode, state),
-            None => self.stop = Some(Stop::Accumulation),
+            None => self.stop = Some(Stop::Zeno),
         }
         arc
     }

@@ -7,12 +7,12 @@ pub enum Direction {
     Rising,
     /// From positive to negative.
     Falling,
-    /// Both.
+    /// Both ways.
     Either,
 }
 
 impl Direction {
-    /// Whether a change of sign from `before` to `after` (both non-zero) counts.
+    /// True if a change of sign from `before` to `after`, both non-zero, counts.
     pub fn admits(self, before: f64, after: f64) -> bool {
         match self {
             Direction::Rising => before < 0.0 && after > 0.0,
@@ -21,7 +21,7 @@ impl Direction {
         }
     }
 
-    /// Whether `value` lies where an admitted crossing leads to.
+    /// True if `value` is on a side to which a crossing that counts leads.
     pub(crate) fn leads_to(self, value: f64) -> bool {
         match self {
             Direction::Rising => value > 0.0,
@@ -31,12 +31,12 @@ impl Direction {
     }
 }
 
-/// A switching surface, by the name the model gives it, and the direction in which it is crossed.
+/// A switching surface and the direction in which crossing it is an event.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Guard<S> {
     /// The model's name of the surface {x : g(x) = 0}.
     pub surface: S,
-    /// The side from which a crossing is an event.
+    /// The direction in which a crossing is an event.
     pub direction: Direction,
 }
 

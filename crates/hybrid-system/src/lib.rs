@@ -1,4 +1,4 @@
-//! Hybrid dynamical systems: flows interrupted by events, followed without missing one.
+//! Hybrid dynamical systems: flows interrupted by events, followed without missing an event.
 //!
 //! ```text
 //!    mode m:  x(t) = φ_m(t; x₀)   until   g(x) = 0   then   (m, x) ← reset(m, x)
@@ -8,18 +8,18 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`HybridSystem`] | the trait: flow, guards, guard values, reset |
-//! | [`Guard`], [`Direction`] | a switching surface, and the side from which a crossing counts |
+//! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
+//! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how sure it is: exact, certain, interpolated or sampled |
-//! | [`Enclosure`] | bounds on a guard that the model gives |
-//! | [`Signal`], [`FirstCrossing`] | guards as sums of polynomials times sines: the first crossing with certainty, grazings told |
-//! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, bounded in time and events |
-//! | [`Arc`], [`Event`], [`ArcEnd`] | what an execution consists of, with both one-sided states |
-//! | [`Accumulation`] | infinitely many events in finite time (Zeno): the limit, and what follows |
+//! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times sines and cosines; their first crossing, with certainty |
+//! | [`Enclosure`] | bounds on a guard, given by the model |
+//! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
+//! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
+//! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
 //! | [`VectorField`], `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
-//! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | small changes of the start, through arcs and events (saltation) |
-//! | [`bracketed_root`] | Brent's method on a bracket that is certain |
+//! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
+//! | [`bracketed_root`] | Brent's method between two values of opposite sign |
 //!
 //! A ball that loses half of its speed at every bounce:
 //!
@@ -57,31 +57,33 @@
 //!         times.push(event.time);
 //!     }
 //! }
-//! // Dropped from ½ under unit gravity it lands after 1, and each flight is half as long.
+//! // Dropped from ½ under unit gravity the ball lands after 1. Each flight is half as long as the one before.
 //! for (time, exact) in times.iter().zip([1.0, 2.0, 2.5]) {
 //!     assert!((time - exact).abs() < 1e-14);
 //! }
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! To read on: [flow, guard and reset](mathematics), [which certainty do I have?](certainty), and
-//! [a model of one's own in 40 lines](guide). The examples `bouncing_ball` and `plastic_landing` have contact that
-//! holds and lets go.
+//! More: [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 40
+//! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
+//! released.
 //!
 //! # Accuracy
-//! Crossing times are as exact as the model's own solution, or to a few ulps by bracketing. A guard
-//! given as a [`Signal`] or by [`Enclosure`]s is searched under bounds: no crossing is missed, a start at
-//! zero is left by its derivatives, and what rounding hides is an error. Along integrated flows guards are searched
-//! on polynomials, to the flow's tolerances. A crossing found by sampling says so in its [`Certainty`].
+//! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard
+//! given as a [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed. A start at
+//! zero is left by its derivatives. If rounding hides the answer, the result is an error. Along integrated flows
+//! guards are searched on polynomials, to the tolerances of the flow. A crossing found by sampling says so in its
+//! [`Certainty`].
 //!
 //! # Speed
-//! Executions of fixed dimension with integrated modes allocate nothing; closed forms allocate for their signals.
-//! `cargo bench -p hybrid-system` measures events by each means.
+//! Executions of fixed dimension with integrated modes allocate nothing, up to eight guards a mode.
+//! Quasi-polynomials allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost
+//! of an event for each kind of guard.
 //!
 //! # Not here
-//! Stiff integrators, differential-algebraic equations, sliding along surfaces (a mode of its own can do it).
-//! In the sampled search a start exactly on a surface that the flow then crosses within the first sample is an
-//! error, not a guess.
+//! Stiff integrators, differential-algebraic equations, sliding along surfaces (a model can have a mode for that). The
+//! sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its surface at the first
+//! sample.
 //!
 //! # References
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
@@ -89,12 +91,8 @@
 //! Springer (2004), for saltation; J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*,
 //! Numer. Algorithms 53 (2010).
 
-mod accumulation;
 mod arc;
-mod bracketed_root;
-mod certain_crossing;
 mod crossing;
-mod enclosure;
 mod error;
 mod execution;
 mod guard;
@@ -102,16 +100,15 @@ mod guard;
 mod ode;
 mod searched;
 mod sensitivity;
-mod signal;
 mod simultaneous;
+mod state;
 mod system;
+mod zeno;
 
-pub use accumulation::Accumulation;
 pub use arc::{Arc, ArcEnd, Event};
-pub use bracketed_root::bracketed_root;
-pub use certain_crossing::FirstCrossing;
-pub use crossing::{Certainty, Crossing};
-pub use enclosure::Enclosure;
+pub use crossing::{
+    Certainty, Crossing, Enclosure, FirstCrossing, QuasiPolynomial, bracketed_root,
+};
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard};
@@ -121,8 +118,9 @@ pub use ode::{
 };
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
-pub use signal::Signal;
-pub use system::{HybridSystem, Reset, State, VectorField};
+pub use state::State;
+pub use system::{HybridSystem, Reset, VectorField};
+pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}

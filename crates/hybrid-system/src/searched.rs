@@ -1,11 +1,12 @@
 //! A system whose crossings are searched for, although it could solve them.
 
 use crate::guard::Guard;
-use crate::system::{HybridSystem, Reset, State};
+use crate::state::State;
+use crate::system::{HybridSystem, Reset};
 
 /// A system with its flows, guards and resets only.
 ///
-/// Crossings that the system solves itself, signals and enclosures of its guards, and rest after infinitely many
+/// Crossings that the system solves itself, quasi-polynomials and enclosures of its guards, and rest after infinitely many
 /// events are hidden: an execution samples the guards. A test that compares it with the system itself checks the
 /// hidden parts against a search that knows none of their theory.
 #[derive(Debug, Clone, Copy, PartialEq)]

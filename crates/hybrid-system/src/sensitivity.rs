@@ -1,16 +1,19 @@
-//! How a small change of the start is carried through arcs and events: state transition and saltation.
+//! How a small change of the start is carried through arcs and events: state transition and saltation matrices.
 //!
-//! Along an arc δx(t) = Φ(t) δx₀. At an event an orbit that starts elsewhere arrives earlier or later, so
-//! that
+//! Along an arc δx(t) = Φ(t) δx₀. An orbit with another start reaches the surface of an event earlier or later.
+//! Compared at the same time after the event,
 //!
 //! ```text
 //!   δx⁺ = Ξ δx⁻      Ξ = DR + (f⁺ − DR f⁻) ∇gᵀ/(∇g·f⁻)
 //! ```
 //!
-//! with the reset R, the vector fields f⁻, f⁺ on both sides and the guard g (Müller 1995; Leine and
-//! Nijmeijer 2004). Where the orbit only grazes, ∇g·f⁻ = 0 and there is no such matrix.
+//! with the reset R, the vector fields f⁻ and f⁺ on both sides, and the guard g: statement (10) of
+//! [mathematics](crate::mathematics). If the orbit only grazes the surface, ∇g·f⁻ = 0, and there is no such matrix.
 
-use crate::{Arc, ArcEnd, Error, Event, State, VectorField};
+use crate::arc::{Arc, ArcEnd, Event};
+use crate::error::Error;
+use crate::state::State;
+use crate::system::VectorField;
 use nalgebra::{RowSVector, SMatrix};
 
 /// The derivatives of a hybrid system that sensitivities need.
@@ -30,11 +33,13 @@ pub trait Differentiable<const N: usize>: VectorField<N> {
     ) -> SMatrix<f64, N, N>;
 }
 
-/// Below this share of |∇g| |f⁻| the rate ∇g·f⁻ at which a guard is crossed is no number to divide by.
-const SLOWEST: f64 = 1e-12;
+/// Smallest rate ∇g·f⁻, relative to |∇g||f⁻|, at which a guard may be crossed. The scalar product is wrong by about
+/// 1e-16 |∇g||f⁻|: at this rate four digits of the quotient are left. Slower crossings are
+/// [`Error::GrazingSensitivity`].
+const SMALLEST_RATE: f64 = 1e-12;
 
-/// How a small change at the start of `arc` shows after the event that ends it, compared at the same time;
-/// along the whole arc if none does.
+/// The matrix from a small change of the start of `arc` to the change after the event that ends the arc, compared
+/// at the same time. If no event ends the arc, the change at its end.
 ///
 /// ```
 /// use hybrid_system::*;
@@ -56,8 +61,8 @@ const SLOWEST: f64 = 1e-12;
 ///     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
 ///         x[0]
 ///     }
-///     fn guard_signal(&self, _: (), _: Floor, x: &State<2>) -> Option<Signal> {
-///         Some(Signal::polynomial(&[x[0], x[1], -0.5]))
+///     fn guard_quasi_polynomial(&self, _: (), _: Floor, x: &State<2>) -> Option<QuasiPolynomial> {
+///         Some(QuasiPolynomial::polynomial(&[x[0], x[1], -0.5]))
 ///     }
 ///     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
 ///         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
@@ -79,8 +84,8 @@ const SLOWEST: f64 = 1e-12;
 ///         Matrix2::new(0.0, 0.0, 0.0, -0.5)
 ///     }
 /// }
-/// // From the floor upwards with speed v it lands after 2v and leaves with v/2. A start that is faster by
-/// // δ leaves faster by δ/2, but later by 2δ: compared at the same time, by δ/2 + 2δ.
+/// // From the floor upwards with speed v the ball lands after 2v and leaves with v/2. A start that is faster by
+/// // δ leaves faster by δ/2 and later by 2δ. Compared at the same time it is faster by δ/2 + 2δ.
 /// let start = Vector2::new(0.0, 3.0);
 /// let arc = Execution::new(&Ball, (), start, Limits::new(100.0, 1)).next().expect("an arc")?;
 /// let change = arc_sensitivity(&Ball, &arc)? * Vector2::new(0.0, 1.0);
@@ -90,8 +95,7 @@ const SLOWEST: f64 = 1e-12;
 ///
 /// # Errors
 /// [`Error::GrazingSensitivity`] if the guard is crossed so slowly that there is no derivative;
-/// [`Error::NoSensitivity`] for an arc that never ends, or ends in an accumulation, or along which the flow
-/// has no derivative.
+/// [`Error::NoSensitivity`] for an arc that never ends or ends in a Zeno limit, and for a flow without a derivative.
 pub fn arc_sensitivity<T, const N: usize>(
     system: &T,
     arc: &Arc<T::Mode, T::Surface, N>,
@@ -101,18 +105,22 @@ where
 {
     let along = transition(system, arc)?;
     let Some(event) = arc.event() else { return Ok(along) };
+    // An event that ends the execution has no state after it.
     let Some((mode, after)) = event.after else { return Ok(along) };
-    let (before, arrival) = arrival(system, arc.mode, event)?;
+    let (field_before, arrival) = arrival(system, arc.mode, event)?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
-    let jump = system.vector_field(mode, &after) - reset * before;
+    // Ξ = DR − (f⁺ − DR f⁻) ∂τ/∂x⁻: an arrival later by δτ spends δτ more before the event and less after it.
+    let jump = system.vector_field(mode, &after) - reset * field_before;
     Ok((reset - jump * arrival) * along)
 }
 
-/// How a small change at the start of `arc` shows right after the event that ends it, and in the time of that
-/// event: (∂x⁺/∂x₀, ∂τ/∂x₀). Compared at the event, whenever it is, not at the same time.
+/// The matrices from a small change of the start of `arc` to the change of the state right after the event that
+/// ends the arc, and to the change of the time τ of that event: (∂x⁺/∂x₀, ∂τ/∂x₀). States are compared at the
+/// event, not at the same time.
 ///
 /// # Errors
-/// As [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the execution.
+/// Those of [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the event ends the
+/// execution.
 pub fn event_sensitivity<T, const N: usize>(
     system: &T,
     arc: &Arc<T::Mode, T::Surface, N>,
@@ -123,10 +131,10 @@ where
     let none = Error::NoSensitivity { time: arc.time };
     let event = arc.event().filter(|event| event.after.is_some()).ok_or(none)?;
     let along = transition(system, arc)?;
-    let (before, arrival) = arrival(system, arc.mode, event)?;
+    let (field_before, arrival) = arrival(system, arc.mode, event)?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
-    // The state on the surface moves by Φδx₀ + f⁻δτ.
-    let on_surface = along + before * (arrival * along);
+    // The state on the surface changes by Φδx₀ + f⁻δτ.
+    let on_surface = along + field_before * (arrival * along);
     Ok((reset * on_surface, arrival * along))
 }
 
@@ -138,7 +146,7 @@ fn transition<T, const N: usize>(
 where
     T: Differentiable<N>,
 {
-    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Accumulation { .. }) {
+    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Zeno { .. }) {
         return Err(Error::NoSensitivity { time: arc.time });
     }
     let along = system.flow_jacobian(arc.mode, &arc.start, arc.duration);
@@ -148,7 +156,7 @@ where
     Err(Error::NoSensitivity { time: arc.time })
 }
 
-/// f⁻, and how the time of the event changes with the state before it: −∇gᵀ/(∇g·f⁻).
+/// f⁻, and the derivative of the time of the event with respect to the state before it, −∇gᵀ/(∇g·f⁻).
 fn arrival<T, const N: usize>(
     system: &T,
     mode: T::Mode,
@@ -158,18 +166,18 @@ where
     T: Differentiable<N>,
 {
     let gradient = system.guard_gradient(event.surface, &event.before);
-    let before = system.vector_field(mode, &event.before);
-    let rate = gradient.dot(&before);
-    if !(rate.abs() > SLOWEST * gradient.norm() * before.norm()) {
+    let field_before = system.vector_field(mode, &event.before);
+    let rate = gradient.dot(&field_before);
+    if !(rate.abs() > SMALLEST_RATE * gradient.norm() * field_before.norm()) {
         return Err(Error::GrazingSensitivity { time: event.time, rate });
     }
-    Ok((before, -gradient.transpose() / rate))
+    Ok((field_before, -gradient.transpose() / rate))
 }
 
-/// How a small change at the start of the first of `arcs` shows at the end of the last.
+/// The matrix from a small change of the start of the first of `arcs` to the change at the end of the last one.
 ///
 /// # Errors
-/// As [`arc_sensitivity`].
+/// Those of [`arc_sensitivity`].
 pub fn sensitivity<T, const N: usize>(
     system: &T,
     arcs: &[Arc<T::Mode, T::Surface, N>],

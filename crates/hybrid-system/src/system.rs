@@ -1,17 +1,15 @@
 //! The trait that a model implements.
 
-use crate::crossing::earliest_crossing;
-use crate::{Crossing, Enclosure, Error, Guard, Signal};
-use nalgebra::SVector;
+use crate::crossing::{Crossing, Enclosure, GuardedFlow, QuasiPolynomial, earliest_crossing};
+use crate::error::Error;
+use crate::guard::Guard;
+use crate::state::State;
 use std::fmt::Debug;
 
-/// A point of the continuous state space.
-pub type State<const N: usize> = SVector<f64, N>;
-
-/// What happens at an event.
+/// The result of an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Reset<M, const N: usize> {
-    /// The execution goes on in `mode` from `state`.
+    /// The execution continues in `mode` from `state`.
     Jump {
         /// The next mode.
         mode: M,
@@ -24,22 +22,25 @@ pub enum Reset<M, const N: usize> {
 
 /// A hybrid dynamical system.
 ///
-/// In mode m the state follows x(t) = φ_m(t; x₀); when a guard of the mode is crossed, a reset
-/// gives the next mode and state. Four methods are asked for; parameters live in the implementing
-/// type. A model that can solve its own crossings overrides [`first_crossing`](Self::first_crossing)
-/// and says in the result how sure it is. In a mode without closed form both are one call each:
-/// `integrated_flow` and `integrated_crossing` (feature `ode`).
+/// In mode m the state follows x(t) = φ_m(t; x₀). When a guard of the mode is crossed, a reset gives the next mode
+/// and state. Four methods are required; parameters are fields of the implementing type. A model that can solve its
+/// own crossings overrides [`first_crossing`](Self::first_crossing) and says in the result how sure it is. In a
+/// mode without closed form, `integrated_flow` and `integrated_crossing` (feature `ode`) provide both methods.
 pub trait HybridSystem<const N: usize> {
     /// The discrete states.
     type Mode: Copy + Eq + Debug;
     /// The names of the switching surfaces.
     type Surface: Copy + Eq + Debug;
 
-    /// The state after `time` ≥ 0 in `mode`, φ(t; x₀), with no regard to guards; not a number where it has none.
+    /// φ(t; x₀), the state after `time` ≥ 0 in `mode`, regardless of guards. A component is NaN where the flow is not
+    /// defined.
     fn flow(&self, mode: Self::Mode, start: &State<N>, time: f64) -> State<N>;
 
-    /// The guards watched in `mode`. Of events at the same instant, within an ulp, the guard listed first comes
-    /// first; the others follow at once if the state it leads to goes on through their surfaces.
+    /// The guards watched in `mode`.
+    ///
+    /// Of guards that are crossed at the same instant, within a few ulps, the one listed first is the event.
+    /// Another one is an event at the same instant, after it, if the state after the first reset goes on through
+    /// its surface.
     fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
 
     /// The function g whose zero set is the surface.
@@ -53,36 +54,36 @@ pub trait HybridSystem<const N: usize> {
         before: &State<N>,
     ) -> Reset<Self::Mode, N>;
 
-    /// Mode and state that infinitely many events in `mode`, accumulating at `limit`, lead to: a ball that has
-    /// bounced for ever rests.
+    /// Mode and state after the Zeno limit of infinitely many events in `mode`: a ball after its bounces is at rest.
+    /// `limit` is the state at the limit.
     ///
-    /// Provided: none; the execution ends at the limit.
+    /// Provided: `None`, and the execution ends at the limit.
     fn rest(&self, mode: Self::Mode, limit: &State<N>) -> Option<(Self::Mode, State<N>)> {
         let _ = (mode, limit);
         None
     }
 
-    /// The guard along the flow from `start`, g(φ(t; x₀)) as a function of t, where it is a sum of
-    /// polynomials times sines and cosines: then its crossings are found with certainty.
+    /// The guard along the flow from `start`, g(φ(t; x₀)), as a quasi-polynomial in t: a sum of polynomials times sines
+    /// and cosines. Its crossings are then found with certainty.
     ///
-    /// Provided: none.
-    fn guard_signal(
+    /// Provided: `None`.
+    fn guard_quasi_polynomial(
         &self,
         mode: Self::Mode,
         surface: Self::Surface,
         start: &State<N>,
-    ) -> Option<Signal> {
+    ) -> Option<QuasiPolynomial> {
         let _ = (mode, surface, start);
         None
     }
 
-    /// An interval that holds the derivative of this order of the guard along the flow from `start`,
-    /// dᵏ/dtᵏ g(φ(t; x₀)), at all times in [`from`, `to`], roundings included; order 0 is the guard itself.
+    /// An interval that holds dᵏ/dtᵏ g(φ(t; x₀)), k = `order`, at all times in [`from`, `to`], roundings included.
+    /// Order 0 is the guard itself.
     ///
-    /// With bounds of order 0 and 1 for any interval, crossings are found with certainty; order 2 makes
-    /// that faster, and a start on the surface to order k needs orders up to k.
+    /// Bounds of orders 0 and 1 for every interval are enough to find crossings with certainty. Order 2 makes the
+    /// search faster. A start at which the derivatives below order k are zero needs the orders up to k.
     ///
-    /// Provided: none.
+    /// Provided: `None`.
     fn guard_enclosure(
         &self,
         mode: Self::Mode,
@@ -95,21 +96,21 @@ pub trait HybridSystem<const N: usize> {
         None
     }
 
-    /// The first crossing of a guard of `mode` strictly after `start`, no later than `horizon`
-    /// (which may be infinite for a model that solves its crossings).
+    /// The first crossing of a guard of `mode` strictly after `start`, no later than `horizon`. The horizon may be
+    /// infinite for a model that solves its crossings.
     ///
-    /// Provided: each guard by the best means that the model gives. A [signal](Self::guard_signal) or
-    /// [enclosures](Self::guard_enclosure) are searched with certainty up to a finite horizon. Any other
-    /// guard is sampled at `sampling_interval` and a change of sign is refined to full precision: two
-    /// crossings of one guard inside one interval are not seen, a zero on a sample counts once, and a
-    /// touch without change of sign not at all. If any guard was sampled, the result says
+    /// Provided: each guard is searched by the strongest means that the model gives. A guard with a
+    /// [quasi-polynomial](Self::guard_quasi_polynomial) or with [enclosures](Self::guard_enclosure) is searched with
+    /// certainty up to a finite horizon. Every other guard is sampled at `sampling_interval`, and a change of sign is
+    /// refined to full precision. Sampling does not see two crossings of one guard between two samples, nor a touch
+    /// without a change of sign; a zero at a sample counts once. If any guard was sampled, the result says
     /// [`Certainty::Sampled`](crate::Certainty::Sampled).
     ///
     /// # Errors
-    /// [`Error::Grazing`] if a signal or enclosure comes so close that rounding hides whether it crosses, and
-    /// the errors of [`Signal::first_crossing`]; [`Error::NoSamplingInterval`] if it is needed and absent;
-    /// [`Error::UndecidedStart`] if a sampled guard starts at zero and is beyond its surface at the first
-    /// sample.
+    /// [`Error::Grazing`] if a guard under bounds comes so close to zero that rounding hides whether it crosses,
+    /// and the errors of [`QuasiPolynomial::first_crossing`]; [`Error::NoSamplingInterval`] if a guard must be
+    /// sampled and there is no interval; [`Error::UndecidedStart`] if a sampled guard is zero at the start and
+    /// beyond its surface at the first sample.
     fn first_crossing(
         &self,
         mode: Self::Mode,
@@ -117,14 +118,49 @@ pub trait HybridSystem<const N: usize> {
         horizon: f64,
         sampling_interval: Option<f64>,
     ) -> Result<Option<Crossing<Self::Surface, N>>, Error> {
-        earliest_crossing(self, mode, start, horizon, sampling_interval)
+        earliest_crossing(&FlowFrom { system: self, mode, start }, horizon, sampling_interval)
     }
 }
 
-/// f of ẋ = f(x), mode by mode.
+/// The flow of a system in one mode from one start, as a search for crossings sees it.
+struct FlowFrom<'a, T: HybridSystem<N> + ?Sized, const N: usize> {
+    system: &'a T,
+    mode: T::Mode,
+    start: &'a State<N>,
+}
+
+impl<T: HybridSystem<N> + ?Sized, const N: usize> GuardedFlow<N> for FlowFrom<'_, T, N> {
+    type Surface = T::Surface;
+
+    fn start(&self) -> &State<N> {
+        self.start
+    }
+
+    fn state(&self, time: f64) -> State<N> {
+        self.system.flow(self.mode, self.start, time)
+    }
+
+    fn guards(&self) -> &[Guard<T::Surface>] {
+        self.system.guards(self.mode)
+    }
+
+    fn guard_value(&self, surface: T::Surface, state: &State<N>) -> f64 {
+        self.system.guard_value(surface, state)
+    }
+
+    fn quasi_polynomial(&self, surface: T::Surface) -> Option<QuasiPolynomial> {
+        self.system.guard_quasi_polynomial(self.mode, surface, self.start)
+    }
+
+    fn enclosure(&self, surface: T::Surface, order: u32, times: (f64, f64)) -> Option<Enclosure> {
+        self.system.guard_enclosure(self.mode, surface, self.start, order, times)
+    }
+}
+
+/// f of ẋ = f(x) in each mode.
 ///
-/// A field that depends on time carries time as a component of the state, ṫ = 1.
+/// If the field depends on time, time is a component of the state with ṫ = 1.
 pub trait VectorField<const N: usize>: HybridSystem<N> {
-    /// f in `mode`.
+    /// f(x) in `mode`.
     fn vector_field(&self, mode: Self::Mode, state: &State<N>) -> State<N>;
 }

@@ -1,4 +1,4 @@
-//! Executions of fixed dimension allocate nothing, with events or without.
+//! Executions with integrated modes allocate nothing, with and without events.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
@@ -6,7 +6,7 @@
 use hybrid_system::*;
 use nalgebra::Vector2;
 
-/// A ball in air that slows it down.
+/// A ball with air drag.
 struct Ball;
 
 const TOLERANCES: Tolerances = Tolerances::both(1e-10);
@@ -50,7 +50,7 @@ fn an_integrated_execution_allocates_nothing() {
             .filter(|arc| arc.as_ref().unwrap().event().is_some())
             .count()
     };
-    // The tables are built once.
+    // The first run builds the tables of the schemes, which allocates.
     assert_eq!(bounces(), 20);
     let info = allocation_counter::measure(|| assert_eq!(bounces(), 20));
     assert_eq!(info.count_total, 0, "{info:?}");

@@ -1,13 +1,13 @@
-//! Systems whose guards are given by bounds: nothing is sampled. Names say where a case comes from.
+//! Systems whose guards have bounds and are not sampled. Names of tests say where a case comes from.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::Vector2;
 
-/// E11: ẋ = 1 and x → x − 2 where x + y ≥ 0: after t = 2 the state is the first one.
+/// E11: ẋ = 1, and x → x − 2 where x + y ≥ 0. After t = 2 the state is the start again.
 #[test]
-fn constant_flow() {
+fn e11_constant_flow() {
     struct Saw;
     impl HybridSystem<2> for Saw {
         type Mode = ();
@@ -21,8 +21,8 @@ fn constant_flow() {
         fn guard_value(&self, (): (), x: &State<2>) -> f64 {
             x[0] + x[1]
         }
-        fn guard_signal(&self, (): (), (): (), x: &State<2>) -> Option<Signal> {
-            Some(Signal::polynomial(&[x[0] + x[1], 1.0]))
+        fn guard_quasi_polynomial(&self, (): (), (): (), x: &State<2>) -> Option<QuasiPolynomial> {
+            Some(QuasiPolynomial::polynomial(&[x[0] + x[1], 1.0]))
         }
         fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
             Reset::Jump { mode: (), state: Vector2::new(x[0] - 2.0, x[1]) }
@@ -39,7 +39,7 @@ fn constant_flow() {
     }
 }
 
-/// An event at the end time itself, to the last bit: both one-sided states are there.
+/// The last event is exactly at the end time: it has both one-sided states.
 #[test]
 fn diffeqgpu_540_at_the_end_time() {
     struct Elastic;
@@ -55,8 +55,8 @@ fn diffeqgpu_540_at_the_end_time() {
         fn guard_value(&self, (): (), x: &State<2>) -> f64 {
             x[0]
         }
-        fn guard_signal(&self, (): (), (): (), x: &State<2>) -> Option<Signal> {
-            Some(Signal::polynomial(&[x[0], x[1], -5.0]))
+        fn guard_quasi_polynomial(&self, (): (), (): (), x: &State<2>) -> Option<QuasiPolynomial> {
+            Some(QuasiPolynomial::polynomial(&[x[0], x[1], -5.0]))
         }
         fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
             Reset::Jump { mode: (), state: Vector2::new(0.0, -x[1]) }
@@ -74,9 +74,10 @@ fn diffeqgpu_540_at_the_end_time() {
     assert_eq!(arcs.last().unwrap().end, ArcEnd::TimeLimit);
 }
 
-/// Bounds that the model gives: e^(−t) − 1/10 with |g″| ≤ 1, and a guard that is sampled beside it.
+/// A guard e^(−t) − 1/10 with enclosures, alone, and together with a guard that must be sampled: the weaker
+/// certainty counts.
 #[test]
-fn enclosures_and_the_weakest_certainty() {
+fn the_weakest_certainty_counts() {
     struct Decay {
         sampled: bool,
     }
@@ -119,7 +120,7 @@ fn enclosures_and_the_weakest_certainty() {
     let found = only.first_crossing((), &start, 10.0, None).unwrap().unwrap();
     assert!((found.time - 10f64.ln()).abs() < 1e-14);
     assert_eq!(found.certainty, Certainty::Certain);
-    // With a guard that is only sampled nothing is certain, and an interval is needed.
+    // With a guard that must be sampled no crossing is certain, and an interval is needed.
     let both = Decay { sampled: true };
     assert!(matches!(
         both.first_crossing((), &start, 10.0, None),
@@ -130,14 +131,14 @@ fn enclosures_and_the_weakest_certainty() {
     assert_eq!(found.certainty, Certainty::Sampled { interval: 0.1 });
 }
 
-/// A small swing that never reaches zero, over a million of its periods.
+/// A small oscillation about a large constant has no zero in millions of periods.
 #[test]
-fn a_small_swing_holds_for_ever() {
-    let force = Signal::polynomial(&[19.6]) - Signal::cosine(5.0, 22.4);
+fn a_small_oscillation_never_crosses() {
+    let force = QuasiPolynomial::polynomial(&[19.6]) - QuasiPolynomial::cosine(5.0, 22.4);
     assert_eq!(force.first_crossing(Direction::Falling, 1e6).unwrap(), FirstCrossing::Never);
 }
 
-/// H4: an elastic ball, its flights under bounds, no interval given.
+/// H4: an elastic ball whose guard is a quasi-polynomial, without a sampling interval.
 #[test]
 fn drake_elastic_ball_by_bounds() {
     struct Elastic;
@@ -153,8 +154,8 @@ fn drake_elastic_ball_by_bounds() {
         fn guard_value(&self, (): (), x: &State<2>) -> f64 {
             x[0]
         }
-        fn guard_signal(&self, (): (), (): (), x: &State<2>) -> Option<Signal> {
-            Some(Signal::polynomial(&[x[0], x[1], -0.5 * 9.81]))
+        fn guard_quasi_polynomial(&self, (): (), (): (), x: &State<2>) -> Option<QuasiPolynomial> {
+            Some(QuasiPolynomial::polynomial(&[x[0], x[1], -0.5 * 9.81]))
         }
         fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
             Reset::Jump { mode: (), state: Vector2::new(0.0, -x[1]) }

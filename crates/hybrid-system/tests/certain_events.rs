@@ -1,4 +1,4 @@
-//! Crossings under bounds: none missed, none invented. Names say where a case comes from.
+//! Crossings under bounds: all are found, and no others. Names of tests say where a case comes from.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -7,10 +7,14 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// All crossings of a polynomial in time, with their directions.
-fn crossings(signal: &Signal, shift: impl Fn(f64) -> Signal, horizon: f64) -> Vec<f64> {
+/// Times of all crossings. After each one the search starts again from `shift(time)`, the function seen from there.
+fn crossings(
+    function: &QuasiPolynomial,
+    shift: impl Fn(f64) -> QuasiPolynomial,
+    horizon: f64,
+) -> Vec<f64> {
     let (mut times, mut from) = (Vec::new(), 0.0);
-    let mut now = signal.clone();
+    let mut now = function.clone();
     while let FirstCrossing::At { time, .. } =
         now.first_crossing(Direction::Either, horizon - from).unwrap()
     {
@@ -25,25 +29,25 @@ fn crossings(signal: &Signal, shift: impl Fn(f64) -> Signal, horizon: f64) -> Ve
 }
 
 /// Π (t + s − r), as a polynomial in t.
-fn with_roots(roots: &[f64], shift: f64) -> Signal {
-    roots.iter().fold(Signal::polynomial(&[1.0]), |product, root| {
-        product * Signal::polynomial(&[shift - root, 1.0])
+fn with_roots(roots: &[f64], shift: f64) -> QuasiPolynomial {
+    roots.iter().fold(QuasiPolynomial::polynomial(&[1.0]), |product, root| {
+        product * QuasiPolynomial::polynomial(&[shift - root, 1.0])
     })
 }
 
-/// y = x³ + 6x² − 4x − 24 from x = −8: zeros exactly −6, −2 and 2; elsewhere one is found.
+/// y = x³ + 6x² − 4x − 24 from x = −8 has its zeros at −6, −2 and 2. `SciPy` finds one of them (issue 9228).
 #[test]
-fn scipy_9228_all_three() {
+fn scipy_9228_all_three_zeros() {
     let at = |t: f64| {
         let x = t - 8.0;
-        Signal::polynomial(&[
+        QuasiPolynomial::polynomial(&[
             ((x + 6.0) * x - 4.0) * x - 24.0,
             (3.0 * x + 12.0) * x - 4.0,
             3.0 * x + 6.0,
             1.0,
         ])
     };
-    // From just behind a zero the next one is looked for: the zero itself is the start.
+    // Each zero is rounded to a multiple of 1/4, which is exact: the next search starts on the zero.
     let found = crossings(&at(0.0), |t| at((t * 4.0).round() / 4.0), 12.0);
     assert_eq!(found.len(), 3, "{found:?}");
     for (time, x) in found.iter().zip([-6.0, -2.0, 2.0]) {
@@ -52,11 +56,11 @@ fn scipy_9228_all_three() {
 }
 
 #[test]
-fn roots_wherever_they_are() {
+fn each_root_of_a_polynomial_is_found() {
     for roots in [vec![0.1, 0.4, 0.8], (1..10).map(|k| f64::from(k) / 10.0).collect::<Vec<_>>()] {
         let mut from = 0.0;
         for &root in &roots {
-            // Ahead of each root, from halfway to the one before.
+            // From 0.05 after the root before.
             let FirstCrossing::At { time, .. } =
                 with_roots(&roots, from).first_crossing(Direction::Either, 2.0).unwrap()
             else {
@@ -71,8 +75,8 @@ fn roots_wherever_they_are() {
 }
 
 #[test]
-fn oscillator_zeros_in_one_direction() {
-    let cosine = Signal::cosine(1.0, 1.0);
+fn oscillator_zeros_in_each_direction() {
+    let cosine = QuasiPolynomial::cosine(1.0, 1.0);
     for (direction, zero) in [
         (Direction::Falling, PI / 2.0),
         (Direction::Rising, 1.5 * PI),
@@ -85,10 +89,10 @@ fn oscillator_zeros_in_one_direction() {
     assert_eq!(cosine.first_crossing(Direction::Falling, 1.5).unwrap(), FirstCrossing::Never);
 }
 
-/// E7: the guard y₀ − x² along ẋ = 1 from x = −1.
+/// E7: the guard y₀ − x² along ẋ = 1 from x = −1 stays away, touches, or crosses.
 #[test]
-fn tangency() {
-    let guard = |y0: f64| Signal::polynomial(&[y0 - 1.0, 2.0, -1.0]);
+fn e7_tangency() {
+    let guard = |y0: f64| QuasiPolynomial::polynomial(&[y0 - 1.0, 2.0, -1.0]);
     assert_eq!(guard(-1e-9).first_crossing(Direction::Either, 3.0).unwrap(), FirstCrossing::Never);
     let FirstCrossing::Grazing { time, value } =
         guard(0.0).first_crossing(Direction::Either, 3.0).unwrap()
@@ -101,13 +105,13 @@ fn tangency() {
     else {
         panic!("it crosses")
     };
-    // −1 + 10⁻¹² is rounded to an ulp: the root of that.
+    // −1 + 10⁻¹² is rounded to an ulp, which moves the root by about 10⁻¹⁰.
     assert!((time - 1.0 + 1e-6).abs() < 1e-9, "{time}");
 }
 
-/// Roots so flat that rounding hides on which side of them it is: told, with the smallest value.
+/// Near roots of order 3 and more rounding hides the sign over a long interval: a grazing, with the smallest value.
 #[test]
-fn flat_roots_are_told() {
+fn flat_roots_are_reported_as_grazing() {
     for order in [3, 4, 5] {
         let found = with_roots(&vec![1.0; order], 0.0).first_crossing(Direction::Either, 3.0);
         let Ok(FirstCrossing::Grazing { time, value }) = found else {
@@ -117,42 +121,45 @@ fn flat_roots_are_told() {
     }
 }
 
-/// Starts at zero, to any order, on either side.
+/// Starts at zero of order 1 to 8, to both sides.
 #[test]
 fn starts_at_zero_are_left_by_their_derivatives() {
     for order in 1..=8usize {
         for sign in [1.0, -1.0] {
             let mut coefficients = vec![0.0; order + 2];
             (coefficients[order], coefficients[order + 1]) = (sign, -sign);
-            let signal = Signal::polynomial(&coefficients);
-            let (there, not) = if sign > 0.0 {
+            let function = QuasiPolynomial::polynomial(&coefficients);
+            let (back, away) = if sign > 0.0 {
                 (Direction::Falling, Direction::Rising)
             } else {
                 (Direction::Rising, Direction::Falling)
             };
-            let found = signal.first_crossing(there, 5.0).unwrap();
+            let found = function.first_crossing(back, 5.0).unwrap();
             let FirstCrossing::At { time, .. } = found else { panic!("{order}: {found:?}") };
             assert!((time - 1.0).abs() < 1e-14);
-            assert_eq!(signal.first_crossing(not, 5.0).unwrap(), FirstCrossing::Never);
+            assert_eq!(function.first_crossing(away, 5.0).unwrap(), FirstCrossing::Never);
         }
     }
-    // On the surface but for rounding, as after an event.
-    let rounded = Signal::cosine(0.3, 1.0) + Signal::polynomial(&[-0.3 + 5e-17, 1.0, -0.5]);
+    // On the surface within rounding, as after an event.
+    let rounded =
+        QuasiPolynomial::cosine(0.3, 1.0) + QuasiPolynomial::polynomial(&[-0.3 + 5e-17, 1.0, -0.5]);
     let FirstCrossing::At { time, .. } = rounded.first_crossing(Direction::Falling, 9.0).unwrap()
     else {
         panic!()
     };
     assert!(time > 1.0);
-    let nothing = Signal::polynomial(&[0.0, 0.0]);
-    assert_eq!(nothing.first_crossing(Direction::Either, 1.0).unwrap(), FirstCrossing::Never);
-    // Tiny values are values.
-    let tiny = Signal::polynomial(&[1e-166, -1e-166]);
+    let zero = QuasiPolynomial::polynomial(&[0.0, 0.0]);
+    assert_eq!(zero.first_crossing(Direction::Either, 1.0).unwrap(), FirstCrossing::Never);
+    // The sign of a tiny value counts.
+    let tiny = QuasiPolynomial::polynomial(&[1e-166, -1e-166]);
     assert_eq!(
         tiny.first_crossing(Direction::Either, 2.0).unwrap(),
         FirstCrossing::At { time: 1.0, rising: false }
     );
     assert!(tiny.first_crossing(Direction::Either, f64::INFINITY).is_err());
-    assert!(Signal::polynomial(&[f64::NAN]).first_crossing(Direction::Either, 1.0).is_err());
+    assert!(
+        QuasiPolynomial::polynomial(&[f64::NAN]).first_crossing(Direction::Either, 1.0).is_err()
+    );
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -161,7 +168,7 @@ enum Face {
     Ceiling,
 }
 
-/// A ball between floor and ceiling: two guards, both signals.
+/// A ball between floor and ceiling: two guards, both given as quasi-polynomials.
 struct Box {
     height: f64,
 }
@@ -181,8 +188,8 @@ impl HybridSystem<2> for Box {
             Face::Ceiling => x[0] - self.height,
         }
     }
-    fn guard_signal(&self, (): (), face: Face, x: &State<2>) -> Option<Signal> {
-        Some(Signal::polynomial(&[self.guard_value(face, x), x[1], -0.5]))
+    fn guard_quasi_polynomial(&self, (): (), face: Face, x: &State<2>) -> Option<QuasiPolynomial> {
+        Some(QuasiPolynomial::polynomial(&[self.guard_value(face, x), x[1], -0.5]))
     }
     fn reset(&self, _: (), face: Face, x: &State<2>) -> Reset<(), 2> {
         let height = if face == Face::Floor { 0.0 } else { self.height };
@@ -198,7 +205,7 @@ fn a_ball_between_two_walls_needs_no_sampling() {
         .filter_map(|arc| arc.unwrap().event().copied())
         .collect();
     assert!(events.len() > 20);
-    // Up to the ceiling takes 3 − √7, down again √7 → 3: speeds alternate for ever.
+    // Each flight takes 3 − √7. The ball has speed √7 at the ceiling and 3 at the floor.
     let up = 3.0 - 7f64.sqrt();
     for (k, event) in events.iter().enumerate() {
         assert_eq!(event.surface, if k % 2 == 0 { Face::Ceiling } else { Face::Floor });
@@ -209,12 +216,12 @@ fn a_ball_between_two_walls_needs_no_sampling() {
     }
 }
 
-/// A spike far narrower than any sensible sampling interval.
+/// A dip far narrower than a useful sampling interval.
 #[test]
 fn a_narrow_dip_is_not_missed() {
-    // cos 40t + 1 − 10⁻¹⁰: below zero for 7e-7 of time around π/40.
-    let signal = Signal::cosine(1.0, 40.0) + Signal::polynomial(&[1.0 - 1e-10]);
-    let FirstCrossing::At { time, .. } = signal.first_crossing(Direction::Falling, 10.0).unwrap()
+    // cos 40t + 1 − 10⁻¹⁰ is below zero for a time of 7e-7 around π/40.
+    let function = QuasiPolynomial::cosine(1.0, 40.0) + QuasiPolynomial::polynomial(&[1.0 - 1e-10]);
+    let FirstCrossing::At { time, .. } = function.first_crossing(Direction::Falling, 10.0).unwrap()
     else {
         panic!("missed")
     };
@@ -222,9 +229,9 @@ fn a_narrow_dip_is_not_missed() {
 }
 
 proptest! {
-    /// Random polynomials by their roots: the first one ahead, and no other.
+    /// Random polynomials given by their roots: the first positive root is found.
     #[test]
-    fn the_first_root_ahead(mut roots in proptest::collection::vec(-3.0..3.0f64, 1..6)) {
+    fn the_first_positive_root_is_found(mut roots in proptest::collection::vec(-3.0..3.0f64, 1..6)) {
         roots.sort_by(f64::total_cmp);
         prop_assume!(roots.windows(2).all(|pair| pair[1] - pair[0] > 1e-3));
         prop_assume!(roots.iter().all(|root| root.abs() > 1e-3));
@@ -238,13 +245,13 @@ proptest! {
         }
     }
 
-    /// Sums of sines against dense sampling: no change of sign before the first crossing.
+    /// Sums of sines against dense samples: no change of sign before the first crossing.
     #[test]
-    fn no_change_of_sign_before(a in -2.0..2.0f64, b in -2.0..2.0f64, c in -1.0..1.0f64, w in 0.3..5.0f64) {
-        let signal = Signal::cosine(a, w) + Signal::sine(b, 1.0) + Signal::polynomial(&[c, 0.1]);
-        let start = signal.value(0.0);
+    fn no_change_of_sign_before_the_first_crossing(a in -2.0..2.0f64, b in -2.0..2.0f64, c in -1.0..1.0f64, w in 0.3..5.0f64) {
+        let function = QuasiPolynomial::cosine(a, w) + QuasiPolynomial::sine(b, 1.0) + QuasiPolynomial::polynomial(&[c, 0.1]);
+        let start = function.value(0.0);
         prop_assume!(start.abs() > 1e-9);
-        let found = signal.first_crossing(Direction::Either, 20.0).unwrap();
+        let found = function.first_crossing(Direction::Either, 20.0).unwrap();
         let until = match found {
             FirstCrossing::At { time, .. } => time,
             FirstCrossing::Grazing { time, .. } => time,
@@ -252,10 +259,10 @@ proptest! {
         };
         for k in 0..4000 {
             let t = until * f64::from(k) / 4000.0;
-            prop_assert!(signal.value(t) * start >= -1e-12, "{} before {}", t, until);
+            prop_assert!(function.value(t) * start >= -1e-12, "{} before {}", t, until);
         }
         if let FirstCrossing::At { time, .. } = found {
-            prop_assert!(signal.value(time).abs() < 1e-12);
+            prop_assert!(function.value(time).abs() < 1e-12);
         }
     }
 }

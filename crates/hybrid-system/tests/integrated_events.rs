@@ -1,4 +1,5 @@
-//! Events along integrated flows: none missed, none doubled, no step caps. Names say where a case comes from.
+//! Events along integrated flows: each is found once, without a limit on the size of steps. Names of tests say
+//! where a case comes from.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -11,7 +12,7 @@ use std::f64::consts::PI;
 
 const TIGHT: Tolerances = Tolerances::both(1e-13);
 
-/// A plain flow ẋ = f(x) watched by functions of the state; events change nothing.
+/// A flow ẋ = f(x) with functions of the state as guards. Events do not change the state.
 struct Watched<'a, F, G, const N: usize> {
     field: F,
     values: G,
@@ -59,7 +60,7 @@ where
     }
 }
 
-/// Times and surfaces of all events up to `time`.
+/// All events up to `time`.
 fn events<T: HybridSystem<N, Mode = (), Surface = usize>, const N: usize>(
     system: &T,
     start: State<N>,
@@ -72,7 +73,7 @@ fn events<T: HybridSystem<N, Mode = (), Surface = usize>, const N: usize>(
 
 /// E2: y₁ = t/(t+10), y₂ = 10t/(t+10)² from t = 5; two guards with powers of the state.
 #[test]
-fn scipy_test_events() {
+fn e2_scipy_test_events() {
     let field = |x: &State<3>| {
         let [t, y1, y2] = [x[0], x[1], x[2]];
         Vector3::new(1.0, y2 / t, y2 * (y1 + 2.0 * y2 - 1.0) / (t * (y1 - 1.0)))
@@ -90,15 +91,15 @@ fn scipy_test_events() {
     assert!((times[0].1 - 5.55057576624077608).abs() < 1e-12, "{times:?}");
     assert!((times[1].1 - 7.5487766624669276).abs() < 1e-12, "{times:?}");
     assert!(found.iter().all(|event| event.certainty == Certainty::Interpolated));
-    // The other directions have no event.
+    // In the opposite directions there is no event.
     let guards = [Guard::falling(0), Guard::rising(1)];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     assert!(events(&system, start, 3.0).is_empty());
 }
 
-/// E8: half a return of the Lorenz system to z = 27 from above.
+/// E8: the next crossing of z = 27 from above by the Lorenz system, half of a symmetric orbit.
 #[test]
-fn lorenz_section() {
+fn e8_lorenz_section() {
     let field = |x: &State<3>| {
         Vector3::new(
             10.0 * (x[1] - x[0]),
@@ -117,9 +118,9 @@ fn lorenz_section() {
     assert!((found[0].before - image).amax() < 2e-12, "{}", found[0].before - image);
 }
 
-/// y′ = 3x² + 12x − 4 on (−8, 4): SciPy finds one zero of three.
+/// y′ = 3x² + 12x − 4 on (−8, 4): `SciPy` finds one zero of three (issue 9228).
 #[test]
-fn scipy_9228() {
+fn scipy_9228_all_three_zeros() {
     let field = |x: &State<2>| Vector2::new(1.0, (3.0 * x[0] + 12.0) * x[0] - 4.0);
     let values = |_: usize, x: &State<2>| x[1];
     let guards = [Guard::either(0)];
@@ -147,9 +148,9 @@ fn oscillator_zeros() {
     }
 }
 
-/// E4 and E7 on ẋ = 1, whose steps grow tenfold.
+/// E4 and E7 on ẋ = 1, where each step is ten times as long as the one before.
 #[test]
-fn roots_within_long_steps_and_tangency() {
+fn e4_e7_roots_within_long_steps_and_tangency() {
     let field = |_: &State<1>| Vector1::new(1.0);
     let product =
         |_: usize, x: &State<1>| (1..10).map(|k| x[0] - f64::from(k) / 10.0).product::<f64>();
@@ -172,9 +173,9 @@ fn roots_within_long_steps_and_tangency() {
     assert!((at - 1.0 + 1e-6).abs() < 1e-9, "{at}");
 }
 
-/// A start on the surface, to any order, is left; it comes back once.
+/// The guard starts at a zero of order 1 to 4, leaves it, and has one crossing later.
 #[test]
-fn starts_at_zero() {
+fn starts_at_zero_are_left() {
     let field = |_: &State<1>| Vector1::new(1.0);
     for order in 1..=4 {
         for sign in [1.0, -1.0] {
@@ -191,7 +192,7 @@ fn starts_at_zero() {
 #[test]
 fn kinks_tiny_values_and_many_guards() {
     let field = |_: &State<1>| Vector1::new(1.0);
-    // |x − 1| − ½ is not smooth; 1e-166 (x − 0.37) is tiny.
+    // |x − 1| − ½ is not smooth at x = 1; the values of 1e-166 (x − 0.37) are tiny.
     let values = |surface: usize, x: &State<1>| match surface {
         0 => (x[0] - 1.0).abs() - 0.5,
         1 => 1e-166 * (x[0] - 0.37),
@@ -208,7 +209,7 @@ fn kinks_tiny_values_and_many_guards() {
 }
 
 #[test]
-fn what_has_no_flow_is_an_error() {
+fn a_flow_that_does_not_exist_is_an_error() {
     let field = |x: &State<1>| Vector1::new(x[0] * x[0]);
     let values = |_: usize, x: &State<1>| x[0] - 1e300;
     let guards = [Guard::rising(0)];
@@ -232,10 +233,10 @@ fn what_has_no_flow_is_an_error() {
 }
 
 proptest! {
-    /// Planted roots at random, also close together and close to the start: each once, in order. Those so close
-    /// that rounding hides them are reported, not passed over.
+    /// Random roots, also close together and close to the start: each is found once, in order. Roots that rounding
+    /// hides are reported as errors.
     #[test]
-    fn planted_roots(mut roots in proptest::collection::vec(1e-3..5.0f64, 1..7), twin in -7.5..-3.0f64) {
+    fn planted_roots_are_found_in_order(mut roots in proptest::collection::vec(1e-3..5.0f64, 1..7), twin in -7.5..-3.0f64) {
         let twin = 10f64.powf(twin);
         roots.push(roots[0] + twin);
         roots.push(twin);
@@ -251,7 +252,7 @@ proptest! {
                 Ok(arc) => match arc.event() {
                     Some(event) => {
                         let at = event.before[0];
-                        // The twin of a root that was found may be within the rounding of the start.
+                        // A root next to one that was found may be within the rounding of the new start.
                         while ahead.next_if(|root| (at - root).abs() > 1e-10 && root - last < 1e-6).is_some() {}
                         last = ahead.next().unwrap();
                         prop_assert!((at - last).abs() < 1e-10, "{} {}", at, last);
@@ -259,7 +260,7 @@ proptest! {
                     None => prop_assert!(ahead.all(|root| root - last < 1e-6)),
                 },
                 Err(Error::Grazing { value, .. }) => {
-                    // The product between the closest two is all that there is.
+                    // Between the closest two roots the guard is this small.
                     prop_assert!(value.abs() < 1e-9, "{}", value);
                     prop_assert!(roots.windows(2).any(|pair| pair[1] - pair[0] < 1e-3) || roots[0] < 1e-3);
                     break;

@@ -1,4 +1,4 @@
-//! Systems with integrated modes beside others in closed form.
+//! A system with one integrated mode and one in closed form.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -10,13 +10,13 @@ const TIGHT: Tolerances = Tolerances::both(1e-13);
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mode {
-    /// In air that slows it down: integrated.
+    /// In the air, with drag: integrated.
     Air,
-    /// On a spring: closed form.
+    /// On the spring: closed form.
     Spring,
 }
 
-/// A ball that falls through air onto a spring of stiffness one: one mode of each kind.
+/// A ball that falls through air onto a spring of stiffness 1.
 struct Trampoline {
     drag: f64,
 }
@@ -52,9 +52,9 @@ impl HybridSystem<2> for Trampoline {
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn guard_signal(&self, _: Mode, _: (), x: &State<2>) -> Option<Signal> {
-        let swing = Signal::cosine(x[0] + 1.0, 1.0) + Signal::sine(x[1], 1.0);
-        Some(swing + Signal::polynomial(&[-1.0]))
+    fn guard_quasi_polynomial(&self, _: Mode, _: (), x: &State<2>) -> Option<QuasiPolynomial> {
+        let swing = QuasiPolynomial::cosine(x[0] + 1.0, 1.0) + QuasiPolynomial::sine(x[1], 1.0);
+        Some(swing + QuasiPolynomial::polynomial(&[-1.0]))
     }
     fn reset(&self, mode: Mode, _: (), x: &State<2>) -> Reset<Mode, 2> {
         let next = if mode == Mode::Air { Mode::Spring } else { Mode::Air };
@@ -69,9 +69,9 @@ impl HybridSystem<2> for Trampoline {
     ) -> Result<Option<Crossing<(), 2>>, Error> {
         match mode {
             Mode::Air => integrated_crossing(self, mode, x, horizon, TIGHT),
-            Mode::Spring => self.guard_signal(mode, (), x).map_or(Ok(None), |signal| {
+            Mode::Spring => self.guard_quasi_polynomial(mode, (), x).map_or(Ok(None), |guard| {
                 let FirstCrossing::At { time, .. } =
-                    signal.first_crossing(Direction::Rising, horizon)?
+                    guard.first_crossing(Direction::Rising, horizon)?
                 else {
                     return Ok(None);
                 };
@@ -82,7 +82,7 @@ impl HybridSystem<2> for Trampoline {
     }
 }
 
-/// Through air and spring in turn, against the closed form v² → (1 − e^(−2kh))/k of each fall.
+/// Through air and spring in turn, against the closed form v² = (1 − e^(−2kh))/k of each fall from height h.
 #[test]
 fn one_mode_integrated_and_one_in_closed_form() {
     let ball = Trampoline { drag: 0.3 };
@@ -101,7 +101,7 @@ fn one_mode_integrated_and_one_in_closed_form() {
                 assert_eq!(event.certainty, Certainty::Interpolated);
             }
             Mode::Spring => {
-                // The spring gives back what it took; up it goes to h = ln(1 + k v²)/2k.
+                // The spring returns the speed. With it the ball rises to h = ln(1 + k v²)/2k.
                 assert!((event.before[1] - speed).abs() < 1e-11);
                 assert_eq!(event.certainty, Certainty::Certain);
                 let height = (k * speed * speed).ln_1p() / (2.0 * k);

@@ -1,4 +1,4 @@
-//! Systems with exact answers: balls, oscillators, polynomials. Names say where a case comes from.
+//! Systems with known solutions: balls, oscillators, polynomials. Names of tests say where a case comes from.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
@@ -34,7 +34,7 @@ impl HybridSystem<2> for Ball {
     }
 }
 
-/// A flow ẋ = 1 watched by a function of x; events change nothing.
+/// A flow ẋ = 1 with a function of x as guard. Events do not change the state.
 struct Clock<F> {
     guard: F,
     guards: [Guard<Surface>; 1],
@@ -115,7 +115,7 @@ fn diffeqgpu_540_both_sides_at_the_end_time() {
     for (time, exact) in times.iter().zip([3.0, 9.0, 15.0]) {
         assert_relative_eq!(*time, exact, max_relative = 1e-14);
     }
-    // The third may round beyond the end time; the second shows both sides.
+    // The third event may be rounded beyond the end time. The second one has both one-sided states.
     assert_relative_eq!(found[1].before[1], -30.0, max_relative = 1e-13);
     assert_relative_eq!(found[1].after.unwrap().1[1], 30.0, max_relative = 1e-13);
 }
@@ -145,9 +145,9 @@ fn scipy_9228_three_zeros() {
     }
 }
 
-/// Roots on samples and between them, each once, at any interval shorter than their distance.
+/// Roots at samples and between them are found once each, with every interval shorter than their distance.
 #[test]
-fn every_root_once_on_and_off_the_samples() {
+fn each_root_is_found_once_at_and_between_samples() {
     let product = |x: f64| (1..=9).map(|k| x - f64::from(k) / 10.0).product::<f64>();
     for interval in [0.05, 0.01, 0.033, 0.09, 1.0 / 128.0] {
         let zeros = crossings(product, Guard::either(Surface), 1.0, interval);
@@ -159,7 +159,7 @@ fn every_root_once_on_and_off_the_samples() {
 }
 
 #[test]
-fn a_touch_is_no_crossing() {
+fn a_touch_is_not_a_crossing_for_samples() {
     assert!(crossings(|x| (x - 0.5) * (x - 0.5), Guard::either(Surface), 1.0, 0.25).is_empty());
 }
 
@@ -171,7 +171,7 @@ fn sundials_57_tiny_values_still_cross() {
 }
 
 #[test]
-fn a_guard_without_a_solution_needs_an_interval() {
+fn a_guard_without_bounds_needs_an_interval() {
     let ball = Ball { gravity: 1.0, restitution: 0.5 };
     let first = |limits| Execution::new(&ball, (), Vector2::new(1.0, 0.0), limits).next().unwrap();
     assert!(matches!(first(Limits::new(1.0, 1)), Err(Error::NoSamplingInterval { .. })));
@@ -182,7 +182,7 @@ fn a_guard_without_a_solution_needs_an_interval() {
         ));
     }
     assert!(matches!(first(Limits::sampled(f64::NAN, 1, 0.1)), Err(Error::BadLimit { .. })));
-    // Resting on the floor it would fall through within the first sample: said, not guessed.
+    // At rest on the floor the ball would fall through before the first sample: an error.
     let resting =
         Execution::new(&ball, (), Vector2::new(0.0, 0.0), Limits::sampled(1.0, 1, 0.1)).next();
     assert!(matches!(resting, Some(Err(Error::UndecidedStart { .. }))));
@@ -191,9 +191,9 @@ fn a_guard_without_a_solution_needs_an_interval() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
-    /// Planted simple roots farther apart than the interval: none missed, none doubled.
+    /// Simple roots farther apart than the interval are found once each.
     #[test]
-    fn planted_roots(mut gaps in proptest::collection::vec(0.021..0.3f64, 1..8), interval in 0.003..0.02f64) {
+    fn planted_roots_are_found_once(mut gaps in proptest::collection::vec(0.021..0.3f64, 1..8), interval in 0.003..0.02f64) {
         for k in 1..gaps.len() {
             gaps[k] += gaps[k - 1];
         }
@@ -207,7 +207,7 @@ proptest! {
         }
     }
 
-    /// The ball against its closed form, event by event.
+    /// Each event of a ball against the closed form.
     #[test]
     fn bouncing_ball(restitution in 0.3..1f64, height in 0.1..10f64) {
         let ball = Ball { gravity: 9.8, restitution };

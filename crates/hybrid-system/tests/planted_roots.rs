@@ -1,24 +1,26 @@
-//! A million guards with planted roots, also within a few ulps of each other, of the start and of the end: none
-//! missed, none doubled.
+//! A million guards with roots at known places, some of them within a few ulps of each other, of the start or of
+//! the end: each root is found once.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::Vector1;
 
-/// Events are looked for in (0, END].
+/// Events are searched in (0, END].
 const END: f64 = 4.0;
 
-/// Roots farther than this from all others, from the start and from the end stand alone.
+/// A root must be found exactly once if it is farther than this from all other roots, from the start and from the end.
 const ALONE: f64 = 0.05;
 
-/// Roots of a crowd as wide as this may hide one another behind rounding.
+/// A grazing or an undecided sign is accepted only if two roots, or an end, lie within this distance. It leaves
+/// room: five close roots make a guard like x⁵, which is below a rounding of 1e-13 only for |x| < 3e-3.
 const CROWD: f64 = 0.2;
 
-/// How well a root that stands alone is known from rounded coefficients.
+/// Largest distance of an event from a root that is alone. The coefficients are rounded to about 1e-14, and the
+/// slope at the root is at least about ALONE⁴ = 6e-6.
 const KNOWN: f64 = 1e-6;
 
-/// How well roots of a crowd are known.
+/// Largest distance of an event from the nearest root of a crowd: the fifth root of a rounding of 1e-13 is 3e-3.
 const CLOSE: f64 = 1e-2;
 
 /// Uniform numbers in [0, 1) (`SplitMix64`).
@@ -35,7 +37,7 @@ impl Random {
         (self.bits() >> 11) as f64 * 2f64.powi(-53)
     }
 
-    /// Up to five roots in [−1, 5], often crowded.
+    /// One to five roots in [−1, 5], often crowded.
     fn roots(&mut self) -> Vec<f64> {
         let mut roots: Vec<f64> = Vec::new();
         for _ in 0..1 + self.bits() % 5 {
@@ -55,7 +57,7 @@ impl Random {
     }
 }
 
-/// Time as the state, with a guard given by its zeros.
+/// A flow whose state is time, with a guard given by its zeros.
 struct Planted<'a> {
     roots: &'a [f64],
     form: Form,
@@ -67,11 +69,12 @@ enum Form {
     Polynomial,
     /// Π sin(ω(t − r)) as a sum of sines.
     Trigonometric,
-    /// Π (t − r) as it stands, with enclosures.
+    /// Π (t − r) as a product, with enclosures.
     Enclosed,
 }
 
-/// Other zeros of the sines are beyond the end.
+/// The other zeros of sin ω(t − r) are at a distance π/ω = 5.2 from r: beyond the end for roots in [−1, 5], or
+/// before the start.
 const OMEGA: f64 = 0.6;
 
 impl HybridSystem<1> for Planted<'_> {
@@ -86,16 +89,16 @@ impl HybridSystem<1> for Planted<'_> {
     fn guard_value(&self, _: (), x: &State<1>) -> f64 {
         self.roots.iter().map(|root| x[0] - root).product()
     }
-    fn guard_signal(&self, _: (), _: (), x: &State<1>) -> Option<Signal> {
+    fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<1>) -> Option<QuasiPolynomial> {
         let factor = |root: f64| match self.form {
-            Form::Polynomial => Some(Signal::polynomial(&[x[0] - root, 1.0])),
+            Form::Polynomial => Some(QuasiPolynomial::polynomial(&[x[0] - root, 1.0])),
             Form::Trigonometric => {
                 let (sin, cos) = (OMEGA * (x[0] - root)).sin_cos();
-                Some(Signal::sine(cos, OMEGA) + Signal::cosine(sin, OMEGA))
+                Some(QuasiPolynomial::sine(cos, OMEGA) + QuasiPolynomial::cosine(sin, OMEGA))
             }
             Form::Enclosed => None,
         };
-        let one = Signal::polynomial(&[1.0]);
+        let one = QuasiPolynomial::polynomial(&[1.0]);
         self.roots.iter().try_fold(one, |product, root| Some(product * factor(*root)?))
     }
     fn guard_enclosure(
@@ -110,7 +113,7 @@ impl HybridSystem<1> for Planted<'_> {
             .roots
             .iter()
             .map(|root| {
-                // x + t rounds, and then its difference with the root.
+                // Roundings of x + t, and of its difference from the root; all values are below 8.
                 let at = |t: f64| Enclosure::around(x[0] + t - root, 4.0 * f64::EPSILON * 8.0);
                 Enclosure::new(at(from).low, at(to).high)
             })
@@ -151,7 +154,7 @@ fn outward(low: f64, high: f64) -> Enclosure {
     Enclosure::new(low.next_down(), high.next_up())
 }
 
-/// Follows one guard and holds its events against its roots.
+/// Follows one guard and compares its events with its roots.
 fn check(roots: &[f64], form: Form) {
     let system = Planted { roots, form };
     let mut found = Vec::new();
@@ -159,7 +162,7 @@ fn check(roots: &[f64], form: Form) {
     for arc in Execution::new(&system, (), Vector1::new(0.0), Limits::new(END, 100)) {
         match arc {
             Ok(arc) => found.extend(arc.event().map(|event| event.before[0])),
-            // Where rounding hides the crossings it says so, and only there.
+            // An error is allowed only where several roots are close together, or near the start or the end.
             Err(Error::Grazing { time, .. }) => {
                 let at = found.last().unwrap_or(&0.0) + time;
                 let crowd = roots.iter().filter(|root| (*root - at).abs() < CROWD).count();
@@ -186,14 +189,14 @@ fn check(roots: &[f64], form: Form) {
             assert_eq!(times, 1, "{roots:?}: {root} in {found:?}");
         }
     }
-    // Nothing is invented: next to every event is a root, and there are no more events than roots.
+    // Near every event there is a root, and there are no more events than roots.
     for time in &found {
         let nearest = roots.iter().map(|root| (root - time).abs()).fold(f64::INFINITY, f64::min);
         assert!(nearest < CLOSE, "{roots:?}: {time}");
     }
     assert!(found.len() <= roots.len(), "{roots:?}: {found:?}");
-    // Where nothing was hidden, and no root lies at the ends, the side is right in the end: of a crowd none, or
-    // two, may be missed, and not one.
+    // Without an error, and without roots at the ends, the guard ends on the right side: of close roots an even number
+    // may be missed, and no odd number.
     let clear = |at: f64| roots.iter().all(|root| (root - at).abs() > CLOSE);
     if open >= END && clear(0.0) && clear(END) {
         let inside = roots.iter().filter(|root| (0.0..END).contains(*root)).count();

@@ -15,7 +15,7 @@ enum Side {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Middle;
 
-/// An oscillator, twice as stiff on the right, that loses speed at the middle.
+/// An oscillator with twice the frequency on the right side, that loses speed when it crosses from side to side.
 struct Bilinear;
 
 impl Bilinear {
@@ -39,12 +39,17 @@ impl HybridSystem<2> for Bilinear {
     fn guard_value(&self, _: Middle, x: &State<2>) -> f64 {
         x[0] - 0.3
     }
-    fn guard_signal(&self, side: Side, _: Middle, x: &State<2>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        side: Side,
+        _: Middle,
+        x: &State<2>,
+    ) -> Option<QuasiPolynomial> {
         let omega = Self::omega(side);
         Some(
-            Signal::cosine(x[0], omega)
-                + Signal::sine(x[1] / omega, omega)
-                + Signal::polynomial(&[-0.3]),
+            QuasiPolynomial::cosine(x[0], omega)
+                + QuasiPolynomial::sine(x[1] / omega, omega)
+                + QuasiPolynomial::polynomial(&[-0.3]),
         )
     }
     fn reset(&self, side: Side, _: Middle, x: &State<2>) -> Reset<Side, 2> {
@@ -83,13 +88,13 @@ fn end(start: State<2>, time: f64) -> (State<2>, Vec<Arc<Side, Middle, 2>>) {
 }
 
 proptest! {
-    /// Through some events, against central differences at the same end time.
+    /// Through several events, against central differences at the same end time.
     #[test]
-    fn as_finite_differences(x in -3.0..-0.5f64, v in -2.0..2.0f64, time in 3.0..9.0f64) {
+    fn sensitivities_equal_finite_differences(x in -3.0..-0.5f64, v in -2.0..2.0f64, time in 3.0..9.0f64) {
         let start = Vector2::new(x, v);
         let (_, arcs) = end(start, time);
         prop_assume!(arcs.len() > 1);
-        // Not within a step of an event at the end.
+        // No event within a difference step of the end.
         prop_assume!(arcs.last().unwrap().duration > 1e-3);
         let matrix = sensitivity(&Bilinear, &arcs).unwrap();
         let step = 1e-6;

@@ -1,4 +1,4 @@
-//! Several guards at the same instant: none is lost, the first listed comes first.
+//! Several guards at the same instant: no event is lost, and the guard listed first comes first.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -11,10 +11,12 @@ enum Wall {
     Below,
 }
 
-/// A point that flies straight into a corner; each wall turns its own component of the velocity.
+/// A point that flies straight into a corner. Each wall reverses its own component of the velocity.
 struct Corner {
-    signals: bool,
-    sticky: bool,
+    /// The guards are given as quasi-polynomials; otherwise they are sampled.
+    bounds: bool,
+    /// The left wall reverses both components.
+    left_reverses_both: bool,
 }
 
 impl HybridSystem<4> for Corner {
@@ -29,16 +31,15 @@ impl HybridSystem<4> for Corner {
     fn guard_value(&self, wall: Wall, x: &State<4>) -> f64 {
         if wall == Wall::Left { x[0] } else { x[1] }
     }
-    fn guard_signal(&self, (): (), wall: Wall, x: &State<4>) -> Option<Signal> {
+    fn guard_quasi_polynomial(&self, (): (), wall: Wall, x: &State<4>) -> Option<QuasiPolynomial> {
         let axis = if wall == Wall::Left { 0 } else { 1 };
-        self.signals.then(|| Signal::polynomial(&[x[axis], x[axis + 2]]))
+        self.bounds.then(|| QuasiPolynomial::polynomial(&[x[axis], x[axis + 2]]))
     }
     fn reset(&self, (): (), wall: Wall, x: &State<4>) -> Reset<(), 4> {
         let mut after = *x;
         let axis = if wall == Wall::Left { 0 } else { 1 };
         (after[axis], after[axis + 2]) = (0.0, -x[axis + 2]);
-        if self.sticky && wall == Wall::Left {
-            // The left wall turns both components.
+        if self.left_reverses_both && wall == Wall::Left {
             after[3] = -x[3];
         }
         Reset::Jump { mode: (), state: after }
@@ -56,34 +57,35 @@ fn run(corner: &Corner, start: State<4>) -> (Vec<Wall>, State<4>) {
     (walls, end)
 }
 
-/// At any place of the corner's diagonal, in units that round: both walls turn the point, the left one first.
+/// From many places on the diagonal of the corner, with rounded numbers: both walls reverse the point, the left one
+/// first.
 #[test]
 fn both_walls_of_a_corner() {
-    for signals in [true, false] {
+    for bounds in [true, false] {
         for k in 1..200 {
             let (x, v) = (0.01 * f64::from(k), 0.7 + 0.013 * f64::from(k));
-            let corner = Corner { signals, sticky: false };
+            let corner = Corner { bounds, left_reverses_both: false };
             let start = Vector4::new(x, x / 3.0, -v, -v / 3.0);
             let (walls, end) = run(&corner, start);
-            assert_eq!(walls, [Wall::Left, Wall::Below], "{signals} {start}");
+            assert_eq!(walls, [Wall::Left, Wall::Below], "{bounds} {start}");
             assert!(end[0] > 0.0 && end[1] > 0.0, "{end}");
         }
     }
 }
 
-/// A first reset that turns the point away from the other wall leaves nothing to do.
+/// If the first reset turns the point away from the other wall, there is no second event.
 #[test]
-fn the_first_reset_may_settle_the_second() {
-    let corner = Corner { signals: true, sticky: true };
+fn the_first_reset_may_prevent_the_second_event() {
+    let corner = Corner { bounds: true, left_reverses_both: true };
     let (walls, end) = run(&corner, Vector4::new(1.0, 1.0, -1.0, -1.0));
     assert_eq!(walls, [Wall::Left]);
     assert!(end[0] > 0.0 && end[1] > 0.0);
 }
 
-/// A little apart they are two events like any other.
+/// Two walls that are reached a little apart give two events at different times.
 #[test]
-fn a_little_apart() {
-    let corner = Corner { signals: true, sticky: false };
+fn walls_reached_a_little_apart() {
+    let corner = Corner { bounds: true, left_reverses_both: false };
     for offset in [1e-15, 1e-12, 1e-6] {
         for sign in [1.0, -1.0] {
             let start = Vector4::new(1.0, 1.0 + sign * offset, -1.0, -1.0);

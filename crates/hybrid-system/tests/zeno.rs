@@ -1,4 +1,4 @@
-//! Infinitely many events in finite time, contact that holds, and chains without time.
+//! Infinitely many events in finite time, rest after them, and chains of events without time.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
@@ -15,7 +15,7 @@ enum Mode {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Floor;
 
-/// A ball over a floor, which comes to rest where its bounces accumulate, or at once if it does not bounce.
+/// A ball over a floor. It comes to rest at the Zeno limit of its bounces, or at once if it does not bounce.
 struct Ball {
     gravity: f64,
     floor: f64,
@@ -42,8 +42,13 @@ impl HybridSystem<2> for Ball {
     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
         x[0] - self.floor
     }
-    fn guard_signal(&self, _: Mode, floor: Floor, x: &State<2>) -> Option<Signal> {
-        Some(Signal::polynomial(&[self.guard_value(floor, x), x[1], -0.5 * self.gravity]))
+    fn guard_quasi_polynomial(
+        &self,
+        _: Mode,
+        floor: Floor,
+        x: &State<2>,
+    ) -> Option<QuasiPolynomial> {
+        Some(QuasiPolynomial::polynomial(&[self.guard_value(floor, x), x[1], -0.5 * self.gravity]))
     }
     fn reset(&self, _: Mode, _: Floor, x: &State<2>) -> Reset<Mode, 2> {
         let speed = -self.restitution * x[1];
@@ -68,12 +73,12 @@ fn sciml_696_restitution_one_half() {
     let first = arcs[0].event().unwrap();
     assert!((first.time - 0.565_175_743_588_172_131).abs() < 1e-15);
     assert!((first.before[1] + 4.538_722_287_164_086_89).abs() < 1e-14);
-    let ArcEnd::Accumulation { limit, after } = arcs[arcs.len() - 2].end else { panic!() };
+    let ArcEnd::Zeno { limit, after } = arcs[arcs.len() - 2].end else { panic!() };
     assert!((limit.time - 1.491_445_598_111_455_17).abs() <= limit.time_error);
     assert!(limit.time_error < 1e-11 && (limit.ratio - 0.5).abs() < 1e-3 && limit.period == 1);
     assert!((limit.state - Vector2::new(-1.0, 0.0)).amax() <= limit.state_error);
     assert_eq!(after, Some((Mode::Resting, Vector2::new(-1.0, 0.0))));
-    // It rests up to the limit on time, where peers fall through the floor.
+    // It rests up to the limit on time. Other software lets it fall through the floor.
     let last = arcs.last().unwrap();
     assert_eq!((last.mode, stop), (Mode::Resting, Some(Stop::TimeLimit)));
     assert_eq!(last.state(&ball, last.duration).unwrap(), Vector2::new(-1.0, 0.0));
@@ -92,35 +97,35 @@ fn sciml_696_restitution_zero() {
 fn fmi_reference_ball_to_its_end() {
     let ball = Ball { gravity: 9.81, floor: 0.0, restitution: 0.7 };
     let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 10.0);
-    let ArcEnd::Accumulation { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+    let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
     assert!((limit.time - 2.558_633_965_585_808_46).abs() <= limit.time_error);
     assert!(limit.time_error < 1e-11, "{limit:?}");
 }
 
-/// All restitutions: T = t₁ (1+e)/(1−e) for a drop that lands at t₁.
+/// For every restitution e the limit is at t₁ (1+e)/(1−e), t₁ the time of the first landing.
 #[test]
-fn every_restitution() {
+fn every_restitution_has_its_limit() {
     for restitution in [0.01, 0.1, 0.3, 0.9, 0.99] {
         let ball = Ball { gravity: 2.0, floor: 0.0, restitution };
         let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 1e4);
-        let ArcEnd::Accumulation { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+        let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
         let exact = (1.0 + restitution) / (1.0 - restitution);
-        // Roundings of thousands of bounces add to the limit's own error.
+        // The roundings of thousands of bounces come on top of the limit's own error.
         let rounding = 1e-15 * arcs.len() as f64 * exact;
         assert!(
             (limit.time - exact).abs() <= limit.time_error + rounding,
             "{restitution}: {limit:?}"
         );
     }
-    // An elastic ball does not accumulate.
+    // The bounces of an elastic ball have no limit.
     let ball = Ball { gravity: 2.0, floor: 0.0, restitution: 1.0 };
     let (arcs, stop) = arcs(&ball, Vector2::new(1.0, 0.0), 1000.0);
     assert_eq!((arcs.len(), stop), (501, Some(Stop::TimeLimit)));
 }
 
-/// Without a mode to rest in, the execution ends at the limit, and says so.
+/// If the model names no mode after the limit, the execution ends there, with that reason.
 #[test]
-fn an_accumulation_without_rest_ends_the_execution() {
+fn a_zeno_limit_without_rest_ends_the_execution() {
     struct Restless(Ball, bool);
     impl HybridSystem<2> for Restless {
         type Mode = Mode;
@@ -134,29 +139,34 @@ fn an_accumulation_without_rest_ends_the_execution() {
         fn guard_value(&self, floor: Floor, x: &State<2>) -> f64 {
             self.0.guard_value(floor, x)
         }
-        fn guard_signal(&self, mode: Mode, floor: Floor, x: &State<2>) -> Option<Signal> {
-            self.1.then(|| self.0.guard_signal(mode, floor, x)).flatten()
+        fn guard_quasi_polynomial(
+            &self,
+            mode: Mode,
+            floor: Floor,
+            x: &State<2>,
+        ) -> Option<QuasiPolynomial> {
+            self.1.then(|| self.0.guard_quasi_polynomial(mode, floor, x)).flatten()
         }
         fn reset(&self, mode: Mode, floor: Floor, x: &State<2>) -> Reset<Mode, 2> {
             self.0.reset(mode, floor, x)
         }
     }
     let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, false);
-    // Sampled: the interval is far longer than the last bounces, which it must not lose.
+    // Sampled, with an interval far longer than the last bounces, which must not be lost.
     let limits = Limits::sampled(10.0, 100_000, 1e-3);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
     let results: Vec<_> = execution.by_ref().collect();
-    // A bounce within one sample is an error of the sampled search, never a fall through the floor.
+    // A bounce between two samples is an error of the sampled search, never a fall through the floor.
     assert!(matches!(results.last().unwrap(), Err(Error::UndecidedStart { .. })));
     assert_eq!(execution.stop(), Some(Stop::Failed));
     let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, true);
     let limits = Limits::new(10.0, 100_000);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
     let last = execution.by_ref().last().unwrap().unwrap();
-    assert_eq!(execution.stop(), Some(Stop::Accumulation));
-    let ArcEnd::Accumulation { limit, after: None } = last.end else { panic!() };
+    assert_eq!(execution.stop(), Some(Stop::Zeno));
+    let ArcEnd::Zeno { limit, after: None } = last.end else { panic!() };
     assert!((limit.time - 3.0 * (2.0f64 / 9.81).sqrt()).abs() <= limit.time_error);
-    // A limit on time before the accumulation is kept.
+    // A limit on time before the Zeno limit is respected.
     let early = Limits::new(1.354_570_922, 100_000);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), early);
     let last = execution.by_ref().last().unwrap().unwrap();
@@ -164,9 +174,9 @@ fn an_accumulation_without_rest_ends_the_execution() {
     assert!(last.time + last.duration <= early.time);
 }
 
-/// Resets that lead in a circle without time passing.
+/// Resets that lead back to each other without time passing.
 #[test]
-fn chains_without_time_are_errors() {
+fn a_chain_without_time_is_an_error() {
     struct Circle;
     impl HybridSystem<1> for Circle {
         type Mode = ();

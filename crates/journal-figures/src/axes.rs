@@ -1,6 +1,7 @@
 //! Frames with axes: from data to points on the page.
 
 use crate::curve::smooth;
+use crate::path::Path;
 use crate::svg::{Anchor, Pen, Svg};
 
 /// How an axis is laid out.
@@ -89,17 +90,12 @@ impl Frame {
     /// A smooth curve through points of the data plane.
     pub fn curve(&self, svg: &mut Svg, points: &[(f64, f64)], pen: Pen) {
         let on_page: Vec<_> = points.iter().map(|&point| self.at(point)).collect();
-        svg.path(&smooth(&on_page), pen);
+        svg.path(smooth(&on_page), pen);
     }
 
     /// Straight lines from point to point of the data plane.
     pub fn polyline(&self, svg: &mut Svg, points: &[(f64, f64)], pen: Pen) {
-        let mut d = String::new();
-        for (k, &point) in points.iter().enumerate() {
-            let (x, y) = self.at(point);
-            d.push_str(&format!("{}{x:.3} {y:.3}", if k == 0 { 'M' } else { 'L' }));
-        }
-        svg.path(&d, pen);
+        svg.path(Path::polyline(points.iter().map(|&point| self.at(point))), pen);
     }
 
     /// The box, the ticks with their labels, and the names of the axes.

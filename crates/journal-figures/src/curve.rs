@@ -1,16 +1,16 @@
 //! Curves of cubic pieces, smooth at any magnification, and graphs of functions.
 
-use std::fmt::Write;
+use crate::path::{Path, Segment};
 
-/// An SVG path of cubic Bézier pieces through points.
+/// A path of cubic Bézier pieces through points.
 ///
 /// The points must follow a smooth curve in equal steps of a parameter t. The tangent at each point is the central
 /// difference of its neighbours. A piece from p to q with the tangents s and t has the control points p + s/3 and
 /// q − t/3. An empty slice gives an empty path.
-pub fn smooth(points: &[(f64, f64)]) -> String {
-    let mut d = String::new();
-    let Some(&(x, y)) = points.first() else { return d };
-    let _ = write!(d, "M{x:.3} {y:.3}");
+pub fn smooth(points: &[(f64, f64)]) -> Path {
+    let mut path = Path::default();
+    let Some(&(x, y)) = points.first() else { return path };
+    path.push(Segment::Move((x, y)));
     let last = points.len() - 1;
     let tangent = |k: usize| {
         // At the ends the difference is one-sided and of second order, −3/2, 2, −1/2: a parabola is drawn exactly.
@@ -30,18 +30,13 @@ pub fn smooth(points: &[(f64, f64)]) -> String {
     for k in 0..last {
         let (p, q) = (points[k], points[k + 1]);
         let (s, t) = (tangent(k), tangent(k + 1));
-        let _ = write!(
-            d,
-            "C{:.3} {:.3} {:.3} {:.3} {:.3} {:.3}",
-            p.0 + s.0 / 3.0,
-            p.1 + s.1 / 3.0,
-            q.0 - t.0 / 3.0,
-            q.1 - t.1 / 3.0,
-            q.0,
-            q.1
-        );
+        path.push(Segment::Cubic(
+            (p.0 + s.0 / 3.0, p.1 + s.1 / 3.0),
+            (q.0 - t.0 / 3.0, q.1 - t.1 / 3.0),
+            q,
+        ));
     }
-    d
+    path
 }
 
 /// The graph of a function between neighbouring cuts, as pieces of `count` + 1 points each.
@@ -107,6 +102,6 @@ mod tests {
     fn a_parabola_is_drawn_exactly() {
         let points: Vec<_> = (0..5).map(|k| (f64::from(k), f64::from(k * k))).collect();
         // The Bézier form of y = x² on [0, 1].
-        assert!(smooth(&points).starts_with("M0.000 0.000C0.333 0.000 0.667 0.333 1.000 1.000"));
+        assert!(smooth(&points).data().starts_with("M0 0C0.333 0 0.667 0.333 1 1"));
     }
 }

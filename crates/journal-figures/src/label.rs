@@ -1,20 +1,60 @@
 //! Labels set as mathematics: `$α$` is italic, `_{1}` and `^{2}` are sub- and superscripts.
 
+use crate::font::{Font, FontError};
+use crate::path::Path;
 use std::fmt::Write;
 
-/// Script size and shifts in units of the font size.
+/// Size of scripts, in units of the font size, as TeX has 7-point scripts for 10-point text.
 const SCRIPT: f64 = 0.7;
+/// Distance by which subscripts are lowered, in units of the font size. TeX has 0.247 beneath a superscript; one value
+/// for all subscripts keeps those of a label on one line.
 const DOWN: f64 = 0.25;
+/// Distance by which superscripts are raised, in units of the font size. TeX has 0.413.
 const UP: f64 = 0.4;
 
-/// The tspans of a label.
+/// Where a piece of a label stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Level {
+    Line,
+    Subscript,
+    Superscript,
+}
+
+/// A piece of a label on one level, its letters already upright or italic.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Span {
+    text: String,
+    level: Level,
+}
+
+/// The outlines of a label that starts at (0, 0) on its baseline, and its width.
 ///
 /// A superscript followed at once by a subscript is stacked, as in `$α$^{*}_{1}`.
-pub fn tspans(markup: &str, size: f64) -> String {
-    let mut out = String::new();
-    let (mut italic, mut pending) = (false, 0.0);
+pub(crate) fn outline(markup: &str, size: f64) -> Result<(Path, f64), FontError> {
+    let font = Font::shipped()?;
+    let mut path = Path::default();
+    let mut end = 0.0f64;
+    let mut superscript = None;
+    for Span { text, level } in spans(markup) {
+        let (size, y) = match level {
+            Level::Line => (size, 0.0),
+            Level::Subscript => (SCRIPT * size, DOWN * size),
+            Level::Superscript => (SCRIPT * size, -UP * size),
+        };
+        // A subscript goes back to the start of the superscript before it, which may be the longer one.
+        let back = superscript.filter(|_| level == Level::Subscript);
+        let start = back.unwrap_or(end);
+        superscript = (level == Level::Superscript).then_some(start);
+        end = end.max(font.set(&text, size, (start, y), &mut path)?);
+    }
+    Ok((path, end))
+}
+
+/// The pieces of a label.
+fn spans(markup: &str) -> Vec<Span> {
+    let mut spans = Vec::new();
+    let mut italic = false;
     let mut rest = markup;
-    let mut last_script_width = 0.0;
     while let Some(c) = rest.chars().next() {
         match (c, rest.get(1..2)) {
             ('$', _) => {
@@ -24,39 +64,26 @@ pub fn tspans(markup: &str, size: f64) -> String {
             ('_' | '^', Some("{")) => {
                 let body = rest[2..].split('}').next().unwrap_or("");
                 rest = rest.get(2 + body.len() + 1..).unwrap_or("");
-                let shift = if c == '_' { DOWN } else { -UP } * size;
-                let back = if c == '_' { -last_script_width } else { 0.0 };
-                let dy = shift - pending;
-                pending = shift;
+                let level = if c == '_' { Level::Subscript } else { Level::Superscript };
                 let slanted = body.contains('$') != italic;
-                span(&mut out, &body.replace('$', ""), slanted, SCRIPT * size, dy, back);
-                last_script_width =
-                    if c == '^' { 0.42 * SCRIPT * size * body.chars().count() as f64 } else { 0.0 };
+                spans.push(Span { text: slant(&body.replace('$', ""), slanted), level });
             }
             _ => {
                 let end = rest.char_indices().find(|&(at, c)| {
                     c == '$' || ((c == '_' || c == '^') && rest[at + 1..].starts_with('{'))
                 });
                 let (body, tail) = rest.split_at(end.map_or(rest.len(), |(at, _)| at));
-                span(&mut out, body, italic, size, -pending, 0.0);
-                pending = 0.0;
-                last_script_width = 0.0;
+                spans.push(Span { text: slant(body, italic), level: Level::Line });
                 rest = tail;
             }
         }
     }
-    out
+    spans
 }
 
-fn span(out: &mut String, body: &str, italic: bool, size: f64, dy: f64, dx: f64) {
-    let text: String = if italic { body.chars().map(math_italic).collect() } else { body.into() };
-    let _ = write!(
-        out,
-        "<tspan font-size=\"{size:.2}\" dy=\"{dy:.2}\" dx=\"{dx:.2}\">{}</tspan>",
-        escape(&text)
-    );
+fn slant(text: &str, italic: bool) -> String {
+    if italic { text.chars().map(math_italic).collect() } else { text.into() }
 }
-
 /// The mathematical italic of a Latin or Greek letter, from the same font as the upright one.
 fn math_italic(c: char) -> char {
     let (first, base) = match c {
@@ -103,15 +130,35 @@ pub fn html(markup: &str) -> String {
 mod tests {
     use super::*;
 
+    fn width(markup: &str) -> f64 {
+        outline(markup, 10.0).unwrap().1
+    }
+
     #[test]
     fn scripts_return_to_the_line() {
-        let spans = tspans("$f$($α$_{n})", 10.0);
-        let shifts: f64 = spans
-            .split("dy=\"")
-            .skip(1)
-            .map(|part| part.split('"').next().unwrap().parse::<f64>().unwrap())
-            .sum();
-        assert!(shifts.abs() < 1e-9, "{spans}");
+        let spans = spans("$f$($α$_{n})");
+        let texts: Vec<_> = spans.iter().map(|span| (span.text.as_str(), span.level)).collect();
+        assert_eq!(
+            texts,
+            [
+                ("𝑓", Level::Line),
+                ("(", Level::Line),
+                ("𝛼", Level::Line),
+                ("n", Level::Subscript),
+                (")", Level::Line)
+            ]
+        );
+        // The parenthesis reaches lowest, and as low as without the superscript before it.
+        let bottom = |markup| outline(markup, 10.0).unwrap().0.limits_of_ends()[3];
+        assert_eq!(bottom("x^{n})"), bottom(")"));
+    }
+
+    #[test]
+    fn stacked_scripts_start_together_and_end_with_the_longer_one() {
+        assert_eq!(width("x^{2}_{n+1}"), width("x_{n+1}"));
+        assert_eq!(width("x^{n+1}_{2}"), width("x^{n+1}"));
+        assert_eq!(width("x^{2}_{n+1}y"), width("x_{n+1}y"));
+        assert!((width("x_{1}^{2}") - width("x_{12}")).abs() < 1e-12, "side by side");
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Symbols for points, which differ by shape as well as by colour.
 
+use crate::path::Path;
 use crate::svg::{Pen, Svg};
 
 /// A symbol.
@@ -29,28 +30,24 @@ impl Svg {
         // The corners are chosen by eye, so that all symbols look about equally large.
         let r = 0.5 * size;
         let polygon = |corners: &[(f64, f64)]| {
-            let point = |&(dx, dy): &(f64, f64)| format!("{:.3} {:.3}", x + dx * r, y + dy * r);
-            format!("M{}Z", corners.iter().map(point).collect::<Vec<_>>().join("L"))
+            Path::polygon(corners.iter().map(|&(dx, dy)| (x + dx * r, y + dy * r)))
         };
         match marker {
             Marker::Disc => self.dot(x, y, r, color),
             Marker::Square => {
                 self.fill_path(
-                    &polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
+                    polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
                     color,
                 );
             }
             Marker::Triangle => {
-                self.fill_path(&polygon(&[(-1.1, 0.9), (1.1, 0.9), (0.0, -1.1)]), color)
+                self.fill_path(polygon(&[(-1.1, 0.9), (1.1, 0.9), (0.0, -1.1)]), color)
             }
             Marker::Wedge => {
-                self.fill_path(&polygon(&[(-1.1, -0.9), (1.1, -0.9), (0.0, 1.1)]), color)
+                self.fill_path(polygon(&[(-1.1, -0.9), (1.1, -0.9), (0.0, 1.1)]), color)
             }
             Marker::Diamond => {
-                self.fill_path(
-                    &polygon(&[(-1.2, 0.0), (0.0, -1.2), (1.2, 0.0), (0.0, 1.2)]),
-                    color,
-                );
+                self.fill_path(polygon(&[(-1.2, 0.0), (0.0, -1.2), (1.2, 0.0), (0.0, 1.2)]), color);
             }
             Marker::Cross => {
                 let pen = Pen::solid(color, 1.6);

@@ -1,11 +1,12 @@
-//! From a drawing to files: SVG with outlines instead of fonts, and PNG.
+//! From a drawing to files: SVG and PNG.
 
+use crate::document::document;
 use crate::error::Error;
-use resvg::{tiny_skia, usvg};
-use std::sync::{Arc, OnceLock};
+use crate::raster::rasterize;
+use crate::svg::Svg;
 
-/// It has the mathematical italics too.
-const FONT: &[u8] = include_bytes!("../assets/STIX-Regular.otf");
+/// Points to a CSS pixel, the unit in which browsers measure: 1/72 and 1/96 of an inch.
+const POINTS_PER_PIXEL: f64 = 0.75;
 
 /// A drawing in both forms.
 #[derive(Debug, Clone)]
@@ -16,32 +17,17 @@ pub struct Rendered {
     pub png: Vec<u8>,
 }
 
-/// Renders `svg` with the font that is shipped, the PNG at `pixels_per_point`.
-pub fn render(name: &str, svg: &str, pixels_per_point: f32) -> Result<Rendered, Error> {
+/// Renders a drawing; the PNG has `scale` pixels for each CSS pixel of the SVG.
+///
+/// An error names the first label that cannot be set, such as one with a character that the font lacks.
+pub fn render(name: &str, svg: &Svg, scale: f64) -> Result<Rendered, Error> {
     let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
-    let options = usvg::Options { fontdb: fonts(), ..usvg::Options::default() };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|e| fail(e.to_string()))?;
-    let outlined =
-        tree.to_string(&usvg::WriteOptions { preserve_text: false, ..Default::default() });
-    let size = tree.size();
-    let (width, height) = (size.width() * pixels_per_point, size.height() * pixels_per_point);
-    let mut pixmap = tiny_skia::Pixmap::new(width.ceil() as u32, height.ceil() as u32)
-        .ok_or_else(|| fail(format!("no image of {width} × {height} pixels")))?;
-    let transform = tiny_skia::Transform::from_scale(pixels_per_point, pixels_per_point);
-    resvg::render(&tree, transform, &mut pixmap.as_mut());
+    if let Some((label, error)) = &svg.failure {
+        return Err(fail(format!("label '{label}': {error}")));
+    }
+    let pixmap = rasterize(svg, scale / POINTS_PER_PIXEL).map_err(fail)?;
     let png = pixmap.encode_png().map_err(|e| fail(e.to_string()))?;
-    Ok(Rendered { svg: outlined, png })
-}
-
-fn fonts() -> Arc<usvg::fontdb::Database> {
-    static FONTS: OnceLock<Arc<usvg::fontdb::Database>> = OnceLock::new();
-    let load = || {
-        let mut fonts = usvg::fontdb::Database::new();
-        fonts.load_font_data(FONT.to_vec());
-        fonts.set_serif_family("STIX");
-        Arc::new(fonts)
-    };
-    FONTS.get_or_init(load).clone()
+    Ok(Rendered { svg: document(svg), png })
 }
 
 /// A PNG with a palette: one byte a pixel, rows from above.
@@ -64,4 +50,76 @@ pub fn indexed_png(
     writer.write_image_data(pixels).map_err(fail)?;
     writer.finish().map_err(fail)?;
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::svg::{Anchor, Pen};
+
+    /// Pixels at 1 pixel a point.
+    fn pixel(svg: &Svg, x: u32, y: u32) -> [u8; 3] {
+        let color = rasterize(svg, 1.0).unwrap().pixel(x, y).unwrap();
+        [color.red(), color.green(), color.blue()]
+    }
+
+    #[test]
+    fn labels_are_outlines_with_their_text_beside_them() {
+        let mut svg = Svg::new(100.0, 50.0);
+        svg.text(50.0, 25.0, Anchor::Middle, 12.0, "$α$_{n} < 5");
+        svg.rotated_text(10.0, 25.0, -90.0, Anchor::Middle, 12.0, "speed");
+        let rendered = render("labels", &svg, 2.0).unwrap();
+        assert!(!rendered.svg.contains("<text") && !rendered.svg.contains("font"));
+        assert!(rendered.svg.contains("aria-label=\"α_{n} &lt; 5\""), "{}", rendered.svg);
+        assert!(rendered.svg.contains("aria-label=\"speed\""));
+    }
+
+    #[test]
+    fn a_label_without_glyphs_is_an_error_that_names_label_and_character() {
+        let mut svg = Svg::new(100.0, 50.0);
+        svg.clipped(0.0, 0.0, 100.0, 50.0, |svg| {
+            svg.text(0.0, 0.0, Anchor::Start, 12.0, "speed 漢");
+        });
+        let error = render("figure", &svg, 2.0).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "cannot render figure: label 'speed 漢': the font has no glyph for '漢' (U+6F22)"
+        );
+    }
+
+    #[test]
+    fn a_point_that_is_not_finite_is_an_error() {
+        let mut svg = Svg::new(100.0, 50.0);
+        svg.line((0.0, 0.0), (f64::NAN, 1.0), Pen::solid("#000", 1.0));
+        assert!(render("figure", &svg, 2.0).is_err());
+    }
+
+    #[test]
+    fn clipped_drawings_end_at_the_rectangle() {
+        let mut svg = Svg::new(20.0, 20.0);
+        svg.clipped(0.0, 0.0, 10.0, 20.0, |svg| {
+            svg.clipped(0.0, 0.0, 20.0, 10.0, |svg| svg.fill_rect(0.0, 0.0, 20.0, 20.0, "#f00"));
+        });
+        assert_eq!(pixel(&svg, 5, 5), [255, 0, 0]);
+        assert_eq!([pixel(&svg, 15, 5), pixel(&svg, 5, 15), pixel(&svg, 15, 15)], [[255; 3]; 3]);
+    }
+
+    #[test]
+    fn pixels_of_images_stay_squares() {
+        let palette = [[255, 0, 0], [0, 0, 255]];
+        let png = indexed_png("image", 2, 1, &palette, &[0, 1]).unwrap();
+        let mut svg = Svg::new(20.0, 20.0);
+        svg.image(0.0, 0.0, 20.0, 10.0, &png);
+        assert_eq!([pixel(&svg, 9, 5), pixel(&svg, 10, 5)], palette);
+        assert_eq!(pixel(&svg, 5, 15), [255; 3]);
+    }
+
+    #[test]
+    fn a_label_turned_to_the_left_reads_upwards() {
+        let mut svg = Svg::new(100.0, 100.0);
+        // The minus is 0.557 em wide and stands a quarter em above its line.
+        svg.rotated_text(50.0, 100.0, -90.0, Anchor::Start, 100.0, "−");
+        assert_eq!(pixel(&svg, 25, 65), [0; 3]);
+        assert_eq!(pixel(&svg, 75, 65), [255; 3]);
+    }
 }

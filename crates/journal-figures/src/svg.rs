@@ -1,16 +1,17 @@
-//! A small SVG writer.
+//! A drawing: paths, images and labels in the order in which they are drawn.
 
-use crate::label::tspans;
-use std::fmt::Write;
+use crate::font::FontError;
+use crate::label::outline;
+use crate::path::{Path, Point};
 
 /// A line's look.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pen {
-    /// Colour, as CSS.
+    /// Colour, as CSS: `#rgb` or `#rrggbb`.
     pub color: &'static str,
     /// Width in points.
     pub width: f64,
-    /// Dash pattern, or none.
+    /// Lengths of dashes and gaps in turn, separated by spaces; empty for a solid line.
     pub dash: &'static str,
 }
 
@@ -22,17 +23,6 @@ impl Pen {
     /// A dashed line.
     pub const fn dashed(color: &'static str, width: f64, dash: &'static str) -> Self {
         Pen { color, width, dash }
-    }
-    fn attributes(&self) -> String {
-        let dash = if self.dash.is_empty() {
-            String::new()
-        } else {
-            format!(" stroke-dasharray=\"{}\"", self.dash)
-        };
-        format!(
-            "fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2}\" stroke-linejoin=\"round\"{dash}",
-            self.color, self.width
-        )
     }
 }
 
@@ -47,36 +37,60 @@ pub enum Anchor {
     End,
 }
 
+/// A thing that is drawn; later ones cover earlier ones.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Element {
+    /// A path, filled first, then stroked.
+    Shape { path: Path, fill: Option<&'static str>, pen: Option<Pen> },
+    /// The outlines of a label, and its text for readers that cannot see them.
+    Label { path: Path, text: String },
+    /// A PNG image stretched to a rectangle.
+    Image { corner: Point, size: (f64, f64), png: Vec<u8> },
+    /// Elements of which only the parts inside a rectangle are drawn.
+    Clipped { inside: Path, elements: Vec<Element> },
+}
+
+/// Rim that keeps symbols apart where they touch.
+const WHITE_RIM: Pen = Pen::solid("#fff", 0.6);
+
 /// A drawing, in points, y downwards.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Svg {
-    width: f64,
-    height: f64,
-    body: String,
-    clips: usize,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) elements: Vec<Element>,
+    /// The first label that could not be set, and the reason. The methods that draw return nothing;
+    /// [`crate::render::render`] reports it.
+    pub(crate) failure: Option<(String, FontError)>,
 }
 
 impl Svg {
     /// An empty white drawing.
     pub fn new(width: f64, height: f64) -> Self {
-        let body = format!("<rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n");
-        Svg { width, height, body, clips: 0 }
+        let mut svg = Svg { width, height, elements: Vec::new(), failure: None };
+        svg.fill_rect(0.0, 0.0, width, height, "#fff");
+        svg
     }
 
-    /// A path given in SVG's own letters.
-    pub fn path(&mut self, d: &str, pen: Pen) {
-        if !d.is_empty() {
-            let _ = writeln!(self.body, "<path d=\"{d}\" {}/>", pen.attributes());
+    fn shape(&mut self, path: Path, fill: Option<&'static str>, pen: Option<Pen>) {
+        // A curve through one point has no extent.
+        if path.segments().len() > 1 {
+            self.elements.push(Element::Shape { path, fill, pen });
         }
     }
 
+    /// A line along a path.
+    pub fn path(&mut self, path: Path, pen: Pen) {
+        self.shape(path, None, Some(pen));
+    }
+
     /// A straight line.
-    pub fn line(&mut self, from: (f64, f64), to: (f64, f64), pen: Pen) {
-        self.path(&format!("M{:.3} {:.3}L{:.3} {:.3}", from.0, from.1, to.0, to.1), pen);
+    pub fn line(&mut self, from: Point, to: Point, pen: Pen) {
+        self.path(Path::polyline([from, to]), pen);
     }
 
     /// A line with an arrow head at its end.
-    pub fn arrow(&mut self, from: (f64, f64), to: (f64, f64), pen: Pen) {
+    pub fn arrow(&mut self, from: Point, to: Point, pen: Pen) {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = pxfm::f_hypot(dx, dy).max(1e-9);
         let (ux, uy) = (dx / length, dy / length);
@@ -84,59 +98,37 @@ impl Svg {
         let base = (to.0 - head * ux, to.1 - head * uy);
         self.line(from, base, pen);
         let side = 0.38 * head;
-        let _ = writeln!(
-            self.body,
-            "<path d=\"M{:.3} {:.3}L{:.3} {:.3}L{:.3} {:.3}Z\" fill=\"{}\"/>",
-            to.0,
-            to.1,
-            base.0 - side * uy,
-            base.1 + side * ux,
-            base.0 + side * uy,
-            base.1 - side * ux,
-            pen.color
-        );
+        let corners = [
+            to,
+            (base.0 - side * uy, base.1 + side * ux),
+            (base.0 + side * uy, base.1 - side * ux),
+        ];
+        self.shape(Path::polygon(corners), Some(pen.color), None);
     }
 
     /// A rectangle, filled.
-    pub fn fill_rect(&mut self, x: f64, y: f64, width: f64, height: f64, color: &str) {
-        let _ = writeln!(
-            self.body,
-            "<rect x=\"{x:.3}\" y=\"{y:.3}\" width=\"{width:.3}\" height=\"{height:.3}\" fill=\"{color}\"/>"
-        );
+    pub fn fill_rect(&mut self, x: f64, y: f64, width: f64, height: f64, color: &'static str) {
+        self.shape(Path::rectangle(x, y, width, height), Some(color), None);
     }
 
     /// A rectangle's outline.
     pub fn rect(&mut self, x: f64, y: f64, width: f64, height: f64, pen: Pen) {
-        let _ = writeln!(
-            self.body,
-            "<rect x=\"{x:.3}\" y=\"{y:.3}\" width=\"{width:.3}\" height=\"{height:.3}\" {}/>",
-            pen.attributes()
-        );
+        self.shape(Path::rectangle(x, y, width, height), None, Some(pen));
     }
 
     /// A filled disc with a thin white rim.
-    pub fn dot(&mut self, x: f64, y: f64, radius: f64, color: &str) {
-        let _ = writeln!(
-            self.body,
-            "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"{radius}\" fill=\"{color}\" stroke=\"white\" stroke-width=\"0.6\"/>"
-        );
+    pub fn dot(&mut self, x: f64, y: f64, radius: f64, color: &'static str) {
+        self.shape(Path::circle((x, y), radius), Some(color), Some(WHITE_RIM));
     }
 
     /// A filled outline with a thin white rim.
-    pub fn fill_path(&mut self, d: &str, color: &str) {
-        let _ = writeln!(
-            self.body,
-            "<path d=\"{d}\" fill=\"{color}\" stroke=\"white\" stroke-width=\"0.5\"/>"
-        );
+    pub fn fill_path(&mut self, path: Path, color: &'static str) {
+        self.shape(path, Some(color), Some(Pen { width: 0.5, ..WHITE_RIM }));
     }
 
     /// A white disc with a rim.
     pub fn ring(&mut self, x: f64, y: f64, radius: f64, pen: Pen) {
-        let _ = writeln!(
-            self.body,
-            "<circle cx=\"{x:.3}\" cy=\"{y:.3}\" r=\"{radius:.2}\" fill=\"white\" stroke=\"{}\" stroke-width=\"{:.2}\"/>",
-            pen.color, pen.width
-        );
+        self.shape(Path::circle((x, y), radius), Some("#fff"), Some(pen));
     }
 
     /// A label; see [`crate::label`] for its markup.
@@ -144,7 +136,7 @@ impl Svg {
         self.rotated_text(x, y, 0.0, anchor, size, markup);
     }
 
-    /// A label turned by `degrees` about its point.
+    /// A label turned by `degrees` about its point, clockwise.
     pub fn rotated_text(
         &mut self,
         x: f64,
@@ -154,32 +146,33 @@ impl Svg {
         size: f64,
         markup: &str,
     ) {
-        let anchor = match anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
+        let (path, width) = match outline(markup, size) {
+            Ok(set) => set,
+            Err(error) => {
+                self.failure.get_or_insert_with(|| (markup.into(), error));
+                return;
+            }
         };
-        let turn = if degrees == 0.0 {
-            String::new()
-        } else {
-            format!(" transform=\"rotate({degrees} {x:.3} {y:.3})\"")
+        if path.is_empty() {
+            return;
+        }
+        let start = match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => -0.5 * width,
+            Anchor::End => -width,
         };
-        let _ = writeln!(
-            self.body,
-            "<text x=\"{x:.3}\" y=\"{y:.3}\" text-anchor=\"{anchor}\" font-family=\"STIX\"{turn}>{}</text>",
-            tspans(markup, size)
-        );
+        let (sin, cos) = pxfm::f_sincos(degrees.to_radians());
+        let path = path.map(|(right, down)| {
+            let right = right + start;
+            (x + cos * right - sin * down, y + sin * right + cos * down)
+        });
+        self.elements.push(Element::Label { path, text: markup.replace('$', "") });
     }
 
     /// A PNG image, its pixels left as squares.
     pub fn image(&mut self, x: f64, y: f64, width: f64, height: f64, png: &[u8]) {
-        let _ = writeln!(
-            self.body,
-            "<image x=\"{x:.3}\" y=\"{y:.3}\" width=\"{width:.3}\" height=\"{height:.3}\" \
-             preserveAspectRatio=\"none\" style=\"image-rendering:optimizeSpeed\" \
-             xlink:href=\"data:image/png;base64,{}\"/>",
-            base64(png)
-        );
+        let png = png.to_vec();
+        self.elements.push(Element::Image { corner: (x, y), size: (width, height), png });
     }
 
     /// Draws what `draw` draws, cut off outside a rectangle.
@@ -191,25 +184,11 @@ impl Svg {
         height: f64,
         draw: impl FnOnce(&mut Svg),
     ) {
-        self.clips += 1;
-        let id = format!("clip{}", self.clips);
-        let _ = writeln!(
-            self.body,
-            "<clipPath id=\"{id}\"><rect x=\"{x:.3}\" y=\"{y:.3}\" width=\"{width:.3}\" height=\"{height:.3}\"/></clipPath>\n<g clip-path=\"url(#{id})\">"
-        );
+        let before = std::mem::take(&mut self.elements);
         draw(self);
-        self.body.push_str("</g>\n");
-    }
-
-    /// The document.
-    pub fn finish(self) -> String {
-        format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \
-             width=\"{w}pt\" height=\"{h}pt\" viewBox=\"0 0 {w} {h}\">\n{}</svg>\n",
-            self.body,
-            w = self.width,
-            h = self.height
-        )
+        let elements = std::mem::replace(&mut self.elements, before);
+        let inside = Path::rectangle(x, y, width, height);
+        self.elements.push(Element::Clipped { inside, elements });
     }
 }
 

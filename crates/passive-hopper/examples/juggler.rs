@@ -101,19 +101,24 @@ impl HybridSystem<4> for Juggler {
         }
     }
 
-    fn guard_signal(&self, _: Mode, surface: Surface, x: &State<4>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        _: Mode,
+        surface: Surface,
+        x: &State<4>,
+    ) -> Option<QuasiPolynomial> {
         Some(match surface {
             Surface::Catch => {
                 let omega = self.free_frequency();
-                Signal::polynomial(&[x[1], x[3], -0.5 * self.gravity])
-                    - Signal::cosine(x[0], omega)
-                    - Signal::sine(x[2] / omega, omega)
+                QuasiPolynomial::polynomial(&[x[1], x[3], -0.5 * self.gravity])
+                    - QuasiPolynomial::cosine(x[0], omega)
+                    - QuasiPolynomial::sine(x[2] / omega, omega)
             }
             Surface::Throw => {
                 let omega = self.held_frequency();
-                Signal::polynomial(&[self.held_rest() - self.throw_height()])
-                    + Signal::cosine(x[0] - self.held_rest(), omega)
-                    + Signal::sine(x[2] / omega, omega)
+                QuasiPolynomial::polynomial(&[self.held_rest() - self.throw_height()])
+                    + QuasiPolynomial::cosine(x[0] - self.held_rest(), omega)
+                    + QuasiPolynomial::sine(x[2] / omega, omega)
             }
         })
     }

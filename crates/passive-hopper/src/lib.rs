@@ -16,10 +16,10 @@
 //! |---|---|
 //! | [`MassRatio`] | M = m₂/m₁, validated; μ, κ, 1/M |
 //! | [`LiftOffMap`], [`Hop`], [`Landings`], [`Landing`] | the exact map in its stable form, hop by hop or landing by landing |
-//! | [`LiftOffMap::images`], [`LiftOffMap::images_of_each`] | many hops at once, four times as fast, to the same bits |
+//! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the same by the paper's Eqs. (6)–(8), for comparison |
-//! | [`alpha_star`], [`index_below`], [`DoubleDouble`] | the fixed points tan α* = α*, to 100 bits |
+//! | [`alpha_star`], [`FixedPointSpeed`], [`index_below`] | the fixed points tan α* = α*; to 100 bits; the one below a speed |
 //! | [`Hopper`], [`Phase`], [`HopperSurface`], [`HopperState`] | both masses, as a [`hybrid_system::HybridSystem`] |
 //! | [`Flight`], [`HalfFlight`], [`contact_flow`], [`contact_time`], [`lift_off_energy`] | the closed forms behind it |
 //! | [`energy`], [`landing_loss`] | energy, and what a landing takes |
@@ -29,7 +29,7 @@
 //! use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 //!
 //! let map = LiftOffMap::new(MassRatio::new(0.5)?);
-//! let star = alpha_star(1).high;                  // 4.493409457909064
+//! let star = alpha_star(1);                  // 4.493409457909064
 //! // Just above the lossless hop the loss is tiny, and the next hop still above it ...
 //! let next = map.image(star + 0.01)?.expect("it hops again");
 //! assert!(star < next && next < star + 0.01);
@@ -44,7 +44,7 @@
 //! ones within 2⁻⁴⁸ of a change of branch, the error of α′ is at most 4 (1 + sudden lift-offs) of the unit
 //! ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³ (`cargo xtask check-reference`). Verdicts
 //! (sudden or not, grounded or not) that 53 bits cannot give are computed with 106 to 1024; a hop that
-//! needs more says so ([`Hop::certain`]). Near a fixed point [`LiftOffMap::hop_about`] keeps 8 ulps of δ
+//! needs more says so ([`Hop::certain`]). Near a fixed point [`LiftOffMap::hop_near_fixed_point`] keeps 8 ulps of δ
 //! itself. Sines and cosines are correctly rounded, or our own to 1.2 ulps: the same bits on every x86-64 machine.
 //!
 //! # Speed
@@ -60,44 +60,26 @@
 //! Phys. Rev. E; A. Chatterjee, R. Pratap, C. K. Reddy, A. Ruina, *Persistent passive hopping and
 //! juggling is possible even with plastic collisions*, Int. J. Robotics Res. 21 (2002).
 
-mod air_landing;
-mod contact;
-mod dimensional;
-mod double_double;
-mod doubt;
-mod energy;
 mod error;
-mod flight;
 mod hopper;
-mod images;
 mod kernel;
 mod landing;
-mod lift_off_map;
-mod local;
-mod long;
-mod lossless;
-mod mass_ratio;
-mod motion;
-mod printed;
-mod real;
-mod simd;
-mod state;
-mod variation;
-mod wide;
+mod map;
+mod model;
+mod precision;
 
-pub use contact::{contact_flow, contact_time, lift_off_energy};
-pub use dimensional::PhysicalHopper;
-pub use double_double::DoubleDouble;
-pub use energy::{energy, landing_loss};
 pub use error::Error;
-pub use flight::HalfFlight;
 pub use hopper::{Hopper, HopperSurface, Phase};
-pub use landing::{LARGEST_LIFT_OFF_SPEED, Landing, TakeOff};
-pub use lift_off_map::{Hop, Landings, LiftOffMap, SUDDEN_LIFT_OFF_BUDGET};
-pub use local::{LocalFlight, LocalHop};
-pub use lossless::{alpha_star, index_below};
-pub use mass_ratio::MassRatio;
-pub use motion::Flight;
-pub use printed::printed_image;
-pub use state::HopperState;
-pub use variation::Slopes;
+pub use landing::from_ground::{LARGEST_LIFT_OFF_SPEED, Landing, TakeOff};
+pub use landing::half_flight::HalfFlight;
+pub use map::lift_off_map::{Hop, Landings, LiftOffMap, SUDDEN_LIFT_OFF_BUDGET};
+pub use map::near_fixed_point::{LocalFlight, LocalHop};
+pub use map::printed::printed_image;
+pub use map::slopes::Slopes;
+pub use model::contact::{contact_flow, contact_time, lift_off_energy};
+pub use model::energy::{energy, landing_loss};
+pub use model::fixed_points::{FixedPointSpeed, alpha_star, index_below};
+pub use model::mass_ratio::MassRatio;
+pub use model::motion::Flight;
+pub use model::state::HopperState;
+pub use model::units::PhysicalHopper;

@@ -6,7 +6,7 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 
 #[test]
 fn hops_allocate_nothing() {
-    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+    let (low, high) = (alpha_star(1), alpha_star(6));
     let speeds: Vec<_> = (0..4000u32)
         .map(|k| Some(low + (high - low) * (f64::from(k) * 0.754_877_666_246_693).fract()))
         .collect();
@@ -24,7 +24,7 @@ fn hops_allocate_nothing() {
         for (hop, &speed) in each.iter_mut().zip(&speeds) {
             hop.1 = speed;
         }
-        LiftOffMap::images_of_each(&mut each).unwrap();
+        LiftOffMap::images_of_pairs(&mut each).unwrap();
     };
     // The tables are built once.
     hops();

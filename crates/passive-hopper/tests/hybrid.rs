@@ -42,7 +42,7 @@ impl Section<Searched<Hopper>, 4, 1> for GradualLiftOff {
 /// sampling y₁(τ). The landing times differ in the fifth digit near fixed points; the map does not.
 #[test]
 fn a_search_that_knows_nothing_finds_the_same_map() {
-    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+    let (low, high) = (alpha_star(1), alpha_star(6));
     let (mut compared, mut undecided) = (0, 0);
     for m in [0.05, 0.2, 0.7, 1.0, 2.0, 8.0, 20.0] {
         let searched = Searched(hopper(m));
@@ -77,7 +77,7 @@ fn a_search_that_knows_nothing_finds_the_same_map() {
 /// 1e-12, or to what some ulps of α make in α'.
 #[test]
 fn the_return_map_is_the_lift_off_map() {
-    let (low, high) = (alpha_star(1).high, alpha_star(6).high);
+    let (low, high) = (alpha_star(1), alpha_star(6));
     let mut compared = 0;
     for m in [0.05, 0.1, 0.2, 0.5, 0.9, 1.0, 1.5, 3.0, 10.0, 20.0] {
         let hopper = hopper(m);
@@ -109,7 +109,7 @@ fn the_return_map_is_the_lift_off_map() {
 fn no_event_is_doubled_at_a_lift_off() {
     // Incessant hopping in the trap of α*_2: landing, lift-off, landing, … and nothing else.
     let hopper = hopper(0.3);
-    let start = HopperState::lift_off(alpha_star(2).high + 1e-3);
+    let start = HopperState::lift_off(alpha_star(2) + 1e-3);
     let mut execution = Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(1e4, 40));
     let surfaces: Vec<_> =
         execution.by_ref().map(|arc| arc.unwrap().event().unwrap().surface).collect();

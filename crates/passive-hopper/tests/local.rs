@@ -25,7 +25,7 @@ fn hops_in_the_fixed_points_own_coordinate() {
     for line in files.into_iter().flat_map(str::lines) {
         let row: Value = serde_json::from_str(line).unwrap();
         let (n, delta) = (row["n"].as_u64().unwrap(), row["offset"].as_f64().unwrap());
-        let hop = map(row["mass_ratio"].as_f64().unwrap()).hop_about(n, delta).unwrap();
+        let hop = map(row["mass_ratio"].as_f64().unwrap()).hop_near_fixed_point(n, delta).unwrap();
         assert_eq!(hop.sudden as u64, row["sudden"].as_u64().unwrap(), "{line}");
         assert_eq!(hop.next.is_none(), row["offset_next"].is_null(), "{line}");
         if let Some(next) = hop.next {
@@ -49,7 +49,7 @@ fn hops_in_the_fixed_points_own_coordinate() {
 #[test]
 fn cells_end_where_they_should() {
     for n in [1u64, 1000, 100_000, 1 << 40] {
-        let error = |delta: f64| map(3.0).hop_about(n, delta).unwrap_err();
+        let error = |delta: f64| map(3.0).hop_near_fixed_point(n, delta).unwrap_err();
         let Error::Offset { left, right, .. } = error(4.0) else { panic!() };
         for (end, outside) in [(left, -1), (right, 1)] {
             let step = |ulps: i64| {
@@ -60,15 +60,18 @@ fn cells_end_where_they_should() {
                 error(if outside < 0 { out.min(end.next_down()) } else { out.max(end.next_up()) }),
                 Error::Offset { .. }
             ));
-            let hop = map(3.0).hop_about(
+            let hop = map(3.0).hop_near_fixed_point(
                 n,
                 if outside < 0 { inside.max(end.next_up()) } else { inside.min(end.next_down()) },
             );
             assert!(hop.is_ok(), "{n} {hop:?}");
         }
-        assert!(map(3.0).hop_about(n, f64::NAN).is_err());
+        assert!(map(3.0).hop_near_fixed_point(n, f64::NAN).is_err());
     }
-    assert!(map(1.0).hop_about(0, 0.1).is_err() && map(1.0).hop_about(1 << 43, 0.1).is_err());
+    assert!(
+        map(1.0).hop_near_fixed_point(0, 0.1).is_err()
+            && map(1.0).hop_near_fixed_point(1 << 43, 0.1).is_err()
+    );
 }
 
 /// δ after up to ten thousand hops, against seventy digits.
@@ -80,7 +83,7 @@ fn orbits_follow_the_reference() {
         let map = map(row["mass_ratio"].as_f64().unwrap());
         let mut delta = row["offset"].as_f64().unwrap();
         for _ in 0..hops {
-            delta = map.hop_about(n, delta).unwrap().next.unwrap();
+            delta = map.hop_near_fixed_point(n, delta).unwrap().next.unwrap();
         }
         let error = (delta / number(&row["offset_after"]) - 1.0).abs();
         assert!(error < 1e-13, "{line}: {delta:e}");
@@ -93,7 +96,7 @@ fn orbits_approach_without_stagnating() {
     let (map, mut delta) = (map(1.0), 1e-3);
     let mut last = delta;
     for k in 1..=1_000_000u32 {
-        delta = map.hop_about(1, delta).unwrap().next.unwrap();
+        delta = map.hop_near_fixed_point(1, delta).unwrap().next.unwrap();
         assert!(delta < last && delta > 0.0, "{k}");
         last = delta;
     }

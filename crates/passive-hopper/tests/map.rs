@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-use passive_hopper::{Error, LiftOffMap, MassRatio, alpha_star, printed_image};
+use passive_hopper::{Error, FixedPointSpeed, LiftOffMap, MassRatio, alpha_star, printed_image};
 use proptest::prelude::*;
 use serde_json::Value;
 use std::f64::consts::PI;
@@ -74,10 +74,10 @@ fn hard_verdicts_are_right() {
 /// Verdicts that 53 bits cannot give: α one rounding away from where the branch changes.
 #[test]
 fn the_hardest_verdicts() {
-    // At M = 1 and α = nπ the radicand is zero; the double nearest to π lies 1.2e-16 below.
+    // At M = 1 and α = nπ the next_speed_squared is zero; the double nearest to π lies 1.2e-16 below.
     let grounded = map(1.0).hop(PI).unwrap();
     assert!(grounded.next.is_none() && grounded.certain);
-    assert!((grounded.radicand / -7.694_682_774_887_158_7e-16 - 1.0).abs() < 1e-12);
+    assert!((grounded.next_speed_squared / -7.694_682_774_887_158_7e-16 - 1.0).abs() < 1e-12);
     let above = map(1.0).hop(PI.next_up()).unwrap();
     assert!(above.next.is_some() && above.certain && above.sudden == 1);
     // (α, M, sudden, f(α)): theory's table of hard inputs, 34 digits.
@@ -114,7 +114,7 @@ fn the_loss_of_tiny_hops_keeps_its_digits() {
 fn every_fixed_point_is_kept() {
     for n in (1..200).chain([1000, 100_000]) {
         for m in [1e-3, 0.2, 1.0, 7.0] {
-            let star = alpha_star(n).high;
+            let star = alpha_star(n);
             let image = map(m).image(star).unwrap().unwrap();
             // The nearest f64 is up to half an ulp off, δ; the map takes λ δ^{4/3} more on the
             // right and ten times that on the left, λ < 3.5 μ α.
@@ -129,7 +129,7 @@ fn every_fixed_point_is_kept() {
 #[test]
 fn the_first_flight_time_is_continuous_across_fixed_points() {
     for n in 1..50 {
-        let star = alpha_star(n).high;
+        let star = alpha_star(n);
         let time = |alpha| map(1.0).landings(alpha).unwrap().next().unwrap().unwrap().time;
         let (below, above) = (time(star - 1e-9), time(star + 1e-9));
         // t ≈ β δ^{1/3} on either side.
@@ -154,7 +154,7 @@ fn bad_speeds_are_errors_with_the_value() {
 fn huge_mass_ratios_end() {
     for (m, alpha) in [(1e4, 3.6), (1e5, 3.6), (1e6, 3.2)] {
         let hop = map(m).hop(alpha).unwrap();
-        let (root, star) = (alpha * m.sqrt(), alpha_star(1).high);
+        let (root, star) = (alpha * m.sqrt(), alpha_star(1));
         let bound = (root + (root * root + 8.0 * alpha * star).sqrt()) / (2.0 * star);
         assert!(hop.certain && hop.sudden > 500, "{m}: {hop:?}");
         assert!((hop.sudden as f64) <= bound * bound, "{m}: {}", hop.sudden);
@@ -176,7 +176,7 @@ fn degenerate_alpha() -> impl Strategy<Value = f64> {
     prop_oneof![
         3 => 1e-3..60f64,
         1 => (1u64..20, -5..6i32).prop_map(move |(n, ulps)| nudge(n as f64 * PI, ulps)),
-        1 => (1u64..20, -5..6i32).prop_map(move |(n, ulps)| nudge(alpha_star(n).high, ulps)),
+        1 => (1u64..20, -5..6i32).prop_map(move |(n, ulps)| nudge(alpha_star(n), ulps)),
         1 => (-300.0..1.0f64).prop_map(|e| 10f64.powf(e)),
     ]
 }
@@ -192,7 +192,7 @@ proptest! {
         let first = LiftOffMap::new(ratio).landings(alpha).unwrap().next().unwrap().unwrap();
         if !first.sudden {
             // 1/M and both μ are rounded: a few ulps of μ.
-            let radicands = (here.radicand - there.radicand).abs();
+            let radicands = (here.next_speed_squared - there.next_speed_squared).abs();
             prop_assert!(radicands <= 8.0 * f64::EPSILON * alpha * alpha, "{here:?} {there:?}");
         }
     }
@@ -207,8 +207,8 @@ proptest! {
         let sin_pi = (n as f64 * PI).sin() * if n.is_multiple_of(2) { -1.0 } else { 1.0 };
         let after_turn = n >= 1 && beyond(n as f64 * PI, sin_pi);
         let index = if after_turn { n } else { n.saturating_sub(1) };
-        let star = alpha_star(index);
-        let sudden = index >= 1 && !beyond(star.high, star.low);
+        let star = FixedPointSpeed::new(index);
+        let sudden = index >= 1 && !beyond(star.value(), star.rest());
         prop_assert_eq!(first.sudden, sudden);
     }
 
@@ -217,7 +217,7 @@ proptest! {
         let hop = map(10f64.powf(e)).hop(alpha).unwrap();
         prop_assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");
         prop_assert!(hop.loss.is_none_or(|loss| loss >= 0.0));
-        prop_assert_eq!(hop.next.is_none(), !(hop.radicand > 0.0) && alpha > 1e-150);
+        prop_assert_eq!(hop.next.is_none(), !(hop.next_speed_squared > 0.0) && alpha > 1e-150);
     }
 
     /// The printed equations give the same map, to their own rounding.
@@ -226,9 +226,9 @@ proptest! {
         let ratio = MassRatio::new(10f64.powf(e)).unwrap();
         // Within 1e-9 of a branch change the two may differ in their verdict.
         let near = |x: f64| (alpha - x).abs() < 1e-9;
-        prop_assume!((0..14).all(|n| !near(n as f64 * PI) && !near(alpha_star(n).high)));
+        prop_assume!((0..14).all(|n| !near(n as f64 * PI) && !near(alpha_star(n))));
         let stable = LiftOffMap::new(ratio).hop(alpha).unwrap();
-        prop_assume!(stable.radicand.abs() > 1e-6);
+        prop_assume!(stable.next_speed_squared.abs() > 1e-6);
         let printed = printed_image(ratio, alpha).unwrap();
         prop_assert_eq!(printed.is_some(), stable.next.is_some());
         if let (Some(a), Some(b)) = (printed, stable.next) {
@@ -240,10 +240,10 @@ proptest! {
     /// α' dα'/dα = α (1 − 4μW), against a central difference.
     #[test]
     fn the_slope_on_the_contact_intervals(n in 1u64..8, part in 0.1..0.9f64, m in 0.05..1f64) {
-        let star = alpha_star(n).high;
+        let star = alpha_star(n);
         let alpha = star + part * ((n + 1) as f64 * PI - star);
         let hop = map(m).hop(alpha).unwrap();
-        prop_assume!(hop.radicand > 1e-2);
+        prop_assume!(hop.next_speed_squared > 1e-2);
         let h = 0.5 * hop.flight_time;
         let w = passive_hopper::HalfFlight::at(h).w();
         let slope = alpha * (1.0 - 4.0 * MassRatio::new(m).unwrap().mu() * w) / hop.next.unwrap();

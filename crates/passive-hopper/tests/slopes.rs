@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio};
 use serde_json::Value;
 use std::f64::consts::PI;
 
@@ -53,9 +53,9 @@ fn slopes_next_to_fixed_points() {
     for (n, lambda) in [(1, 14.467_799_178_408_585), (2, 25.948_279_431_728_652)] {
         for m in [0.2, 1.0, 5.0] {
             let ratio = MassRatio::new(m).unwrap();
-            let star = alpha_star(n);
+            let star = FixedPointSpeed::new(n);
             for side in [1.0, -1.0] {
-                let alpha = star.high + side * 1e-9;
+                let alpha = star.value() + side * 1e-9;
                 let root = star.offset_of(alpha).abs().cbrt();
                 let slope = LiftOffMap::new(ratio).slopes(alpha).unwrap().unwrap().by_speed;
                 let factor = if side > 0.0 { -4.0 / 3.0 } else { 40.0 / 3.0 };

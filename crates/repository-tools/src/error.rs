@@ -25,6 +25,15 @@ pub enum Error {
         /// What is wrong with it.
         reason: String,
     },
+    /// A file of reference values that holds none, or none that can be compared.
+    #[error("{path}: this file holds no reference value; a check of it would check nothing")]
+    NoReference {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A file could not be written, or another run is at work in its folder.
+    #[error(transparent)]
+    Job(#[from] resumable_job::Error),
 }
 
 impl Error {

@@ -16,7 +16,7 @@ mod reference_rows;
 mod terminal;
 
 pub use error::Error;
-pub use output::{Folder, digest, read, repository, results_folder};
+pub use output::{Folder, read, repository, results_folder};
 pub use progress::{Bar, Progress};
 pub use reference_rows::{number, numbered_rows, parse_rows, whole};
 pub use terminal::{exit_code, say};

@@ -5,28 +5,29 @@ use crate::output::read;
 use serde_json::Value;
 use std::path::Path;
 
-/// The objects of a file.
+/// The objects of a file, at least one.
 pub fn parse_rows(path: &Path) -> Result<Vec<Value>, Error> {
     Ok(numbered_rows(path)?.into_iter().map(|(_, row)| row).collect())
 }
 
-/// The objects of a file, each with its line; in an array, with its place from one.
+/// The objects of a file, at least one, each with its line; in an array, with its place from one.
 pub fn numbered_rows(path: &Path) -> Result<Vec<(usize, Value)>, Error> {
     let text = read(path)?;
     let bad = |at: usize, reason| Error::ReferenceLine { path: path.into(), line: at, reason };
-    if text.trim_start().starts_with('[') {
+    let rows: Vec<(usize, Value)> = if text.trim_start().starts_with('[') {
         let rows: Vec<Value> =
             serde_json::from_str(&text).map_err(|e| bad(e.line(), e.to_string()))?;
-        return Ok((1..).zip(rows).collect());
-    }
-    let filled = text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty());
-    let rows: Vec<_> = filled
-        .map(|(index, text)| {
-            let row = serde_json::from_str(text).map_err(|e| bad(index + 1, e.to_string()))?;
-            Ok((index + 1, row))
-        })
-        .collect::<Result<_, Error>>()?;
-    if rows.is_empty() { Err(bad(1, "no line at all".into())) } else { Ok(rows) }
+        (1..).zip(rows).collect()
+    } else {
+        let filled = text.lines().enumerate().filter(|(_, text)| !text.trim().is_empty());
+        filled
+            .map(|(index, text)| {
+                let row = serde_json::from_str(text).map_err(|e| bad(index + 1, e.to_string()))?;
+                Ok((index + 1, row))
+            })
+            .collect::<Result<_, Error>>()?
+    };
+    if rows.is_empty() { Err(Error::NoReference { path: path.into() }) } else { Ok(rows) }
 }
 
 /// A finite number, given as such or as a decimal string.

@@ -1,9 +1,9 @@
-//! An oscillator that is pushed periodically and hits a wall, near grazing.
+//! A periodically forced oscillator that hits a wall, near grazing.
 //!
-//! ẍ + x = cos φ, φ̇ = ω, and at x = σ the speed turns round: v → −r v. Without impacts the motion
-//! x = a cos φ with a = 1/(1 − ω²) repeats for ever; a wall at σ = |a| it only grazes. Beyond, the map from
-//! one period of the push to the next is steep like a square root (Nordmark 1991): its derivative grows like
-//! (|a| − σ)^(−1/2), and at grazing there is none.
+//! The motion is ẍ + x = cos φ, φ̇ = ω. At the wall x = σ the velocity is reversed: v → −r v. Without impacts the
+//! motion x = a cos φ with a = 1/(1 − ω²) is periodic. A wall at σ = |a| is grazed by it. For σ < |a| the map from
+//! one period of the force to the next has a square-root singularity (Nordmark 1991): its derivative grows like
+//! (|a| − σ)^(−1/2). At grazing there is no derivative.
 //!
 //! Run with `cargo run -p return-map --example impact_oscillator`.
 
@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 enum Surface {
     /// The wall, x = σ.
     Wall,
-    /// A period of the push ends, φ = 2π.
+    /// A period of the force ends, φ = 2π.
     Period,
 }
 
@@ -34,12 +34,12 @@ struct Oscillator {
 }
 
 impl Oscillator {
-    /// a of the motion a cos φ that the push drives.
+    /// The amplitude a of the forced motion a cos φ.
     fn driven(&self) -> f64 {
         1.0 / (1.0 - self.frequency * self.frequency)
     }
 
-    /// What swings freely: x − a cos φ, and its rate.
+    /// The free motion x − a cos φ, and its velocity.
     fn free(&self, x: &State<3>) -> (f64, f64) {
         let (sin, cos) = x[2].sin_cos();
         (x[0] - self.driven() * cos, x[1] + self.driven() * self.frequency * sin)
@@ -70,18 +70,24 @@ impl HybridSystem<3> for Oscillator {
         }
     }
 
-    fn guard_signal(&self, _: (), surface: Surface, x: &State<3>) -> Option<Signal> {
+    fn guard_quasi_polynomial(
+        &self,
+        _: (),
+        surface: Surface,
+        x: &State<3>,
+    ) -> Option<QuasiPolynomial> {
         Some(match surface {
             Surface::Wall => {
                 let (offset, rate) = self.free(x);
                 let (sin, cos) = x[2].sin_cos();
-                let push = Signal::cosine(cos, self.frequency) - Signal::sine(sin, self.frequency);
-                Signal::cosine(offset, 1.0)
-                    + Signal::sine(rate, 1.0)
+                let push = QuasiPolynomial::cosine(cos, self.frequency)
+                    - QuasiPolynomial::sine(sin, self.frequency);
+                QuasiPolynomial::cosine(offset, 1.0)
+                    + QuasiPolynomial::sine(rate, 1.0)
                     + push.scaled(self.driven())
-                    + Signal::polynomial(&[-self.wall])
+                    + QuasiPolynomial::polynomial(&[-self.wall])
             }
-            Surface::Period => Signal::polynomial(&[x[2] - TAU, self.frequency]),
+            Surface::Period => QuasiPolynomial::polynomial(&[x[2] - TAU, self.frequency]),
         })
     }
 
@@ -105,7 +111,7 @@ impl Differentiable<3> for Oscillator {
         let (sin, cos) = t.sin_cos();
         let (a, w) = (self.driven(), self.frequency);
         let phase = x[2] + w * t;
-        // ∂/∂φ₀ of the free part, and of the driven one.
+        // The derivative by φ₀ of the free motion; that of the forced motion is added below.
         let (offset, rate) = (a * x[2].sin(), a * w * x[2].cos());
         SMatrix::<f64, 3, 3>::new(
             cos,
@@ -133,7 +139,7 @@ impl Differentiable<3> for Oscillator {
     }
 }
 
-/// Once a period of the push, by x and v.
+/// The section φ = 0, with coordinates x and v.
 struct OnceAPeriod;
 
 impl Section<Oscillator, 3, 2> for OnceAPeriod {
@@ -155,7 +161,7 @@ impl SmoothSection<Oscillator, 3, 2> for OnceAPeriod {
     }
 }
 
-/// One period of the motion that would be driven without a wall, with the wall a little in its way.
+/// One period from the start of the forced motion, with a wall that this motion would pass by `beyond`.
 fn one_period(beyond: f64) -> Result<return_map::SmoothReturn<2>, return_map::Error> {
     let free = Oscillator { frequency: 2.5, wall: 0.0, restitution: 0.8 };
     let amplitude = free.driven().abs();
@@ -185,12 +191,12 @@ mod tests {
     use return_map::Error;
 
     #[test]
-    fn without_impact_the_driven_motion_repeats() {
+    fn the_forced_motion_without_impact_is_periodic() {
         let back = one_period(-1e-9).unwrap();
         assert_eq!(back.to.events, 1);
         let free = Oscillator { frequency: 2.5, wall: 0.0, restitution: 0.8 };
         assert!((back.to.coordinates - Vector2::new(free.driven(), 0.0)).amax() < 1e-14);
-        // The derivative of a free swing is a rotation by the period.
+        // The derivative of the free motion is a rotation by the period.
         let (sin, cos) = (TAU / 2.5).sin_cos();
         let rotation = SMatrix::<f64, 2, 2>::new(cos, sin, -sin, cos);
         assert!((back.derivative - rotation).amax() < 1e-14);
@@ -198,7 +204,7 @@ mod tests {
 
     /// Nordmark's square root: |Df| √(|a| − σ) tends to a constant.
     #[test]
-    fn steep_like_a_square_root() {
+    fn the_derivative_has_a_square_root_singularity() {
         let scaled = |beyond: f64| one_period(beyond).unwrap().derivative.amax() * beyond.sqrt();
         let limit = scaled(1e-10);
         for (beyond, near) in [(1e-4, 2e-2), (1e-6, 2e-3), (1e-8, 2e-4)] {
@@ -208,7 +214,7 @@ mod tests {
     }
 
     #[test]
-    fn grazing_is_told() {
+    fn grazing_is_an_error() {
         let grazing = one_period(0.0);
         assert!(
             matches!(grazing, Err(Error::Execution(hybrid_system::Error::Grazing { .. }))),
@@ -216,9 +222,9 @@ mod tests {
         );
     }
 
-    /// The derivative through impacts, by finite differences.
+    /// The derivative through impacts agrees with finite differences.
     #[test]
-    fn derivative() {
+    fn derivatives_agree_with_finite_differences() {
         let oscillator = Oscillator { frequency: 2.5, wall: 0.1, restitution: 0.8 };
         let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
         for x in [Vector2::new(-0.2, 0.3), Vector2::new(0.05, -1.0), Vector2::new(0.0, 0.5)] {
@@ -235,9 +241,9 @@ mod tests {
         }
     }
 
-    /// A section of the map shows its steep edge as a turn or a jump between monotone branches.
+    /// On a line of starts, the singularity of the map separates two monotone branches.
     #[test]
-    fn branches_of_a_line_of_starts() {
+    fn a_line_of_starts_has_several_monotone_branches() {
         let oscillator = Oscillator { frequency: 2.5, wall: 0.25, restitution: 0.8 };
         let map = ReturnMap::new(&oscillator, &OnceAPeriod, Limits::new(100.0, 100));
         let image = |x: f64| map.next(&Vector2::new(x, 0.0)).ok().map(|back| back.coordinates[1]);

@@ -1,8 +1,8 @@
-//! The Lorenz system and its Poincaré section z = 27, crossed downwards: a plain flow as a hybrid system whose only
-//! guard changes nothing.
+//! The Lorenz system and its Poincaré section z = 27, crossed downwards. A plain flow is a hybrid system with one
+//! guard, whose reset changes nothing.
 //!
-//! The flow is the same after (x, y, z) → (−x, −y, z), so that the shortest periodic orbit returns to the section
-//! after half of its period with both signs turned. Newton's method finds it, with the multipliers.
+//! The flow is symmetric under (x, y, z) → (−x, −y, z). The shortest periodic orbit returns to the section after
+//! half of its period, with the signs of x and y changed. Newton's method finds it with its multipliers.
 //!
 //! Run with `cargo run -p return-map --example lorenz`.
 
@@ -15,10 +15,11 @@ use return_map::{
     periodic_point_with_derivative,
 };
 
-/// σ = 10, ρ = 28, β = 8/3.
+/// The Lorenz system with σ = 10, ρ = 28, β = 8/3.
 #[derive(Debug, Clone, Copy)]
 struct Lorenz;
 
+/// Smaller by two orders than the errors that the tests accept.
 const TOLERANCES: Tolerances = Tolerances::both(1e-14);
 
 impl VectorField<3> for Lorenz {
@@ -76,7 +77,7 @@ impl HybridSystem<3> for Lorenz {
 impl Differentiable<3> for Lorenz {
     fn flow_jacobian(&self, mode: (), x: &State<3>, t: f64) -> SMatrix<f64, 3, 3> {
         integrated_jacobian(self, mode, x, t, TOLERANCES)
-            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // refused by what uses it
+            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // the return map refuses a NaN
     }
     fn guard_gradient(&self, _: (), _: &State<3>) -> State<3> {
         Vector3::z()
@@ -86,7 +87,7 @@ impl Differentiable<3> for Lorenz {
     }
 }
 
-/// z = 27, by x and y.
+/// The section z = 27, with coordinates x and y.
 struct Plane;
 
 impl Section<Lorenz, 3, 2> for Plane {
@@ -111,7 +112,7 @@ fn next(x: &SVector<f64, 2>) -> Result<SmoothReturn<2>, Error> {
     ReturnMap::new(&Lorenz, &Plane, Limits::new(100.0, 10)).next_with_derivative(x)
 }
 
-/// The fixed point of a half return with both signs turned.
+/// The periodic orbit, as the fixed point of one return followed by the symmetry.
 fn shortest_orbit(guess: &SVector<f64, 2>) -> Result<PeriodicPoint<2>, Error> {
     let half = |x: &SVector<f64, 2>| {
         let back = next(x)?;
@@ -134,29 +135,30 @@ fn main() -> Result<(), Error> {
 mod tests {
     use super::*;
 
-    /// A published point and its image (E8).
+    /// A published point and its image, half a period later.
     #[test]
-    fn a_half_return() {
+    fn a_published_half_return() {
         let back = next(&Vector2::new(-2.1473674741633753, 2.0780481172873415)).unwrap();
         assert!((back.to.time - 0.77932610853932338).abs() < 1e-12);
         let image = Vector2::new(2.1473675875613338, -2.0780482713004851);
         assert!((back.to.coordinates - image).amax() < 1e-12);
     }
 
-    /// The period of the shortest orbit, as Viswanath (2003) has it.
+    /// The period of the shortest orbit, from Viswanath (2003).
     #[test]
     fn the_shortest_periodic_orbit() {
         let orbit = shortest_orbit(&Vector2::new(-2.1, 2.1)).unwrap();
         let period = 2.0 * next(&orbit.location).unwrap().to.time;
         assert!((period - 1.5586522107161747).abs() < 1e-11, "{period}");
-        // The flow shrinks volumes at the rate −(σ + 1 + β); the section sees it without the speed across.
+        // The flow contracts volumes at the rate −(σ + 1 + β). The product of the section's multipliers is the
+        // contraction over half a period, because the multiplier along a periodic orbit is 1.
         let product: f64 = orbit.multipliers.iter().map(|m| m.norm()).product();
         let shrink = (-(11.0 + 8.0 / 3.0) * period / 2.0f64).exp();
         assert!((product / shrink - 1.0).abs() < 1e-5, "{product:e} {shrink:e}");
     }
 
     #[test]
-    fn derivative() {
+    fn derivatives_agree_with_finite_differences() {
         let x = Vector2::new(-2.0, 2.5);
         let back = next(&x).unwrap();
         for axis in 0..2 {

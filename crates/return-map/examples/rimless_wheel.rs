@@ -1,8 +1,8 @@
-//! The rimless wheel (McGeer 1990; Coleman 1998): a point mass on stiff spokes that rolls down a slope.
+//! The rimless wheel (McGeer 1990; Coleman 1998): a point mass on rigid spokes that rolls down a slope.
 //!
-//! On a spoke it is an inverted pendulum, θ̈ = sin θ with time in units of √(length/gravity). A spoke at angle
-//! γ + α from the vertical meets the ground by the next one, at γ − α, and the speed falls by the factor
-//! cos 2α. So Ω = θ̇² goes to cos² 2α (Ω + 4 sin γ sin α), with the fixed point known.
+//! On one spoke it is an inverted pendulum, θ̈ = sin θ, with time in units of √(length/gravity). When the spoke is
+//! at the angle γ + α from the vertical, the next spoke hits the ground at γ − α, and the speed is multiplied by cos
+//! 2α. So Ω = θ̇² after a collision is mapped to cos² 2α (Ω + 4 sin γ sin α). Its fixed point is known.
 //!
 //! Run with `cargo run -p return-map --example rimless_wheel`.
 
@@ -15,15 +15,15 @@ use return_map::{Error, ReturnMap, Section, SmoothSection, periodic_point_with_d
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mode {
     OnOneSpoke,
-    /// On two spokes, at rest.
+    /// At rest on two spokes.
     Standing,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Surface {
-    /// The next spoke meets the ground.
+    /// The next spoke hits the ground.
     Forward,
-    /// The last one does: it rocks back.
+    /// The wheel rocks back, and the last spoke hits the ground.
     Backward,
 }
 
@@ -36,20 +36,22 @@ struct Wheel {
     half_angle: f64,
 }
 
+/// Smaller by two orders than the errors that the tests accept.
 const TOLERANCES: Tolerances = Tolerances::both(1e-13);
 
 impl Wheel {
+    /// cos 2α, the factor of the speed at a collision.
     fn kept(&self) -> f64 {
         (2.0 * self.half_angle).cos()
     }
 
-    /// Speed after a collision on the periodic roll.
+    /// Speed after a collision in the periodic motion: the fixed point.
     fn rolling_speed(&self) -> f64 {
         let kept = self.kept().powi(2);
         (kept * 4.0 * self.slope.sin() * self.half_angle.sin() / (1.0 - kept)).sqrt()
     }
 
-    /// Least speed after a collision that takes it over the top.
+    /// The least speed after a collision with which the wheel passes the vertical.
     fn least_speed(&self) -> f64 {
         (2.0 * (1.0 - (self.slope - self.half_angle).cos())).sqrt()
     }
@@ -100,7 +102,7 @@ impl HybridSystem<2> for Wheel {
         };
         Reset::Jump { mode: Mode::OnOneSpoke, state: Vector2::new(angle, self.kept() * x[1]) }
     }
-    /// Rocking that dies out ends on two spokes.
+    /// Infinitely many rocking collisions in finite time end at rest on two spokes.
     fn rest(&self, _: Mode, _: &State<2>) -> Option<(Mode, State<2>)> {
         Some((Mode::Standing, Vector2::new(self.slope - self.half_angle, 0.0)))
     }
@@ -121,7 +123,7 @@ impl HybridSystem<2> for Wheel {
 impl Differentiable<2> for Wheel {
     fn flow_jacobian(&self, mode: Mode, x: &State<2>, t: f64) -> SMatrix<f64, 2, 2> {
         integrated_jacobian(self, mode, x, t, TOLERANCES)
-            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // refused by what uses it
+            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN)) // the return map refuses a NaN
     }
     fn guard_gradient(&self, _: Surface, _: &State<2>) -> State<2> {
         Vector2::x()
@@ -131,7 +133,7 @@ impl Differentiable<2> for Wheel {
     }
 }
 
-/// Just after a collision forwards, by the speed.
+/// The section after a forward collision, with the speed as coordinate.
 struct AfterCollision(Wheel);
 
 impl Section<Wheel, 2, 1> for AfterCollision {
@@ -153,7 +155,7 @@ impl SmoothSection<Wheel, 2, 1> for AfterCollision {
     }
 }
 
-/// The periodic roll: its speed after a collision, and how a disturbance shrinks in a step.
+/// The periodic motion: its speed after a collision, and its multiplier.
 fn roll(wheel: Wheel, guess: f64) -> Result<(f64, f64), Error> {
     let section = AfterCollision(wheel);
     let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
@@ -168,15 +170,18 @@ fn roll(wheel: Wheel, guess: f64) -> Result<(f64, f64), Error> {
 fn main() -> Result<(), Error> {
     let wheel = Wheel { slope: 0.08, half_angle: std::f64::consts::PI / 8.0 };
     let (speed, multiplier) = roll(wheel, 0.7)?;
-    println!("rolls with {speed:.14} after each collision; exactly {:.14}", wheel.rolling_speed());
-    println!("a disturbance shrinks by {multiplier:.12}; exactly {:.12}", wheel.kept().powi(2));
+    println!("speed after each collision: {speed:.14}, exactly {:.14}", wheel.rolling_speed());
+    println!("multiplier: {multiplier:.12}, exactly {:.12}", wheel.kept().powi(2));
     let start = Vector2::new(wheel.slope - wheel.half_angle, 0.99 * wheel.least_speed());
     let mut rocks = 0;
     for arc in Execution::new(&wheel, Mode::OnOneSpoke, start, Limits::new(100.0, 1000)) {
         let arc = arc?;
         rocks += usize::from(arc.event().is_some());
         if arc.mode == Mode::Standing {
-            println!("a push too small: it rocks {rocks} times and stands from {:.9} on", arc.time);
+            println!(
+                "below the least speed it rocks {rocks} times and stands from t = {:.9}",
+                arc.time
+            );
         }
     }
     Ok(())
@@ -188,7 +193,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_roll_and_its_multiplier() {
+    fn the_periodic_motion_and_its_multiplier() {
         for (slope, half_angle) in [(0.08, 0.3), (0.08, 0.39), (0.2, 0.5)] {
             let wheel = Wheel { slope, half_angle };
             let (speed, multiplier) = roll(wheel, wheel.rolling_speed() * 1.2).unwrap();
@@ -197,9 +202,9 @@ mod tests {
         }
     }
 
-    /// From any speed one step is Ω′ = cos² 2α (Ω + 4 sin γ sin α).
+    /// From any sufficient speed one step is Ω′ = cos² 2α (Ω + 4 sin γ sin α).
     #[test]
-    fn one_step() {
+    fn one_step_agrees_with_its_formula() {
         let wheel = Wheel { slope: 0.1, half_angle: 0.3 };
         let section = AfterCollision(wheel);
         let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
@@ -211,9 +216,9 @@ mod tests {
         }
     }
 
-    /// Below the least speed it never comes over the top: it rocks, and stands in the end.
+    /// Below the least speed the wheel never passes the vertical. It rocks, and stands in the end.
     #[test]
-    fn a_push_too_small() {
+    fn too_small_a_speed_ends_at_rest() {
         let wheel = Wheel { slope: 0.02, half_angle: 0.3 };
         let start = Vector2::new(wheel.slope - wheel.half_angle, 0.999 * wheel.least_speed());
         let arcs: Vec<_> =

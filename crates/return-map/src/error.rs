@@ -1,26 +1,31 @@
-//! Why a return map has no value.
+//! Reasons for a missing result.
 
 use thiserror::Error;
 
-/// Why a point has no image, or a search no result.
+/// Why a point has no image, or a search has no result.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The execution ended before it came back to the section.
-    #[error("no return to the section: {stop:?} after {time} time units and {events} events")]
+    /// The execution ended before it returned to the section.
+    #[error(
+        "no return to the section: the execution stopped ({stop:?}) after {time} time units and {events} events"
+    )]
     NoReturn {
         /// Why the execution ended.
         stop: hybrid_system::Stop,
-        /// Continuous time spent.
+        /// Time from the start to the end of the execution.
         time: f64,
-        /// Events passed.
+        /// Number of events until then.
         events: usize,
     },
     /// The execution failed.
     #[error("the execution failed: {0}")]
     Execution(#[from] hybrid_system::Error),
     /// A window that is empty or not finite, or too few samples.
-    #[error("cannot search [{left}, {right}] at {samples} points")]
+    #[error(
+        "cannot search [{left}, {right}] with {samples} samples: the ends must be finite, the left one smaller, and \
+         at least 3 samples are needed"
+    )]
     BadWindow {
         /// Left end.
         left: f64,
@@ -30,9 +35,12 @@ pub enum Error {
         samples: usize,
     },
     /// Newton's method found no periodic point.
-    #[error("no periodic point: the residual is {residual} after {steps} Newton steps")]
+    #[error(
+        "no periodic point found: the residual is {residual} after {steps} Newton steps. The period must be at least \
+         1, and the start close to the point"
+    )]
     NoPeriodicPoint {
-        /// The largest component of fᵖ(x) − x.
+        /// The largest component of |fᵖ(x) − x|; NaN for a period of 0.
         residual: f64,
         /// Newton steps taken.
         steps: usize,

@@ -1,51 +1,64 @@
-//! Fixed points of scalar maps: where the graph crosses the diagonal, and where it only touches.
+//! Fixed points of scalar maps: where the graph crosses the diagonal, and where it touches it.
 
-use crate::Error;
+use crate::error::Error;
 use hybrid_system::bracketed_root;
 
-/// How the graph meets the diagonal.
+/// How the graph of f meets the diagonal at a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Meeting {
-    /// f(x) − x changes sign.
-    Crossing,
-    /// f(x) − x has an extremum of value zero, to rounding: stable from one side at most.
-    Touching,
+pub enum Intersection {
+    /// The graph crosses the diagonal: f(x) − x changes sign. The fixed point persists under small changes of f.
+    Transverse,
+    /// The graph touches the diagonal: f(x) − x has an extremum that is zero to rounding. The fixed point attracts
+    /// from one side at most, and small changes of f split or remove it.
+    Tangent,
 }
 
 /// A fixed point of a scalar map.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPoint {
-    /// Where.
+    /// The fixed point x.
     pub location: f64,
-    /// f(x) − x there.
+    /// f(x) − x as computed.
     pub residual: f64,
     /// How the graph meets the diagonal there.
-    pub meeting: Meeting,
+    pub intersection: Intersection,
 }
 
-/// Residuals up to this many ulps of x count as zero at a touch.
-const TOUCH_ULPS: f64 = 8.0;
+/// The extremum of f(x) − x counts as zero if it is at most this number of ulps of x. Rounding of f and of the
+/// difference makes a few ulps; chosen with some to spare. A larger number would report near misses as tangent points.
+const TANGENT_ULPS: f64 = 8.0;
 
-/// The fixed points of `map` that `samples` equally spaced points of [left, right] reveal.
+/// A sign change is a crossing if the residual is at most this part of the point's size. At a jump through the diagonal
+/// the residual keeps the size of the jump; smaller jumps than this are taken for crossings. Chosen.
+const CROSSING_RESIDUAL: f64 = 1e-8;
+
+/// (√5 − 1)/2: a golden-section search divides its interval in this ratio.
+const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
+
+/// Each step multiplies the interval by 0.618, so 120 steps shrink it by 10⁻²⁵: below the spacing of `f64` unless the
+/// extremum is close to 0. Further steps would not move it.
+const GOLDEN_SECTION_STEPS: usize = 120;
+
+/// The fixed points of `map` that `samples` equally spaced points of [left, right] reveal, from left to right.
 ///
-/// Sign changes of f(x) − x between neighbours are refined to full precision; extrema of it are
-/// refined by golden-section search and kept if they reach zero to rounding. Fixed points closer
-/// than a sample interval may be missed, so may one beside a gap in the map's domain; a jump through
-/// the diagonal is not a fixed point.
+/// A sign change of f(x) − x between neighbouring samples is refined to full precision. An extremum of f(x) − x is
+/// refined by golden-section search and is a fixed point if it is zero to rounding. Two fixed points between
+/// neighbouring samples may be missed. So may a fixed point beside a gap in the domain of the map, where `map` gives
+/// `None`. A jump through the diagonal is not a fixed point.
 ///
 /// ```
-/// use return_map::{Meeting, fixed_points};
-/// // x + x² touches the diagonal at 0; 2x(1 − x) crosses it at 0 and ½.
-/// let touch = fixed_points(|x| Some(x + x * x), -0.5, 0.4, 101)?;
-/// assert_eq!(touch[0].meeting, Meeting::Touching);
-/// assert!(touch[0].location.abs() < 1e-8);
-/// let crossings = fixed_points(|x| Some(2.0 * x * (1.0 - x)), -0.25, 1.1, 100)?;
-/// assert!((crossings[1].location - 0.5).abs() < 1e-15);
+/// use return_map::{Intersection, fixed_points};
+/// // x + x² touches the diagonal at 0. 2x(1 − x) crosses it at 0 and ½.
+/// let tangent = fixed_points(|x| Some(x + x * x), -0.5, 0.4, 101)?;
+/// assert_eq!(tangent[0].intersection, Intersection::Tangent);
+/// assert!(tangent[0].location.abs() < 1e-8);
+/// let transverse = fixed_points(|x| Some(2.0 * x * (1.0 - x)), -0.25, 1.1, 100)?;
+/// assert!((transverse[1].location - 0.5).abs() < 1e-15);
 /// # Ok::<(), return_map::Error>(())
 /// ```
 ///
 /// # Errors
-/// [`Error::BadWindow`] for an empty window or fewer than three samples.
+/// [`Error::BadWindow`] for an empty or infinite window, and for fewer than three samples.
 pub fn fixed_points(
     map: impl Fn(f64) -> Option<f64>,
     left: f64,
@@ -61,20 +74,23 @@ pub fn fixed_points(
     let mut found = Vec::new();
     for k in 0..samples {
         if values[k] == Some(0.0) {
-            found.push(on_sample(&values, k, at(k)));
+            found.push(fixed_sample(&values, k, at(k)));
         }
         if let Some(&[Some(a), Some(b)]) = values.get(k..k + 2)
             && (a < 0.0) != (b < 0.0)
+            // A sample on the diagonal has been reported above.
             && a != 0.0
             && b != 0.0
         {
-            found.extend(crossing(gap, at(k), at(k + 1)));
+            found.extend(transverse_point(gap, at(k), at(k + 1)));
         }
         if let Some(&[Some(a), Some(b), Some(c)]) = values.get(k..k + 3) {
+            // The middle sample is the nearest to the diagonal, and all three are on one side of it. The factor
+            // `side` turns a maximum below the diagonal into a minimum.
             let side = b.signum();
             let one_sided = b != 0.0 && a * side > 0.0 && c * side > 0.0;
             if one_sided && b.abs() <= a.abs() && b.abs() < c.abs() {
-                found.extend(touching(|x| gap(x).map(|g| g * side), at(k), at(k + 2)));
+                found.extend(tangent_point(|x| gap(x).map(|g| g * side), at(k), at(k + 2)));
             }
         }
     }
@@ -83,54 +99,58 @@ pub fn fixed_points(
     Ok(found)
 }
 
-/// A sample that hit a fixed point exactly: told apart by the neighbours' signs.
-fn on_sample(values: &[Option<f64>], k: usize, location: f64) -> FixedPoint {
+/// The fixed point at a sample with f(x) = x exactly. It is tangent if both neighbouring samples are on one side of
+/// the diagonal. A neighbour without a value, or on the diagonal too, makes it transverse.
+fn fixed_sample(values: &[Option<f64>], k: usize, location: f64) -> FixedPoint {
     let neighbour =
         |k: Option<usize>| k.and_then(|k| values.get(k).copied().flatten()).unwrap_or(0.0);
     let (before, after) = (neighbour(k.checked_sub(1)), neighbour(Some(k + 1)));
-    let touches = before != 0.0 && after != 0.0 && before.signum() == after.signum();
-    let meeting = if touches { Meeting::Touching } else { Meeting::Crossing };
-    FixedPoint { location, residual: 0.0, meeting }
+    let one_sided = before != 0.0 && after != 0.0 && before.signum() == after.signum();
+    let intersection = if one_sided { Intersection::Tangent } else { Intersection::Transverse };
+    FixedPoint { location, residual: 0.0, intersection }
 }
 
-fn crossing(gap: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<FixedPoint> {
+/// The transverse fixed point between two samples on different sides; `None` at a jump or a gap.
+fn transverse_point(gap: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<FixedPoint> {
     let location = bracketed_root(|x| gap(x).unwrap_or(f64::NAN), left, right).ok()?;
     let residual = gap(location)?;
-    // At a jump through the diagonal the residual stays large on both sides.
+    // A point near 0 is judged by the sample interval: relative to x itself no residual would be small.
     let scale = left.abs().max(right.abs()).max(right - left);
-    (residual.abs() <= 1e-8 * scale).then_some(FixedPoint {
+    (residual.abs() <= CROSSING_RESIDUAL * scale).then_some(FixedPoint {
         location,
         residual,
-        meeting: Meeting::Crossing,
+        intersection: Intersection::Transverse,
     })
 }
 
-/// Golden-section search for a minimum of `height` ≥ 0 that is zero to rounding.
-fn touching(
+/// The tangent fixed point at the minimum of `height` ≥ 0, by golden-section search; `None` if the minimum is not zero
+/// to rounding, or if the map has a gap there.
+fn tangent_point(
     height: impl Fn(f64) -> Option<f64>,
     mut left: f64,
     mut right: f64,
 ) -> Option<FixedPoint> {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let mut inner = [right - GOLDEN * (right - left), left + GOLDEN * (right - left)];
+    const RATIO: f64 = INVERSE_GOLDEN_RATIO;
+    // Of the two inner points one is an inner point of the next interval too, so that a step costs one value.
+    let mut inner = [right - RATIO * (right - left), left + RATIO * (right - left)];
     let mut heights = [height(inner[0])?, height(inner[1])?];
-    for _ in 0..120 {
+    for _ in 0..GOLDEN_SECTION_STEPS {
         if heights[0] < heights[1] {
             right = inner[1];
-            inner = [right - GOLDEN * (right - left), inner[0]];
+            inner = [right - RATIO * (right - left), inner[0]];
             heights = [height(inner[0])?, heights[0]];
         } else {
             left = inner[0];
-            inner = [inner[1], left + GOLDEN * (right - left)];
+            inner = [inner[1], left + RATIO * (right - left)];
             heights = [heights[1], height(inner[1])?];
         }
     }
     let best = if heights[0] < heights[1] { 0 } else { 1 };
     let (location, residual) = (inner[best], heights[best]);
-    let rounding = TOUCH_ULPS * f64::EPSILON * location.abs().max(right - left);
+    let rounding = TANGENT_ULPS * f64::EPSILON * location.abs().max(right - left);
     (residual.abs() <= rounding).then_some(FixedPoint {
         location,
         residual,
-        meeting: Meeting::Touching,
+        intersection: Intersection::Tangent,
     })
 }

@@ -1,4 +1,4 @@
-//! Return maps of hybrid systems, and what their fixed points do on either side.
+//! Return maps of hybrid systems, their fixed and periodic points, and the stability of these from either side.
 //!
 //! ```text
 //!     section ──start──► arc ─event─► arc ─event─► … ─event on the section──► image
@@ -7,15 +7,15 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`Section`] | coordinates of a section: where a start lies, which events count as returns |
+//! | [`Section`] | coordinates of a section: the state of a point, and which events are returns |
 //! | [`ReturnMap`], [`Return`] | image, return time and number of events, in any dimension |
 //! | [`SmoothSection`], [`SmoothReturn`] | the derivative of the map, through flows and events |
-//! | [`orbit`], [`cobweb`] | iterates of a scalar map, and their drawing |
-//! | [`fixed_points`], [`FixedPoint`] | crossings of the diagonal, and touches of it |
+//! | [`orbit`], [`cobweb`] | orbits of a scalar map, and their drawing |
+//! | [`fixed_points`], [`FixedPoint`] | transverse and tangent fixed points of a scalar map |
 //! | [`periodic_point`], [`periodic_point_with_derivative`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
 //! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
 //!
-//! Each half of a ball's flight is half as long as the one before:
+//! A ball that keeps half of its speed at each bounce; the return map takes speed to speed:
 //!
 //! ```
 //! use hybrid_system::*;
@@ -36,7 +36,7 @@
 //! #         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
 //! #     }
 //! # }
-//! /// The floor, by the speed after the bounce.
+//! /// The section is the floor. Its coordinate is the speed after the bounce.
 //! struct Bounce;
 //! impl Section<Ball, 2, 1> for Bounce {
 //!     fn point(&self, speed: &SVector<f64, 1>) -> ((), State<2>) {
@@ -48,22 +48,22 @@
 //! }
 //!
 //! let map = ReturnMap::new(&Ball, &Bounce, Limits::sampled(10.0, 10, 0.01));
-//! let image = map.image(1.0)?.expect("it always comes back");
+//! let image = map.image(1.0)?.expect("the ball always returns");
 //! assert!((image - 0.5).abs() < 1e-14);
 //! # Ok::<(), return_map::Error>(())
 //! ```
 //!
 //! # Accuracy
-//! A return is as exact as the system's crossings, and its derivative as the system's derivatives.
-//! [`fixed_points`] sees what its samples reveal.
+//! A return is as exact as the crossings that the system computes. Its derivative is as exact as the derivatives of the
+//! system. [`fixed_points`] finds the fixed points that its samples reveal.
 //!
 //! # Poincaré sections of plain flows
-//! A plain flow is a hybrid system with one mode and a guard whose reset changes nothing: the example
-//! `lorenz` does it for the Lorenz system, with its derivative.
+//! A plain flow is a hybrid system with one mode, and a guard whose reset changes nothing. The example `lorenz`
+//! shows it for the Lorenz system, with the derivative.
 //!
 //! # Not here
-//! Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure,
-//! a return map among them.
+//! - Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure, and so a
+//!   return map.
 
 mod error;
 mod fixed_point;
@@ -74,7 +74,7 @@ mod section;
 mod stability;
 
 pub use error::Error;
-pub use fixed_point::{FixedPoint, Meeting, fixed_points};
+pub use fixed_point::{FixedPoint, Intersection, fixed_points};
 pub use orbit::{cobweb, orbit};
 pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
 pub use return_map::{Return, ReturnMap, SmoothReturn};

@@ -1,8 +1,8 @@
-//! Iterates of a scalar map, and the cobweb that draws them.
+//! Orbits of a scalar map, and the cobwebs that draw them.
 
 /// The orbit of `start` under `map`: `start`, f(start), f(f(start)), …
 ///
-/// It ends where the map has no value; otherwise it goes on for ever: `take` what is wanted.
+/// The orbit ends where the map gives `None`. Otherwise it is infinite.
 ///
 /// ```
 /// let halves: Vec<f64> = return_map::orbit(|x| Some(x / 2.0), 1.0).take(4).collect();
@@ -12,7 +12,9 @@ pub fn orbit(map: impl Fn(f64) -> Option<f64>, start: f64) -> impl Iterator<Item
     std::iter::successors(Some(start), move |&x| map(x))
 }
 
-/// The cobweb of an orbit: (x₀, x₀), (x₀, x₁), (x₁, x₁), (x₁, x₂), …, for `steps` steps.
+/// The corners of an orbit's cobweb: (x₀, x₀), (x₀, x₁), (x₁, x₁), (x₁, x₂), …, for at most `steps` steps.
+///
+/// It has fewer steps if the orbit ends.
 ///
 /// ```
 /// let web = return_map::cobweb(|x| Some(x / 2.0), 1.0, 1);

@@ -1,42 +1,45 @@
 //! Periodic points in any dimension, by Newton's method.
 
-use crate::Error;
+use crate::error::Error;
 use nalgebra::{Complex, DMatrix, DVector, SMatrix, SVector};
 
-/// A point that a map takes back to itself after `period` steps.
+/// A point that a map f takes back to itself after `period` steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeriodicPoint<const K: usize> {
-    /// The point.
+    /// The point x.
     pub location: SVector<f64, K>,
-    /// Steps after which it comes back.
+    /// The period p: fᵖ(x) = x. It may be a multiple of the least period.
     pub period: usize,
-    /// |fᵖ(x) − x|, the largest component.
+    /// The largest component of |fᵖ(x) − x|.
     pub residual: f64,
-    /// The multipliers: eigenvalues of the derivative of fᵖ there. All inside the unit circle: it
+    /// The multipliers: the eigenvalues of the derivative of fᵖ at x. If all lie inside the unit circle, the point
     /// attracts.
     pub multipliers: Vec<Complex<f64>>,
     /// Newton steps taken.
     pub steps: usize,
 }
 
-/// Most Newton steps.
-const STEPS: usize = 50;
+/// Most Newton steps. From a good start Newton's method needs five to ten, because the number of right digits doubles
+/// in a step. The limit stops a search that wanders.
+const NEWTON_STEPS: usize = 50;
 
-/// Steps are halved until the residual falls, so many times at most.
+/// A step is halved at most this number of times until the residual falls: to 10⁻⁹ of its length. If even this does
+/// not help, the direction is wrong, or the residual is the noise of the map.
 const HALVINGS: usize = 30;
 
-/// A Newton step, relative to the point, that the noise of a map may ask for.
+/// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this,
+/// relative to the point. Chosen for return maps of integrated flows, whose noise is far above an ulp. A larger
+/// value would accept points that are not periodic.
 const NOISE: f64 = 1e-10;
 
 /// A point of period `period` of `map`, by damped Newton steps from `start`.
 ///
-/// Derivatives are central differences, so that multipliers are right to some 1e-9 for a map of machine
-/// precision; a map that is not differentiable at the point has none, whatever they say. A period found
-/// may be a multiple of the least one.
+/// Derivatives are central differences. For a map of machine precision the multipliers have errors of some 10⁻⁹.
+/// They are meaningless if the map is not differentiable at the point.
 ///
 /// ```
 /// use nalgebra::Vector2;
-/// // Hénon's map: its fixed point is a saddle.
+/// // The fixed point of Hénon's map is a saddle.
 /// let henon = |x: &Vector2<f64>| Ok(Vector2::new(1.0 - 1.4 * x[0] * x[0] + x[1], 0.3 * x[0]));
 /// let point = return_map::periodic_point(henon, &Vector2::new(0.5, 0.2), 1)?;
 /// assert!((point.location[0] - 0.631354477089505).abs() < 1e-14);
@@ -45,9 +48,8 @@ const NOISE: f64 = 1e-10;
 /// ```
 ///
 /// # Errors
-/// [`Error::NoPeriodicPoint`] if the steps end before the residual is at rounding level, or at that of a map
-/// whose noise hides steps under 1e-10, for a derivative
-/// that does not allow a step, and for a period of zero; errors of the map.
+/// [`Error::NoPeriodicPoint`] for a period of 0, for a singular derivative, and if the steps end before the residual
+/// is of the size of rounding, or of the noise of the map (Newton steps under 10⁻¹⁰). Errors of the map.
 pub fn periodic_point<const K: usize>(
     map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
     start: &SVector<f64, K>,
@@ -58,8 +60,9 @@ pub fn periodic_point<const K: usize>(
     newton(image, slope, start, period)
 }
 
-/// The same for a map that gives its derivative beside the image, as
-/// [`next_with_derivative`](crate::ReturnMap::next_with_derivative) does: multipliers as exact as that.
+/// A point of period `period`, for a map that gives its derivative together with the image, as
+/// [`next_with_derivative`](crate::ReturnMap::next_with_derivative) does. The multipliers are as exact as the
+/// derivative.
 ///
 /// # Errors
 /// As [`periodic_point`].
@@ -70,6 +73,7 @@ pub fn periodic_point_with_derivative<const K: usize>(
 ) -> Result<PeriodicPoint<K>, Error> {
     let image = |x: &SVector<f64, K>| Ok(map(x)?.0);
     let slope = |x: &SVector<f64, K>| {
+        // Chain rule: the derivative of fᵖ is the product of the derivatives along the orbit.
         let (mut x, mut whole) = (*x, SMatrix::identity());
         for _ in 0..period {
             let (image, slope) = map(&x)?;
@@ -89,7 +93,7 @@ fn iterate<const K: usize>(
     (0..period).try_fold(*x, |x, _| map(&x))
 }
 
-/// Damped Newton steps on fᵖ(x) − x, given f and the derivative of fᵖ.
+/// Damped Newton steps on fᵖ(x) − x, given f and the derivative `whole` of fᵖ.
 fn newton<const K: usize>(
     map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
     whole: impl Fn(&SVector<f64, K>) -> Result<SMatrix<f64, K, K>, Error>,
@@ -102,15 +106,19 @@ fn newton<const K: usize>(
         return Err(none(f64::NAN, 0));
     }
     let (mut x, mut rest) = (*start, displacement(start)?);
+    // True once no part of a step lowers the residual, and the step is small enough to be noise.
     let mut stuck = false;
-    for steps in 0..=STEPS {
+    for steps in 0..=NEWTON_STEPS {
         let whole = whole(&x)?;
         let slope = whole - SMatrix::identity();
-        // A few roundings of the map: further steps would follow noise.
+        // Sixteen ulps a step of the map, of a point of size 1 at least: below it further Newton steps follow rounding.
         let rounding = 16.0 * f64::EPSILON * period as f64 * (1.0 + x.amax());
         let step = solve(&slope, &rest);
         let tiny = step.is_some_and(|step| step.amax() <= rounding);
-        if stuck || rest.amax() <= rounding && (tiny || rest.amax() == 0.0 || steps == STEPS) {
+        // At a nearly singular derivative the residual is of rounding size far from the point already. So the next step
+        // must be tiny too, unless the residual is exactly zero or no steps are left.
+        if stuck || rest.amax() <= rounding && (tiny || rest.amax() == 0.0 || steps == NEWTON_STEPS)
+        {
             if !whole.iter().all(|entry| entry.is_finite()) {
                 return Err(none(rest.amax(), steps));
             }
@@ -129,7 +137,7 @@ fn newton<const K: usize>(
         let whole_step = step.amax();
         let mut halvings = 0;
         loop {
-            // A step may leave the domain of the map.
+            // A step may leave the domain of the map; then it is halved as well.
             if let Ok(next) = displacement(&(x - step))
                 && (next.amax() < size || size <= rounding)
             {
@@ -139,7 +147,7 @@ fn newton<const K: usize>(
             step *= 0.5;
             halvings += 1;
             if halvings > HALVINGS {
-                // A map with noise of its own: the residual is that.
+                // The residual cannot be lowered. If the full step is tiny, the residual is the noise of the map.
                 if !(whole_step <= NOISE * (1.0 + x.amax())) {
                     return Err(none(size, steps));
                 }
@@ -148,10 +156,10 @@ fn newton<const K: usize>(
             }
         }
     }
-    Err(none(rest.amax(), STEPS))
+    Err(none(rest.amax(), NEWTON_STEPS))
 }
 
-/// The solution of slope · step = rest; nothing for a singular matrix.
+/// The solution of slope · step = rest; `None` for a singular matrix.
 fn solve<const K: usize>(
     slope: &SMatrix<f64, K, K>,
     rest: &SVector<f64, K>,
@@ -162,12 +170,12 @@ fn solve<const K: usize>(
     Some(SVector::from_column_slice(solution.as_slice()))
 }
 
-/// By central differences.
+/// The derivative of f at x by central differences.
 fn derivative<const K: usize>(
     f: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
     x: &SVector<f64, K>,
 ) -> Result<SMatrix<f64, K, K>, Error> {
-    // The cube root of an ulp balances rounding and curvature.
+    // The cube root of an ulp ε. The rounding error ε/h and the truncation error h² are then of equal size, 4·10⁻¹¹.
     const STEP: f64 = 6e-6;
     let mut slope = SMatrix::<f64, K, K>::zeros();
     for axis in 0..K {
@@ -187,7 +195,7 @@ mod tests {
     use proptest::prelude::*;
 
     #[test]
-    fn a_two_cycle_of_the_logistic_map() {
+    fn the_two_cycle_of_the_logistic_map() {
         let map = |x: &Vector1<f64>| Ok(Vector1::new(3.2 * x[0] * (1.0 - x[0])));
         let point = periodic_point(map, &Vector1::new(0.5), 2).unwrap();
         // Roots of the second iterate: (r + 1 ± √((r+1)(r−3)))/(2r); its multiplier is 4 + 2r − r².
@@ -197,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn a_given_derivative_gives_exact_multipliers() {
+    fn multipliers_are_exact_with_a_given_derivative() {
         let map = |x: &Vector1<f64>| {
             let slope = SMatrix::<f64, 1, 1>::new(3.2 * (1.0 - 2.0 * x[0]));
             Ok((Vector1::new(3.2 * x[0] * (1.0 - x[0])), slope))
@@ -207,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_periodic_point_is_an_error() {
+    fn a_map_without_periodic_point_is_an_error() {
         let shift = |x: &Vector1<f64>| Ok(Vector1::new(x[0] + 1.0));
         assert!(matches!(
             periodic_point(shift, &Vector1::new(0.0), 1),
@@ -221,9 +229,9 @@ mod tests {
     }
 
     proptest! {
-        /// A linear map about a planted point: location and multipliers.
+        /// A linear map about a planted point has its location and its multipliers.
         #[test]
-        fn planted(a in -5.0..5.0f64, b in -5.0..5.0f64, p in -0.9..0.9f64, q in 1.1..3.0f64, turn in 0.0..3.0f64) {
+        fn planted_points_are_found(a in -5.0..5.0f64, b in -5.0..5.0f64, p in -0.9..0.9f64, q in 1.1..3.0f64, turn in 0.0..3.0f64) {
             let (sin, cos) = pxfm::f_sincos(turn);
             let rotation = SMatrix::<f64, 2, 2>::new(cos, -sin, sin, cos);
             let matrix = rotation * SMatrix::<f64, 2, 2>::new(p, 0.0, 0.0, q) * rotation.transpose();

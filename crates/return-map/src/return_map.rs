@@ -1,6 +1,7 @@
-//! From a section back to it.
+//! The return map: from a section to the next event on it.
 
-use crate::{Error, Section, SmoothSection};
+use crate::error::Error;
+use crate::section::{Section, SmoothSection};
 use hybrid_system::{
     ArcEnd, Differentiable, Execution, HybridSystem, Limits, Stop, event_sensitivity,
 };
@@ -13,7 +14,7 @@ pub struct ReturnMap<'a, T, C, const N: usize> {
     pub system: &'a T,
     /// The section.
     pub section: &'a C,
-    /// How far one return may go.
+    /// Limits on the time and the events of one return.
     pub limits: Limits,
 }
 
@@ -22,20 +23,20 @@ pub struct ReturnMap<'a, T, C, const N: usize> {
 pub struct SmoothReturn<const K: usize> {
     /// The return.
     pub to: Return<K>,
-    /// Derivative of the image.
+    /// Derivative of the image with respect to the start.
     pub derivative: SMatrix<f64, K, K>,
-    /// Derivative of the return time.
+    /// Derivative of the return time with respect to the start.
     pub time_derivative: RowSVector<f64, K>,
 }
 
 /// A return to the section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Return<const K: usize> {
-    /// Where on the section, the image.
+    /// The image: coordinates on the section.
     pub coordinates: SVector<f64, K>,
     /// Return time.
     pub time: f64,
-    /// Number of events on the way, the last one included.
+    /// Number of events, the last one on the section included.
     pub events: usize,
 }
 
@@ -51,7 +52,7 @@ where
     /// Follows the execution from `coordinates` to its next event on the section.
     ///
     /// # Errors
-    /// [`Error::NoReturn`] if the execution ends before; [`Error::Execution`] if it fails.
+    /// [`Error::NoReturn`] if the execution ends before it returns; [`Error::Execution`] if it fails.
     pub fn next<const K: usize>(&self, coordinates: &SVector<f64, K>) -> Result<Return<K>, Error>
     where
         C: Section<T, N, K>,
@@ -72,12 +73,14 @@ where
         Err(Error::NoReturn { stop, time, events })
     }
 
-    /// The same with the derivatives of image and return time, by state transition along the arcs and through
-    /// the events, each compared at the event itself.
+    /// The next return, with the derivatives of image and return time.
+    ///
+    /// The derivative is the product of the state-transition matrices of the arcs and of the events. Perturbed
+    /// executions are compared at the events themselves, not at equal times.
     ///
     /// # Errors
-    /// As [`next`](Self::next), and as [`event_sensitivity`]: a return that grazes a guard, or passes infinitely many
-    /// events, has no derivative.
+    /// As [`next`](Self::next), and as [`event_sensitivity`]: a return that grazes a guard, or that passes a Zeno
+    /// limit, has no derivative.
     pub fn next_with_derivative<const K: usize>(
         &self,
         coordinates: &SVector<f64, K>,
@@ -94,12 +97,13 @@ where
         for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
-            if matches!(arc.end, ArcEnd::Accumulation { .. }) {
+            if matches!(arc.end, ArcEnd::Zeno { .. }) {
                 return Err(hybrid_system::Error::NoSensitivity { time: arc.time }.into());
             }
             let Some(event) = arc.event() else { continue };
             events += 1;
             let back = self.section.coordinates(event);
+            // A terminal event off the section: the execution ends, and the loop with it.
             if back.is_none() && event.after.is_none() {
                 continue;
             }
@@ -116,10 +120,11 @@ where
         Err(Error::NoReturn { stop, time, events })
     }
 
-    /// The image of a point of a one-dimensional section; nothing if it never returns.
+    /// The image of a point of a one-dimensional section; `None` if the execution certainly never returns.
     ///
     /// # Errors
-    /// As [`next`](Self::next), except that an execution that provably never returns is no error.
+    /// As [`next`](Self::next), but an execution that certainly never returns is no error. An execution that reaches
+    /// a limit may still return later, and is an error.
     pub fn image(&self, coordinate: f64) -> Result<Option<f64>, Error>
     where
         C: Section<T, N, 1>,
@@ -127,7 +132,7 @@ where
         match self.next(&SVector::<f64, 1>::new(coordinate)) {
             Ok(back) => Ok(Some(back.coordinates[0])),
             Err(Error::NoReturn {
-                stop: Stop::NoFurtherEvent | Stop::Terminal | Stop::Accumulation,
+                stop: Stop::NoFurtherEvent | Stop::Terminal | Stop::Zeno,
                 ..
             }) => Ok(None),
             Err(error) => Err(error),

@@ -1,18 +1,18 @@
-//! Sections: where in an execution the map looks.
+//! Sections: the events between which a return map maps.
 
 use hybrid_system::{Event, HybridSystem, State};
 use nalgebra::{SMatrix, SVector};
 
-/// A K-dimensional section through the N-dimensional state space, met at events.
+/// A K-dimensional section through the N-dimensional state space. Executions meet it at events.
 pub trait Section<T: HybridSystem<N>, const N: usize, const K: usize> {
     /// Mode and state of the point with these coordinates, from which an execution starts.
     fn point(&self, coordinates: &SVector<f64, K>) -> (T::Mode, State<N>);
 
-    /// The coordinates of an event that lies on the section; nothing if it does not.
+    /// The coordinates of an event on the section; `None` for an event that is not on it.
     fn coordinates(&self, event: &Event<T::Mode, T::Surface, N>) -> Option<SVector<f64, K>>;
 }
 
-/// A section with the derivatives that those of its return map need.
+/// A section with derivatives, from which the derivative of the return map is computed.
 pub trait SmoothSection<T: HybridSystem<N>, const N: usize, const K: usize>:
     Section<T, N, K>
 {

@@ -9,32 +9,34 @@ pub enum Side {
     Right,
 }
 
-/// What a map does to points on one side of a fixed point.
+/// The stability of a fixed point on one side of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Stability {
-    /// Every probed point stays on its side and comes closer.
+    /// Every probed point stays on its side and moves closer.
     Attracting,
-    /// Every probed point stays on its side and goes away.
+    /// Every probed point stays on its side and moves away.
     Repelling,
-    /// Some probed points do one thing and some another, leave their side, or have no image.
+    /// Some points move closer and others away; or a point changes sides, does not move, or has no image; or no
+    /// point was probed.
     Undecided,
 }
 
-/// The behaviour of a map on one side of a fixed point, probed at a geometric ladder of distances.
+/// The behaviour of a map on one side of a fixed point, probed at a geometric sequence of distances.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OneSidedStability {
     /// The side.
     pub side: Side,
-    /// The verdict over all distances.
+    /// The stability over all distances.
     pub stability: Stability,
-    /// (δ, δ − δ′): the distance before, and by how much it shrinks (negative: grows), from the
-    /// largest to the smallest.
+    /// Pairs (δ, δ − δ′) of a distance and its decrease in one step, negative if it grows. From the largest δ to the
+    /// smallest; points that change sides or have no image are left out.
     pub approach: Vec<(f64, f64)>,
 }
 
 impl OneSidedStability {
-    /// p and c of |δ − δ′| ≈ c δ^p, from the two smallest distances; nothing if they do not shrink
-    /// or grow alike. p = 1 is geometric, p > 1 algebraic approach.
+    /// p and c of |δ − δ′| ≈ c δ^p, from the two smallest distances; `None` unless both shrink or both grow.
+    ///
+    /// p = 1 means a geometric approach (or departure), p > 1 an algebraic one.
     pub fn power_law(&self) -> Option<(f64, f64)> {
         let [.., (far, far_step), (near, near_step)] = self.approach[..] else { return None };
         let ratio = far_step / near_step;
@@ -48,14 +50,14 @@ impl OneSidedStability {
 
 /// Probes one side of a fixed point.
 ///
-/// `displacement` is the map in the coordinate δ = |x − x*|: it takes a distance to the distance of
-/// the image on the same side, negative if it changes sides. A model that knows its map near the
-/// point gives it without cancellation. The distances go from `largest` down by halves, `count` of
-/// them.
+/// `displacement` is the map in the coordinate δ = |x − x*|. It takes a distance to the distance of the image on the
+/// same side, negative if the image is on the other side, `None` if there is no image. A model that knows its map near
+/// the fixed point can compute it without cancellation. `count` distances are probed, `largest` and its halves,
+/// quarters and so on.
 ///
 /// ```
 /// use return_map::{Side, Stability, one_sided_stability};
-/// // x + x²: attracts from the left, repels to the right.
+/// // The fixed point 0 of x + x² attracts from the left and repels to the right.
 /// let left = one_sided_stability(|d| Some(d - d * d), Side::Left, 0.1, 10);
 /// assert_eq!(left.stability, Stability::Attracting);
 /// let (exponent, coefficient) = left.power_law().unwrap();

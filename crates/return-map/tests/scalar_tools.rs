@@ -1,22 +1,22 @@
-//! Fixed points planted, stability known.
+//! Scalar maps with planted fixed points of known stability.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use proptest::prelude::*;
-use return_map::{Error, Meeting, Side, Stability, fixed_points, one_sided_stability, orbit};
+use return_map::{Error, Intersection, Side, Stability, fixed_points, one_sided_stability, orbit};
 
 proptest! {
-    /// x + s (x − a)(x − b)²: crosses at a, touches at b.
+    /// The map x + s (x − a)(x − b)² has a transverse fixed point a and a tangent one b.
     #[test]
-    fn crossings_and_touches_are_told_apart(a in -0.9..-0.1f64, b in 0.1..0.9f64, s in 0.2..1.5f64, up: bool) {
+    fn transverse_and_tangent_points_are_distinguished(a in -0.9..-0.1f64, b in 0.1..0.9f64, s in 0.2..1.5f64, up: bool) {
         let sign = if up { s } else { -s };
         let map = move |x: f64| Some(x + sign * (x - a) * (x - b) * (x - b));
         let found = fixed_points(map, -1.0, 1.0, 201).unwrap();
         prop_assert_eq!(found.len(), 2, "{:?}", found);
-        prop_assert_eq!((found[0].meeting, found[1].meeting), (Meeting::Crossing, Meeting::Touching));
+        prop_assert_eq!((found[0].intersection, found[1].intersection), (Intersection::Transverse, Intersection::Tangent));
         prop_assert!((found[0].location - a).abs() < 1e-13);
-        // A quadratic touch hides in rounding at the square root of an ulp.
+        // Within the square root of an ulp of a quadratic extremum all values are equal to rounding.
         prop_assert!((found[1].location - b).abs() < 1e-6);
     }
 
@@ -32,13 +32,13 @@ proptest! {
 }
 
 #[test]
-fn a_jump_through_the_diagonal_is_no_fixed_point() {
+fn a_jump_through_the_diagonal_is_not_a_fixed_point() {
     let jump = |x: f64| Some(if x < 0.3 { x + 1.0 } else { x - 1.0 });
     assert_eq!(fixed_points(jump, 0.0, 1.0, 101).unwrap(), []);
 }
 
 #[test]
-fn leaving_the_side_is_undecided() {
+fn a_change_of_sides_is_undecided() {
     let probed = one_sided_stability(|d| Some(-0.5 * d), Side::Left, 1.0, 5);
     assert_eq!(probed.stability, Stability::Undecided);
     assert_eq!(probed.power_law(), None);
@@ -54,7 +54,7 @@ fn bad_windows_are_errors() {
 }
 
 #[test]
-fn orbits_end_where_the_map_does() {
+fn an_orbit_ends_where_the_map_has_no_value() {
     let map = |x: f64| (x > 1.0).then_some(x / 2.0);
     assert_eq!(orbit(map, 8.0).collect::<Vec<_>>(), [8.0, 4.0, 2.0, 1.0]);
 }

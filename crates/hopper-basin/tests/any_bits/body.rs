@@ -1,27 +1,27 @@
-// Six arbitrary words to every public function of passive-hopper, hopper-asymptotics and
-// hopper-basin: no panic, no hang, f(α) ≤ α, and energy never grows.
+// Gives six arbitrary words to every public function of passive-hopper, hopper-asymptotics and hopper-basin, and checks:
+// no function panics or hangs, f(α) ≤ α, and energy never grows.
 
 use basin_of_attraction::{Grid, Interval, Refinement};
 use hopper_asymptotics::{
-    Coefficients, Decay, Form, Left, Right, interval_length, ladder, small_hop_loss,
+    Coefficients, Decay, Form, LeftExpansion, RightExpansion, trap_length_series, fixed_point_series, small_hop_loss,
 };
 use hopper_basin::{
-    Fates, HopperFate, Trap, basin_columns, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, reach,
-    recovery, rising_window, shares,
+    Fates, HopperFate, Trap, basin_columns, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, immediate_basin,
+    basin_fractions, first_humps, upper_crisis_bracket,
 };
 use hybrid_system::{Execution, Limits};
 use passive_hopper::{
-    Flight, HalfFlight, Hopper, HopperState, LiftOffMap, LocalFlight, MassRatio, Phase, PhysicalHopper, alpha_star,
+    FixedPointSpeed, Flight, HalfFlight, Hopper, HopperState, LiftOffMap, LocalFlight, MassRatio, Phase, PhysicalHopper, alpha_star,
     contact_flow, contact_time, energy, index_below, landing_loss, lift_off_energy, printed_image,
 };
 
-/// Hops at larger mass ratios may have a million sudden lift-offs: they are tried now and then.
+/// At larger mass ratios a hop may have a million sudden lift-offs, so that only some of them are tried.
 const HEAVIEST: f64 = 1e4;
 
-/// One in so many inputs is given to what takes long.
+/// Slow functions get one in so many inputs.
 const SELDOM: u64 = 256;
 
-/// Everything, on one input.
+/// Calls all functions with one input.
 pub fn try_all(words: [u64; 6]) {
     let [a, b, c, d, e, _] = words.map(f64::from_bits);
     let n = words[5];
@@ -40,7 +40,7 @@ pub fn try_all(words: [u64; 6]) {
     let _ = (contact_flow(ratio, &state, e), energy(ratio, &state), landing_loss(ratio, e));
     let _ = (contact_time(ratio, b, c), lift_off_energy(ratio, b, c));
     for form in [Form::Printed, Form::Corrected] {
-        let _ = Coefficients::new(n, ratio, form).map(|local| (local.delta(), local.image(b)));
+        let _ = Coefficients::new(n, ratio, form).map(|local| (local.trap_length(), local.image(b)));
     }
     let _ = (Trap::new(n, ratio).map(|trap| trap.contains(b)), Trap::new(n % 100, ratio));
     asymptotics(n, ratio, [b, c, d]);
@@ -58,24 +58,24 @@ pub fn try_all(words: [u64; 6]) {
 }
 
 fn functions_of_numbers(n: u64, values: [f64; 5]) {
-    let star = alpha_star(n);
-    assert!(star.high.is_finite());
-    let _ = (rising_window(n), rising_window(n % 10));
+    let star = FixedPointSpeed::new(n);
+    assert!(star.value().is_finite());
+    let _ = first_humps(n);
     let _ = (crisis(n), grounding(n), crisis(n % 1000), grounding(n % 1000));
     for value in values {
         let _ = (star.compare(value), star.offset_of(value));
         if let Ok(index) = index_below(value) {
-            assert!(alpha_star(index).high <= value || index == 0);
+            assert!(alpha_star(index) <= value || index == 0);
         }
         let half = HalfFlight::at(value);
         let _ = (half.w(), half.start_speed(values[0]), half.closing_speed(values[0]), half.start_speed_slope(values[0]));
     }
 }
 
-/// Every value with a bound is finite, and so is the bound.
+/// Every value and its error bound are finite.
 fn asymptotics(n: u64, ratio: MassRatio, [b, c, d]: [f64; 3]) {
-    let mut values = vec![ladder(n).ok(), interval_length(n, ratio).ok(), small_hop_loss(ratio, b).ok()];
-    if let (Ok(right), Ok(left), Ok(law)) = (Right::new(n, ratio), Left::new(n, ratio), Decay::new(n, ratio)) {
+    let mut values = vec![fixed_point_series(n).ok(), trap_length_series(n, ratio).ok(), small_hop_loss(ratio, b).ok()];
+    if let (Ok(right), Ok(left), Ok(law)) = (RightExpansion::new(n, ratio), LeftExpansion::new(n, ratio), Decay::new(n, ratio)) {
         for delta in [b, c, d] {
             values.extend([right.displacement(delta).ok(), right.loss(delta).ok()]);
             values.extend([left.displacement(delta).ok(), left.loss(delta).ok()]);
@@ -93,7 +93,7 @@ fn asymptotics(n: u64, ratio: MassRatio, [b, c, d]: [f64; 3]) {
 
 fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
     let (from, to, few) = (n % 3, n % 5, (n % 40) as usize);
-    let _ = shares(ratio, from, to, few);
+    let _ = basin_fractions(ratio, from, to, few);
     if let (Ok(x), Ok(y)) = (Interval::new(b, c), Interval::new(d, e))
         && y.right < 1e3
         && x.left > 1e-3
@@ -112,33 +112,33 @@ fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
     let _ = basin_levels(&fates, from, to, 2, few);
     let refinement = Refinement { shortest: b.abs().max(1e-2), undecided: c, levels: few, intervals: 1000 };
     if let Ok(found) = hopper_basins(&fates, from, to, few, refinement) {
-        let all = found.basins.measure_of(|_| true);
-        assert!(all.lower <= all.value && all.value <= all.upper, "{all:?}");
+        let (all, resolved) = (found.basins.basin_length_of(|_| true), found.basins.resolved_length_of(|_| true));
+        assert!(all.lower <= resolved && resolved <= all.upper, "{all:?} {resolved}");
     }
-    let _ = (reach(&fates, from, b.abs().max(1e-2)), recovery(from, b.abs().max(0.1), 20.0));
+    let _ = (immediate_basin(fates.map(), from, b.abs().max(1e-2)), upper_crisis_bracket(from, b.abs().max(0.1), 20.0));
 }
 
 fn hops(ratio: MassRatio, alpha: f64, n: u64, delta: f64) {
     let map = LiftOffMap::new(ratio);
     let mut many: Vec<_> = (0..20).map(|k| Some(alpha + delta * f64::from(k))).collect();
     let _ = map.images(&mut many);
-    let _ = LiftOffMap::images_of_each(&mut [(&map, Some(delta)); 17]);
+    let _ = LiftOffMap::images_of_pairs(&mut [(&map, Some(delta)); 17]);
     if let Ok(hop) = map.hop(alpha) {
-        assert!(hop.radicand <= alpha * alpha, "{hop:?}");
+        assert!(hop.next_speed_squared <= alpha * alpha, "{hop:?}");
         assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");
         assert!(hop.loss.is_none_or(|loss| loss >= 0.0), "{hop:?}");
         assert_eq!(hop.next.is_some(), hop.loss.is_some());
         let _ = map.slopes(alpha);
         let _ = printed_image(ratio, alpha);
     }
-    if let Ok(hop) = map.hop_about(n, delta) {
+    if let Ok(hop) = map.hop_near_fixed_point(n, delta) {
         assert!(hop.next.is_none_or(|next| next <= delta), "{hop:?} from {delta:e}");
     }
     if alpha < 1e3 {
         let fate = Fates::new(ratio).and_then(|fates| fates.fate_within(alpha, 1000));
-        // An attractor that is named lies below the start.
+        // Orbits descend: the fixed point lies below the start.
         if let Ok((HopperFate::Incessant { n }, _)) = fate {
-            assert!(alpha_star(n).high <= alpha, "{n} from {alpha}");
+            assert!(alpha_star(n) <= alpha, "{n} from {alpha}");
         }
     }
 }

@@ -1,8 +1,8 @@
-//! `check-reference`: the map and the fates against files of reference values.
+//! `check-reference`: compares the map and the fates with files of reference values.
 
 use crate::error::Error;
 use crate::reference::{Edge, Hop, LIMIT, Line, Loss, parse};
-use hopper_basin::{Fates, ReachEdge, crisis, reach};
+use hopper_basin::{Fates, ImmediateBasinEdge, crisis, immediate_basin};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -11,25 +11,41 @@ use std::path::PathBuf;
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Options {
-    /// Allowed error, in units of the reference's K, per flight: K (1 + sudden). For hops near a
-    /// fixed point, given as n and offset, the unit is two ulps of the next offset, whatever the
-    /// flights; for a loss it is what half an ulp in the inputs causes; for α*_n half an ulp; for
-    /// intervals of attraction a quarter of the bound stated; for crises two ulps
-    #[arg(long, value_name = "K", default_value_t = LIMIT)]
+    /// Allowed error in units, 0 < K ≤ 1e15. A hop is allowed K (1 + sudden lift-offs) units; its unit is the
+    /// effect of half an ulp in α, M, α′ and α² together. For a hop near a fixed point, given as n and offset, K
+    /// units of two ulps of the next offset are allowed for any number of lift-offs. For a loss the unit is the
+    /// effect of half an ulp in the inputs; for α*_n half an ulp; for a trapping region a quarter of its stated
+    /// bound; for a crisis two ulps
+    #[arg(long, value_name = "K", default_value_t = LIMIT, value_parser = limit, allow_hyphen_values = true)]
     limit: f64,
-    /// Files with one JSON object a line, or an array of them: hops, losses, hops near a fixed point,
-    /// fates, fixed points, intervals of attraction, crises
+    /// Files with one JSON object a line, or one array of objects: hops, losses, hops near a fixed point,
+    /// fates, fixed points, trapping regions, crises. A file without any is an error
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 }
 
-/// Hops at once, enough for vectors.
+/// The largest accepted limit. The unit of K is about 10⁻¹⁶ of the value compared: past 10¹⁵ an error of a tenth of
+/// the value would pass, and the check would check no digit.
+const LARGEST_LIMIT: f64 = 1e15;
+
+/// Copies of a hop that are computed together. `LiftOffMap::images` computes fewer than 16 one by one; with more it
+/// takes its vector loops, which are compared here with the loop for one hop.
 const AT_ONCE: usize = 24;
+
+/// Reads the value of `--limit`.
+fn limit(text: &str) -> Result<f64, String> {
+    let limit: Option<f64> = text.parse().ok();
+    limit
+        .filter(|k| *k > 0.0 && *k <= LARGEST_LIMIT)
+        .ok_or_else(|| format!("K must be a number with 0 < K ≤ {LARGEST_LIMIT:e}"))
+}
 
 /// The tally of a class.
 #[derive(Default)]
 struct Tally {
     lines: usize,
+    /// Lines whose reference is itself not decided: there was nothing to compare with.
+    skipped: usize,
     worst: f64,
     worst_place: String,
     over: usize,
@@ -39,10 +55,7 @@ struct Tally {
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
-    if !(options.limit > 0.0) {
-        return Err(Error::CheckFailed(format!("--limit must be positive, not {}", options.limit)));
-    }
-    // All lines are understood before the first is judged.
+    // A line that cannot be read is found before the computation starts.
     let mut parsed = Vec::new();
     for path in &options.files {
         parsed.push((path, parse(path)?));
@@ -51,9 +64,15 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let write = |source| repository_tools::Error::File { path: "standard output".into(), source };
     let (mut over, mut wrong) = (0, 0);
     for (path, lines) in parsed {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let mut compared = 0;
         for (class, tally) in judge(&lines, options.limit) {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            compared += tally.lines - tally.skipped;
             write!(out, "{name}: {class}: {} lines, ", tally.lines).map_err(write)?;
+            if tally.skipped > 0 {
+                write!(out, "{} of them without an answer to compare with, ", tally.skipped)
+                    .map_err(write)?;
+            }
             if !tally.worst_place.is_empty() {
                 write!(out, "worst K = {:.2} ({}), ", tally.worst, tally.worst_place)
                     .map_err(write)?;
@@ -67,6 +86,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
             over += tally.over;
             wrong += tally.wrong;
         }
+        writeln!(out, "{name}: {compared} values compared").map_err(write)?;
     }
     if over + wrong > 0 {
         return Err(Error::CheckFailed(format!(
@@ -88,7 +108,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                 let tally = tallies.entry("near_fixed_point".into()).or_default();
                 tally.lines += 1;
                 let place = format!("M = {}, n = {n}, δ = {offset:e}", mass_ratio.value());
-                match LiftOffMap::new(*mass_ratio).hop_about(*n, *offset) {
+                match LiftOffMap::new(*mass_ratio).hop_near_fixed_point(*n, *offset) {
                     Err(error) => tally.is_wrong(*at, &error.to_string()),
                     Ok(hop) => tally.judge(
                         *at,
@@ -109,13 +129,14 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
             Line::FixedPoint { n, alpha_star: exact } => {
                 let tally = tallies.entry("fixed points".into()).or_default();
                 let unit = 0.5 * f64::EPSILON * exact;
-                tally.value(*at, &format!("n = {n}"), alpha_star(*n).high, *exact, unit, limit);
+                tally.value(*at, &format!("n = {n}"), alpha_star(*n), *exact, unit, limit);
             }
             Line::Crisis { n, mu, mass_ratio, alpha } => {
                 let tally = tallies.entry("crises".into()).or_default();
                 match crisis(*n) {
                     Err(error) => tally.is_wrong(*at, &error.to_string()),
-                    // At a touch the place is known to the root of an ulp.
+                    // The map has a minimum at this α. An error of one ulp in the value of the map moves the
+                    // minimum by √ulp ≈ 10⁻⁸, which is 10⁸ ulps.
                     Ok(found) => {
                         for (what, found, exact, ulps) in [
                             ("μ", found.mu, *mu, 2.0),
@@ -129,8 +150,8 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                     }
                 }
             }
-            Line::Reach { n, mass_ratio, edge, delta } => {
-                let tally = tallies.entry("intervals of attraction".into()).or_default();
+            Line::ImmediateBasin { n, mass_ratio, edge, delta } => {
+                let tally = tallies.entry("trapping regions".into()).or_default();
                 judge_reach(tally, *at, (*n, *mass_ratio), (*edge, *delta), limit);
             }
             Line::Fate { mass_ratio, alpha, fate } => {
@@ -154,28 +175,37 @@ fn judge_reach(
     (edge, delta): (Edge, Option<f64>),
     limit: f64,
 ) {
+    // Spacing of the scan for needles in a sudden window. The reference does not state its own. Needles narrower
+    // than this are not seen; a smaller spacing costs time in proportion.
     const WIDTH: f64 = 1e-3;
-    let found = match Fates::new(mass_ratio).and_then(|fates| reach(&fates, n, WIDTH)) {
-        Ok(found) => found,
-        Err(error) => return tally.is_wrong(at, &error.to_string()),
-    };
+    let found =
+        match Fates::new(mass_ratio).and_then(|fates| immediate_basin(fates.map(), n, WIDTH)) {
+            Ok(found) => found,
+            Err(error) => return tally.is_wrong(at, &error.to_string()),
+        };
     let right = match edge {
-        Edge::Contact => found.edge == ReachEdge::Contact,
-        Edge::Sudden => matches!(found.edge, ReachEdge::Sudden { .. }),
-        Edge::None => matches!(found.edge, ReachEdge::NextFixedPoint | ReachEdge::NotFound { .. }),
-        Edge::Unknown => true, // the reference itself is not decided
+        Edge::Contact => found.edge == ImmediateBasinEdge::Contact,
+        Edge::Sudden => matches!(found.edge, ImmediateBasinEdge::Sudden { .. }),
+        Edge::None => matches!(
+            found.edge,
+            ImmediateBasinEdge::NextFixedPoint | ImmediateBasinEdge::NotFound { .. }
+        ),
+        Edge::Unknown => true, // the reference itself is not decided; this line is skipped below
     };
     if !right {
         return tally.is_wrong(at, &format!("{edge:?} expected, {:?} found", found.edge));
     }
     let place = format!("n = {n}, M = {}", mass_ratio.value());
     match delta.filter(|_| edge != Edge::Unknown) {
-        // M is a decimal number: half an ulp of it shifts Δ too.
+        // M is read from a decimal number: its rounding by half an ulp shifts Δ too.
         Some(exact) => {
             let unit = 0.25 * found.error + f64::EPSILON * exact;
             tally.value(at, &place, found.delta, exact, unit, limit);
         }
-        None => tally.lines += 1,
+        None => {
+            tally.lines += 1;
+            tally.skipped += usize::from(edge == Edge::Unknown);
+        }
     }
 }
 
@@ -187,7 +217,7 @@ fn judge_loss(tally: &mut Tally, at: usize, line: &Loss, limit: f64) {
         Err(error) => return tally.is_wrong(at, &error.to_string()),
     };
     let place = format!("M = {}, α = {alpha}", mass_ratio.value());
-    // Loss ∝ μα⁵: half an ulp in α is five in it, and two for M and the result.
+    // Loss ∝ μα⁵: half an ulp in α is five halves in the loss; M and the result add half an ulp each: 7/2 ulps.
     let verdict =
         Verdict { found: (0, found.loss), exact: (0, Some(loss)), unit: 3.5 * f64::EPSILON * loss };
     tally.judge(at, &place, verdict, limit);
@@ -215,7 +245,7 @@ fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
     tally.judge(at, &place, verdict, limit);
 }
 
-/// A result beside the exact one: sudden lift-offs, and the next speed or offset.
+/// A result and the exact one, each with the number of sudden lift-offs and the next speed or offset.
 struct Verdict {
     found: (usize, Option<f64>),
     exact: (usize, Option<f64>),
@@ -223,7 +253,7 @@ struct Verdict {
 }
 
 impl Tally {
-    /// A number that has no verdicts.
+    /// Judges a number that comes without a count of sudden lift-offs.
     fn value(&mut self, at: usize, place: &str, found: f64, exact: f64, unit: f64, limit: f64) {
         self.lines += 1;
         let verdict = Verdict { found: (0, Some(found)), exact: (0, Some(exact)), unit };

@@ -5,6 +5,7 @@ use crate::peers::{Python, csv, markdown, measure, peers_figure};
 use crate::text::replace_block;
 use journal_figures::render;
 use repository_tools::{Folder, Progress, read, repository, results_folder, say};
+use resumable_job::Lock;
 use std::path::PathBuf;
 
 /// Options.
@@ -24,6 +25,8 @@ pub struct Options {
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "peers")?;
+    // Two runs would install into the same environment and read each other's results.
+    let _lock = Lock::take(folder.path(), "compare-peers")?;
     let python = Python::with_packages(&options.python, folder.path())?;
     let peers = measure(&python, folder.path(), &Progress)?;
     let rendered = render("peers", &peers_figure(&peers), 2.0)?;

@@ -40,8 +40,7 @@ fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Er
     let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
     let understood = |e: serde_json::Error| Error::Peers { reason: e.to_string() };
     let text = serde_json::to_string(&pairs).map_err(understood)?;
-    std::fs::write(&input, text)
-        .map_err(|source| repository_tools::Error::File { path: input.clone(), source })?;
+    resumable_job::write_atomically(&input, text.as_bytes())?;
     python.run(include_str!("peers.py"), &[&input, &output])?;
     serde_json::from_str(&repository_tools::read(&output)?).map_err(understood)
 }

@@ -14,7 +14,7 @@ const THEIRS: [Marker; 4] = [Marker::Square, Marker::Triangle, Marker::Diamond, 
 const OURS: [Marker; 4] = [Marker::Ring, Marker::Cross, Marker::Disc, Marker::Square];
 
 /// The drawing: a marker at the worst error, with a line down to the median error.
-pub(crate) fn peers_figure(peers: &[Peer]) -> String {
+pub(crate) fn peers_figure(peers: &[Peer]) -> Svg {
     let mut svg = Svg::new(760.0, 420.0);
     let frame = Frame::linear(70.0, 24.0, 380.0, 340.0, TIMES, ERRORS).log_x().log_y();
     let mut legend = 60.0;
@@ -47,5 +47,5 @@ pub(crate) fn peers_figure(peers: &[Peer]) -> String {
     );
     let (x, y) = (decades(TIMES, 1), decades(ERRORS, 1));
     frame.axes(&mut svg, &x, &y, "time per hop (s)", "relative error of $α$′");
-    svg.finish()
+    svg
 }

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::reference::{Hop, LIMIT, window_hops};
 use crate::timing::median_seconds;
-use hopper_basin::five_humps;
+use hopper_basin::first_humps;
 use passive_hopper::{LiftOffMap, MassRatio};
 
 /// Numbers of mass ratios and of speeds for each in the timed set: 65 536 different hops, too many for a branch
@@ -16,7 +16,7 @@ const SPEEDS: usize = 1024;
 ///
 /// Multiples of 1/φ (φ² = φ + 1) and of 1/ρ (ρ³ = ρ + 1) modulo 1 fill an interval evenly, without random numbers.
 fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
-    let (low, high) = (five_humps().left, five_humps().right);
+    let (low, high) = (first_humps(5).left, first_humps(5).right);
     let part = |k: usize, step: f64| (k as f64 * step).fract();
     let speed = |k: usize| low + (high - low) * part(k, 0.754_877_666_246_693);
     (1..=MAPS)
@@ -66,12 +66,14 @@ pub(super) fn check_landings() -> Result<String, Error> {
         let map = LiftOffMap::new(hop.mass_ratio);
         let landings: Vec<_> = map.landings(hop.alpha)?.collect::<Result<_, _>>()?;
         let squares: f64 = landings.iter().map(|l| l.closing_speed * l.closing_speed).sum();
-        let radicand = hop.alpha * hop.alpha - hop.mass_ratio.mu() * squares;
+        let next_speed_squared = hop.alpha * hop.alpha - hop.mass_ratio.mu() * squares;
         let right = landings.len() == 1 + hop.sudden
             && match hop.next {
                 // α′² = α² − μ Σ v²: an error e of α′ is an error 2α′e of α′².
-                Some(next) => (radicand - next * next).abs() <= 2.0 * next * hop.allowed(LIMIT),
-                None => radicand < 0.0,
+                Some(next) => {
+                    (next_speed_squared - next * next).abs() <= 2.0 * next * hop.allowed(LIMIT)
+                }
+                None => next_speed_squared < 0.0,
             };
         if !right {
             return Err(wrong(hop, &landings));

@@ -1,7 +1,7 @@
 //! A hop to be computed with its exact result, and the result of a method.
 
 use crate::reference::Hop;
-use passive_hopper::{MassRatio, alpha_star, index_below};
+use passive_hopper::{FixedPointSpeed, MassRatio, index_below};
 
 /// The quantity that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -53,5 +53,5 @@ pub(crate) struct Answer {
 pub(super) fn cell(alpha: f64) -> Option<(u64, f64)> {
     let below = index_below(alpha).ok()?;
     let n = if alpha > (below + 1) as f64 * std::f64::consts::PI { below + 1 } else { below };
-    (n > 0).then(|| (n, alpha_star(n).offset_of(alpha)))
+    (n > 0).then(|| (n, FixedPointSpeed::new(n).offset_of(alpha)))
 }

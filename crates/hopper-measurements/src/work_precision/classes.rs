@@ -43,7 +43,7 @@ fn case(line: Line) -> Option<(String, Quantity, Case)> {
             Some((hop.class, Quantity::Speed, case))
         }
         Line::Local { mass_ratio, n, offset, sudden, next } => {
-            let alpha = alpha_star(n).high + offset;
+            let alpha = alpha_star(n) + offset;
             let case = Case {
                 mass_ratio,
                 alpha,

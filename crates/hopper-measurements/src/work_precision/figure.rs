@@ -46,7 +46,7 @@ fn title(class: &str) -> &str {
 
 /// The drawing: the paper's window in a large panel, the hard classes in small ones. `unit` is the time of one
 /// `sin_cos`.
-pub(crate) fn work_precision_figure(scores: &[Score], unit: Duration) -> String {
+pub(crate) fn work_precision_figure(scores: &[Score], unit: Duration) -> Svg {
     let mut svg = Svg::new(980.0, 660.0);
     let mut hard: Vec<&str> = Vec::new();
     for score in scores {
@@ -66,7 +66,7 @@ pub(crate) fn work_precision_figure(scores: &[Score], unit: Duration) -> String 
         unit_line(&mut svg, &small, unit, false);
     }
     legend(&mut svg, 66.0, 500.0);
-    svg.finish()
+    svg
 }
 
 fn frame(left: f64, top: f64, width: f64, height: f64) -> Frame {

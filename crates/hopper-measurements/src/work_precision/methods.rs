@@ -4,8 +4,10 @@ use super::case::{Answer, Case};
 use super::hybrid_hopper::{exact_landings, searched_landings};
 use super::ode_hopper::integrated_hop;
 use crate::timing::median_time;
-use hopper_asymptotics::{LEFT_RANGE, Left, RIGHT_RANGE, Right, SMALL_ALPHA_RANGE, small_hop_loss};
-use passive_hopper::{LiftOffMap, alpha_star, printed_image};
+use hopper_asymptotics::{
+    LEFT_RANGE, LeftExpansion, RIGHT_RANGE, RightExpansion, SMALL_ALPHA_RANGE, small_hop_loss,
+};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, printed_image};
 use std::time::Duration;
 
 /// A method.
@@ -13,9 +15,9 @@ use std::time::Duration;
 pub(crate) enum Method {
     /// `LiftOffMap::hop`.
     Stable,
-    /// `LiftOffMap::images_of_each`, all hops of a class in one call.
+    /// `LiftOffMap::images_of_pairs`, all hops of a class at once.
     AtOnce,
-    /// `LiftOffMap::hop_about`.
+    /// `LiftOffMap::hop_near_fixed_point`.
     Local,
     /// The expansions near fixed points and for small α, inside their ranges.
     Asymptotics,
@@ -77,14 +79,14 @@ impl Method {
             Method::AtOnce => {
                 // From 16 hops on the map computes them together; 32 fill whole vectors on any processor.
                 let mut hops = [(&map, Some(case.alpha)); 32];
-                LiftOffMap::images_of_each(&mut hops).ok()?;
+                LiftOffMap::images_of_pairs(&mut hops).ok()?;
                 Some(Answer { next: hops[0].1, ..Answer::default() })
             }
             Method::Local => {
                 let (n, delta) = case.local?;
-                let hop = map.hop_about(n, delta).ok()?;
-                let star = alpha_star(n);
-                let next = hop.next.map(|offset| star.high + (star.low + offset));
+                let hop = map.hop_near_fixed_point(n, delta).ok()?;
+                let star = FixedPointSpeed::new(n);
+                let next = hop.next.map(|offset| star.value() + (star.rest() + offset));
                 let sudden = Some(hop.sudden);
                 Some(Answer { next, loss: None, offset: hop.next, sudden })
             }
@@ -108,7 +110,7 @@ impl Method {
         let all = || {
             let mut hops: Vec<_> =
                 maps.iter().zip(cases).map(|(map, case)| (map, Some(case.alpha))).collect();
-            LiftOffMap::images_of_each(&mut hops).is_ok()
+            LiftOffMap::images_of_pairs(&mut hops).is_ok()
         };
         median_time(1, |_| all()) / cases.len() as u32
     }
@@ -141,11 +143,11 @@ fn asymptotics(case: &Case) -> Option<Answer> {
         return None;
     }
     let offset = if delta >= 0.0 {
-        Right::new(n, mass_ratio).ok()?.displacement(delta).ok()?.value
+        RightExpansion::new(n, mass_ratio).ok()?.displacement(delta).ok()?.value
     } else {
-        Left::new(n, mass_ratio).ok()?.displacement(delta).ok()?.value
+        LeftExpansion::new(n, mass_ratio).ok()?.displacement(delta).ok()?.value
     };
-    let star = alpha_star(n);
-    let next = Some(star.high + (star.low + offset));
+    let star = FixedPointSpeed::new(n);
+    let next = Some(star.value() + (star.rest() + offset));
     Some(Answer { next, offset: Some(offset), ..Answer::default() })
 }

@@ -8,7 +8,7 @@ use crate::text::digit;
 use crate::timing::median_time;
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Decay;
-use hopper_basin::{Fates, HopperFate, Trap, basin_raster, five_humps};
+use hopper_basin::{Fates, HopperFate, Trap, basin_raster, first_humps};
 use hybrid_system::{Execution, Limits};
 use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase};
 use repository_tools::{number, parse_rows, read, repository};
@@ -54,14 +54,14 @@ fn single_hops(scores: &[Score]) -> Vec<Scene> {
         (
             "the same, very close to a lossless hop",
             "the hop in (n, δ)",
-            "`LiftOffMap::hop_about`",
+            "`LiftOffMap::hop_near_fixed_point`",
             "near_fixed_point",
             Method::Local,
         ),
         (
             "the same, within 0.1 of a lossless hop, roughly",
             "five terms of a series",
-            "`Right`, `Left`",
+            "`RightExpansion`, `LeftExpansion`",
             "near_fixed_point",
             Method::Asymptotics,
         ),
@@ -149,17 +149,17 @@ fn orbit() -> Result<Scene, Error> {
         let map = LiftOffMap::new(mass_ratio(row)?);
         let mut delta = field(row, "offset")?;
         for _ in 0..hops {
-            let next = map.hop_about(n, delta)?.next;
+            let next = map.hop_near_fixed_point(n, delta)?.next;
             delta = next.ok_or_else(|| Error::Reference { reason: "an orbit ended".into() })?;
         }
         errors.push((delta / field(row, "offset_after")? - 1.0).abs());
     }
     let map = LiftOffMap::new(MassRatio::ONE);
-    let time = median_time(1000, |k| map.hop_about(1, 1e-5 / (k + 1) as f64));
+    let time = median_time(1000, |k| map.hop_near_fixed_point(1, 1e-5 / (k + 1) as f64));
     Ok(Scene {
         question: "ten thousand hops of the slow approach",
         model: "hops in (n, δ), one after the other",
-        call: "`LiftOffMap::hop_about`",
+        call: "`LiftOffMap::hop_near_fixed_point`",
         time,
         per: "a hop",
         error: format!("{} of δ after up to 10⁴ hops", spread(&mut errors)),
@@ -256,7 +256,7 @@ fn fate() -> Result<Scene, Error> {
 fn raster() -> Result<Scene, Error> {
     /// Pixels along each side: enough for the cost a pixel of a picture, while a raster stays at some milliseconds.
     const SIDE: usize = 256;
-    let grid = Grid { x: Interval::new(0.1, 1.0)?, y: five_humps(), columns: SIDE, rows: SIDE };
+    let grid = Grid { x: Interval::new(0.1, 1.0)?, y: first_humps(5), columns: SIDE, rows: SIDE };
     let image = || basin_raster(grid, |_| ControlFlow::Continue(()));
     let undecided =
         image()?.labels.iter().filter(|&&label| HopperFate::is_undecided(label)).count();

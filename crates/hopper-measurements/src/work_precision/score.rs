@@ -4,7 +4,7 @@ use super::case::{Answer, Case, Quantity};
 use super::classes::{Class, classes};
 use super::methods::{ALL as METHODS, Method};
 use crate::error::Error;
-use passive_hopper::alpha_star;
+use passive_hopper::FixedPointSpeed;
 use repository_tools::Progress;
 use std::time::Duration;
 
@@ -82,7 +82,8 @@ fn error(quantity: Quantity, case: &Case, answer: &Answer) -> Option<Option<f64>
         Quantity::Speed => next,
         Quantity::Loss => answer.loss.unwrap_or(case.alpha - next),
         Quantity::Offset => {
-            let difference = || alpha_star(case.local.map_or(0, |(n, _)| n)).offset_of(next);
+            let difference =
+                || FixedPointSpeed::new(case.local.map_or(0, |(n, _)| n)).offset_of(next);
             answer.offset.unwrap_or_else(difference)
         }
     };

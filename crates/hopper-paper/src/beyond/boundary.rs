@@ -1,13 +1,12 @@
 //! The boundary of the basins: a countable set of box dimension one quarter.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{estimate, fates, hump, label};
+use super::humps_of_window::{FractionWithBar, estimate, fates, hump, label};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    Estimate, IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law,
-    uncertain_share,
+    IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law, uncertain_fraction,
 };
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::hopper_basins;
@@ -129,7 +128,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
                     closed set has no part that is a Cantor set. It accumulates at $α$^{∗}_{n} from the left \
                     along $k$^{−3}, a set of box dimension 1/4, and at the preimages of that."
                 .replace("**", ""),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("boundary.csv", &["hump", "box_size", "boxes", "local_slope"], data)?],
         },
         table,
@@ -166,7 +165,8 @@ fn generations() -> Result<Vec<f64>, Error> {
             if middle <= near || middle >= far {
                 break;
             }
-            let image = map.hop_about(N, -middle)?.next.map_or(f64::INFINITY, |next| -next);
+            let image =
+                map.hop_near_fixed_point(N, -middle)?.next.map_or(f64::INFINITY, |next| -next);
             if image < delta { near = middle } else { far = middle }
         }
         delta = far;
@@ -226,18 +226,18 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         let epsilon = pxfm::f_exp10(-2.0 - k as f64);
         // Uncertain starts are rarer at a smaller ε: more points keep their relative error.
         let count = 50_000 << k.min(4);
-        let share = uncertain_share(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
+        let share = uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
         Ok(vec![epsilon, share.value, share.lower, share.upper])
     })?;
-    let sampled: Vec<(f64, Estimate)> =
+    let sampled: Vec<(f64, FractionWithBar)> =
         rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
     let mut widest: f64 = 0.0;
     let exact: Vec<(f64, f64)> = (0..=16)
         .map(|k| {
             let epsilon = pxfm::f_exp10(-10.0 + 0.5 * f64::from(k));
-            let share = basins.uncertain_share(epsilon, RESOLUTION)?;
-            widest = widest.max(share.half_width() / share.value);
-            Ok((epsilon, share.value))
+            let share = basins.uncertain_fraction(epsilon, RESOLUTION)?;
+            widest = widest.max(share.half_width() / share.middle());
+            Ok((epsilon, share.middle()))
         })
         .collect::<Result<_, Error>>()?;
     let law = power_law(&exact)?;
@@ -309,7 +309,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
                  between them go unseen. The shares from intervals are known to {:.0e} of themselves.",
                 widest
             ),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("uncertainty.csv", &["epsilon", "share"], data)?],
         },
         table,

@@ -94,7 +94,7 @@ pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
                     large $M$; above it, elsewhere, is taken for a proof of a fractal boundary: at a fixed size \
                     of boxes it is none, since this boundary is countable."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file(
                 "entropy.csv",
                 &["mass_ratio", "basin_entropy", "boundary_entropy", "mixed_boxes"],

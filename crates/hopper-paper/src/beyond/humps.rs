@@ -40,10 +40,10 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         let length = part.window().length();
         let undecided = part.undecided() / length;
         let row: Vec<f64> =
-            (1..=n as u16).map(|label| part.measure(label).value / length).collect();
+            (1..=n as u16).map(|label| part.resolved_length(label) / length).collect();
         let cell =
             |share: Option<&f64>| share.map_or("–".into(), |s| format!("{:.4} %", 100.0 * s));
-        let all = part.measure_of(is_incessant).value / length;
+        let all = part.resolved_length_of(is_incessant) / length;
         let mut cells = vec![format!("{n}"), cell(Some(&(fates.trap(n)?.delta / length)))];
         cells.extend((0..4).map(|k| cell(row.get(k))));
         cells.extend([cell(row.last()), cell(Some(&all)), cell(Some(&undecided))]);
@@ -87,7 +87,7 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
                     below in similar ways. The share of a hump's own fixed point falls with its trap, like \
                     $n$^{−3}."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("humps.csv", &["hump", "fixed_point", "share_lower", "share_upper"], data)?],
         },
         table,

@@ -1,11 +1,11 @@
 //! Starts on the humps of the paper's window, their fates, and shares as text.
 
 use crate::error::Error;
-use basin_of_attraction::{Estimate, Interval};
+use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{MassRatio, alpha_star};
 
-/// The first and the last fixed point of the paper's window, [`hopper_basin::five_humps`].
+/// The first and the last fixed point of the paper's window, [`hopper_basin::first_humps`]`(5)`.
 pub(super) const FROM: u64 = 1;
 pub(super) const TO: u64 = 6;
 
@@ -23,7 +23,7 @@ pub(super) fn is_incessant(label: u16) -> bool {
 }
 
 pub(super) fn hump(n: u64) -> Result<Interval, Error> {
-    Ok(Interval::new(alpha_star(n).high, alpha_star(n + 1).high)?)
+    Ok(Interval::new(alpha_star(n), alpha_star(n + 1))?)
 }
 
 /// The speed at a place in [0, `TO` − `FROM`], where each hump of the window has length one.
@@ -31,23 +31,49 @@ pub(super) fn hump(n: u64) -> Result<Interval, Error> {
 /// The paper gives each hump the same weight, whatever its length.
 pub(super) fn by_humps(place: f64) -> f64 {
     let whole = (place.floor() as u64).min(TO - FROM - 1);
-    let (left, right) = (alpha_star(FROM + whole).high, alpha_star(FROM + whole + 1).high);
+    let (left, right) = (alpha_star(FROM + whole), alpha_star(FROM + whole + 1));
     left + (right - left) * (place - whole as f64)
 }
 
+/// A fraction as it is drawn and printed: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct FractionWithBar {
+    pub(super) value: f64,
+    pub(super) lower: f64,
+    pub(super) upper: f64,
+}
+
+impl FractionWithBar {
+    pub(super) fn half_width(&self) -> f64 {
+        0.5 * (self.upper - self.lower)
+    }
+}
+
+impl From<ConfidenceInterval> for FractionWithBar {
+    fn from(ConfidenceInterval { value, lower, upper }: ConfidenceInterval) -> Self {
+        FractionWithBar { value, lower, upper }
+    }
+}
+
+impl From<EquallySpacedFraction> for FractionWithBar {
+    fn from(EquallySpacedFraction { value, bounds }: EquallySpacedFraction) -> Self {
+        FractionWithBar { value, lower: bounds.lower, upper: bounds.upper }
+    }
+}
+
 /// The estimate in three numbers of a scan: value, lower and upper end.
-pub(super) fn estimate(three: &[f64]) -> Estimate {
-    Estimate { value: three[0], lower: three[1], upper: three[2] }
+pub(super) fn estimate(three: &[f64]) -> FractionWithBar {
+    FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
 }
 
 /// A share with the half width of its interval, in per cent. Small intervals get two digits more.
-pub(super) fn percent(share: &Estimate) -> String {
+pub(super) fn percent(share: &FractionWithBar) -> String {
     let digits = if share.half_width() > 5e-4 { 2 } else { 4 };
     format!("{:.digits$} ± {:.digits$} %", 100.0 * share.value, 100.0 * share.half_width())
 }
 
 /// A share between bounds, in per cent.
-pub(super) fn bounds(share: &Estimate) -> String {
+pub(super) fn bounds(share: &FractionWithBar) -> String {
     format!("{:.5} … {:.5} %", 100.0 * share.lower, 100.0 * share.upper)
 }
 
@@ -63,10 +89,10 @@ mod tests {
 
     #[test]
     fn places_are_on_their_humps() {
-        assert_eq!(by_humps(0.0), alpha_star(1).high);
-        assert_eq!(by_humps(5.0), alpha_star(6).high);
+        assert_eq!(by_humps(0.0), alpha_star(1));
+        assert_eq!(by_humps(5.0), alpha_star(6));
         let middle = by_humps(2.5);
-        assert!(alpha_star(3).high < middle && middle < alpha_star(4).high);
+        assert!(alpha_star(3) < middle && middle < alpha_star(4));
         let values = geometric(0.02, 50.0, 5);
         assert!((values[2] - 1.0).abs() < 1e-14 && values[4] == 50.0);
     }

@@ -1,12 +1,14 @@
 //! Final-state uncertainty at large speeds, and whether the basins are riddled.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{estimate, fates, hump, is_incessant, label, percent};
+use super::humps_of_window::{
+    FractionWithBar, estimate, fates, hump, is_incessant, label, percent,
+};
 use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::{Estimate, random_shares, uncertain_share};
+use basin_of_attraction::{random_fractions, uncertain_fraction};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.
@@ -30,7 +32,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         let (n, decade) = (HUMPS[k / DECADES], k % DECADES + 1);
         let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };
         let epsilon = pxfm::f_exp10(-(decade as f64));
-        let share = uncertain_share(hump(n)?, epsilon, starts(n), n, at)?;
+        let share = uncertain_fraction(hump(n)?, epsilon, starts(n), n, at)?;
         Ok(vec![epsilon, share.value, share.lower, share.upper])
     })?;
     let mut svg = Svg::new(640.0, 430.0);
@@ -48,7 +50,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     for (k, n) in HUMPS.into_iter().enumerate() {
         let window = hump(n)?;
         let rows = &scan[k * DECADES..(k + 1) * DECADES];
-        let points: Vec<(f64, Estimate)> =
+        let points: Vec<(f64, FractionWithBar)> =
             rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
         data.extend(rows.iter().map(|row| {
             std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()
@@ -71,7 +73,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         svg.marker((430.0, y), LOOKS[k], 6.5, color);
         svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("$n$ = {n}"));
         let incessant =
-            random_shares(window, starts(n), n, |x| u16::from(is_incessant(label(&fates, x))))?;
+            random_fractions(window, starts(n), n, |x| u16::from(is_incessant(label(&fates, x))))?;
         let cell = |decade: usize| {
             let share = points[decade - 1].1;
             format!("{:.2} ± {:.2} %", 100.0 * share.value, 100.0 * share.half_width())
@@ -79,7 +81,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         table.row([
             format!("{n}"),
             format!("{:.1}", window.left),
-            incessant.get(&1).map_or("0".into(), percent),
+            incessant.get(&1).map_or("0".into(), |&share| percent(&share.into())),
             cell(2),
             cell(4),
             cell(6),
@@ -107,7 +109,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
                     continuous and fates are continuous across its jumps. Every basin is a union of intervals, \
                     and the curves must fall where $ε$ is smaller than most of them."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("large_speeds.csv", &["hump", "epsilon", "share", "lower", "upper"], data)?],
         },
         table,

@@ -2,15 +2,16 @@
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{
-    FROM, TO, bounds, by_humps, estimate, fates, geometric, hump, is_incessant, label, percent,
+    FROM, FractionWithBar, TO, bounds, by_humps, estimate, fates, geometric, hump, is_incessant,
+    label, percent,
 };
 use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    Estimate, Interval, Refinement, equally_spaced_shares, low_discrepancy_shares, random_shares,
-    wilson,
+    Bounds, Interval, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
+    random_fractions, wilson_interval,
 };
 use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
@@ -38,51 +39,54 @@ const ALL: u16 = HopperFate::UNDECIDED - 10;
 /// Labels in the order of the columns of the data.
 const LABELS: [u16; 8] = [1, 2, 3, 4, 5, ALL, 0, HopperFate::GROUNDED];
 
-type Shares = BTreeMap<u16, Estimate>;
+type BasinFractions = BTreeMap<u16, FractionWithBar>;
 
 /// The window as an interval in which each hump has length one.
 fn window() -> Result<Interval, Error> {
     Ok(Interval::new(0.0, (TO - FROM) as f64)?)
 }
 
-/// Shares of all labels, and of all incessant fates together.
-fn shares(mass_ratio: f64) -> Result<Shares, Error> {
+/// Basin fractions of all labels, and of all incessant fates together.
+fn basin_fractions(mass_ratio: f64) -> Result<BasinFractions, Error> {
     let fates = fates(mass_ratio)?;
     if mass_ratio <= BY_INTERVALS {
         return interval_shares(&fates, SHORTEST);
     }
     let at = |place: f64| label(&fates, by_humps(place));
-    let mut shares = low_discrepancy_shares(window()?, POINTS, REPLICATES, SEED, at)?;
+    let mut shares = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, at)?;
     let together = |place: f64| if is_incessant(at(place)) { ALL } else { 0 };
-    let all = low_discrepancy_shares(window()?, POINTS, REPLICATES, SEED, together)?;
+    let all = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, together)?;
     shares.extend(all.get(&ALL).map(|&share| (ALL, share)));
+    let mut shares: BasinFractions =
+        shares.into_iter().map(|(label, share)| (label, share.into())).collect();
     // A label that no point has may still have a share: its interval is that of 0 hits.
-    let unseen = wilson(0, POINTS * REPLICATES)?;
+    let unseen = wilson_interval(0, POINTS * REPLICATES)?;
     LABELS.into_iter().for_each(|label| {
-        shares.entry(label).or_insert(unseen);
+        shares.entry(label).or_insert(unseen.into());
     });
     Ok(shares)
 }
 
 /// The same shares with bounds, from basins as intervals: means over the humps.
-fn interval_shares(fates: &Fates, shortest: f64) -> Result<Shares, Error> {
+fn interval_shares(fates: &Fates, shortest: f64) -> Result<BasinFractions, Error> {
     let refinement = Refinement { shortest, ..Refinement::default() };
     let found = hopper_basins(fates, FROM, TO, 400, refinement)?.basins;
-    let mut shares = Shares::new();
+    let mut shares = BasinFractions::new();
     for n in FROM..TO {
         let part = found.within(hump(n)?);
         let scale = 1.0 / (part.window().length() * (TO - FROM) as f64);
-        let mut add = |label: u16, measure: Estimate| {
-            let share =
-                shares.entry(label).or_insert(Estimate { value: 0.0, lower: 0.0, upper: 0.0 });
-            share.value += scale * measure.value;
-            share.lower += scale * measure.lower;
-            share.upper += scale * measure.upper;
+        let mut add = |label: u16, resolved: f64, length: Bounds| {
+            let none = FractionWithBar { value: 0.0, lower: 0.0, upper: 0.0 };
+            let share = shares.entry(label).or_insert(none);
+            share.value += scale * resolved;
+            share.lower += scale * length.lower;
+            share.upper += scale * length.upper;
         };
         for label in LABELS.into_iter().filter(|&label| label != ALL) {
-            add(label, part.measure(label));
+            add(label, part.resolved_length(label), part.basin_length(label));
         }
-        add(ALL, part.measure_of(is_incessant));
+        let all = (part.resolved_length_of(is_incessant), part.basin_length_of(is_incessant));
+        add(ALL, all.0, all.1);
     }
     Ok(shares)
 }
@@ -91,13 +95,13 @@ fn interval_shares(fates: &Fates, shortest: f64) -> Result<Shares, Error> {
 pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(RATIOS.0, RATIOS.1, RATIOS.2);
     let scan = job.scan("measures", ratios.len(), |k| {
-        let shares = shares(ratios[k])?;
+        let shares = basin_fractions(ratios[k])?;
         let numbers =
             |label: u16| shares.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
         Ok(LABELS.into_iter().flat_map(numbers).collect())
     })?;
     let shares_of = |row: &Vec<f64>| LABELS.into_iter().zip(row.chunks(3).map(estimate)).collect();
-    let all: Vec<(f64, Shares)> =
+    let all: Vec<(f64, BasinFractions)> =
         ratios.iter().zip(&scan).map(|(&m, row)| (m, shares_of(row))).collect();
     let mut svg = Svg::new(700.0, 470.0);
     let frame =
@@ -144,7 +148,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                     50 000 points each, without errors; “falls rapidly with $M$”."
                 .into(),
             notes: format!(
-                "Shares of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
+                "BasinFractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with bounds that hold for the branches found \
                  and up to rounding; beyond, by {POINTS} points of a golden rotation with {REPLICATES} random \
                  starts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
@@ -154,7 +158,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                  of it is back; what is missing beyond, a thousandth and less, falls through needles in the \
                  sudden windows."
             ),
-            svg: svg.finish(),
+            svg,
             data: vec![data],
         },
         table: three_ways()?,
@@ -164,12 +168,12 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
 fn curve(
     svg: &mut Svg,
     frame: &Frame,
-    all: &[(f64, Shares)],
+    all: &[(f64, BasinFractions)],
     label: u16,
     color: &'static str,
     width: f64,
 ) {
-    let found: Vec<(f64, Estimate)> = all
+    let found: Vec<(f64, FractionWithBar)> = all
         .iter()
         .filter_map(|(m, shares)| Some((*m, *shares.get(&label)?)))
         .filter(|(_, share)| share.value > frame.y.0)
@@ -213,7 +217,9 @@ fn three_ways() -> Result<Table, Error> {
         "random, 50 000",
         "low discrepancy, 16 × 3125",
     ]);
-    let share_of = |shares: &Shares| shares.get(&ALL).map_or("0".into(), percent);
+    fn share_of<F: Copy + Into<FractionWithBar>>(shares: &BTreeMap<u16, F>) -> String {
+        shares.get(&ALL).map_or("0".into(), |&share| percent(&share.into()))
+    }
     for m in [0.1, 0.15, 0.2, 0.3, 0.5, 0.8] {
         let fates = fates(m)?;
         let together = |place: f64| {
@@ -223,9 +229,9 @@ fn three_ways() -> Result<Table, Error> {
         table.row([
             format!("{m}"),
             certain.get(&ALL).map_or("0".into(), bounds),
-            share_of(&equally_spaced_shares(window()?, 50_000, together)?),
-            share_of(&random_shares(window()?, 50_000, SEED, together)?),
-            share_of(&low_discrepancy_shares(window()?, 3125, 16, SEED, together)?),
+            share_of(&equally_spaced_fractions(window()?, 50_000, together)?),
+            share_of(&random_fractions(window()?, 50_000, SEED, together)?),
+            share_of(&low_discrepancy_fractions(window()?, 3125, 16, SEED, together)?),
         ]);
     }
     Ok(table)
@@ -246,7 +252,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
                 + 2 * u16::from(is_incessant(two))
                 + 4 * u16::from(one != two)
         };
-        let counts = low_discrepancy_shares(window()?, POINTS, REPLICATES, SEED, compare)?;
+        let counts = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, compare)?;
         let sum = |bit: u16| -> f64 {
             counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.value).sum()
         };
@@ -303,7 +309,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
                     The measure at 1/$M$ is up to three times that at $M$, or down to half of it. For $M$ > 1/3 up to \
                     half of all starts have another fate: mostly it is decaying against grounded."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file(
                 "asymmetry.csv",
                 &[

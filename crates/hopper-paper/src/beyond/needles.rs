@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
-use hopper_basin::{ReachEdge, crisis, reach, recovery};
+use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// Spacings of the scans. A needle narrower than the spacing is missed; a tenth of it takes ten times as long.
@@ -25,7 +25,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
     let humps = 3;
     let recoveries = job.scan("recoveries", humps * WIDTHS.len(), |k| {
         let (below, above) =
-            recovery((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
+            upper_crisis_bracket((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
         Ok(vec![below, above])
     })?;
     let mut header = vec!["$M$".to_owned()];
@@ -35,11 +35,13 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
         let fates = fates(m)?;
         let mut cells = vec![format!("{m}")];
         for width in WIDTHS {
-            let found = reach(&fates, 1, width)?;
+            let found = immediate_basin(fates.map(), 1, width)?;
             cells.push(match found.edge {
-                ReachEdge::Contact | ReachEdge::Sudden { .. } => format!("{:.10}", found.delta),
-                ReachEdge::NotFound { .. } => "all of the hump".into(),
-                ReachEdge::NextFixedPoint => "all of the hump, certain".into(),
+                ImmediateBasinEdge::Contact | ImmediateBasinEdge::Sudden { .. } => {
+                    format!("{:.10}", found.delta)
+                }
+                ImmediateBasinEdge::NotFound { .. } => "all of the hump".into(),
+                ImmediateBasinEdge::NextFixedPoint => "all of the hump, certain".into(),
             });
         }
         table.row(cells);
@@ -91,7 +93,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
                     up to 400 and then by halving; a point on its dashed line, which is what the contact part \
                     alone would say, means that no fall was found in the window."
                 .into(),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("needles.csv", &["hump", "width", "fall_at", "none_at"], data)?],
         },
         table,

@@ -5,7 +5,7 @@ use super::humps_of_window::{FROM, TO, fates};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::{Interval, PreimageTree, Refinement, Remainder};
+use basin_of_attraction::{Interval, PreimageTree, Refinement, ResidualSet};
 use hopper_basin::{branches, hopper_basins};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::alpha_star;
@@ -25,20 +25,20 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let refinement = Refinement { shortest: SHORTEST, undecided: 0.0, ..Refinement::default() };
     let basins = hopper_basins(&fates, FROM, TO, 400, refinement)?.basins;
     let long = |level: usize| {
-        let own = basins.parts().iter().filter(|part| part.label == 1 && part.level == level);
+        let own = basins.intervals().iter().filter(|part| part.label == 1 && part.level == level);
         own.filter(|part| part.interval.length() >= SHORTEST).count()
     };
     let levels = basins.levels(1);
-    let total = basins.measure(1);
-    let window = Interval::new(alpha_star(FROM).high, alpha_star(TO).high)?;
-    let trap = Interval::new(fates.trap(1)?.star.high, fates.trap(1)?.right())?;
+    let (resolved, total) = (basins.resolved_length(1), basins.basin_length(1));
+    let window = Interval::new(alpha_star(FROM), alpha_star(TO))?;
+    let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
     let all = branches(&fates, FROM, TO, 400)?;
     let tree = PreimageTree::grow(&fates, &all, trap, window, GROWN);
     // On the first two humps the tree can be grown to level 60: enough to tell a power of the level from doubling.
-    let lower = Interval::new(alpha_star(1).high, alpha_star(3).high)?;
+    let lower = Interval::new(alpha_star(1), alpha_star(3))?;
     let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60);
-    let growth = match deep.remainder() {
-        Remainder::Countable { power } => {
+    let growth = match deep.residual_set() {
+        ResidualSet::Countable { power } => {
             let levels = deep.complete_levels();
             format!(
                 "like $k$^{{{power:.1}}} over levels {} to {} (2$k$ − 1 of them, in fact): a countable rest, where \
@@ -72,14 +72,14 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
                 format!("{count}"),
                 format!("{length:.3e}"),
                 format!("{sum:.9}"),
-                format!("{:.5} %", 100.0 * sum / total.value),
+                format!("{:.5} %", 100.0 * sum / resolved),
             ]);
         }
     }
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame::linear(70.0, 20.0, 480.0, 350.0, (0.0, DRAWN as f64), (1e-8, 1.0)).log_y();
     let left: Vec<_> =
-        rows.iter().map(|row| (row.0 as f64, (total.value - row.3).max(1e-8))).collect();
+        rows.iter().map(|row| (row.0 as f64, (resolved - row.3).max(1e-8))).collect();
     frame.clipped(&mut svg, |svg| frame.polyline(svg, &left, Pen::solid("#0072b2", 1.5)));
     for row in &rows {
         svg.marker(frame.at((row.0 as f64, row.2.max(1e-8))), Marker::Disc, 6.0, "#000000");
@@ -106,7 +106,7 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
                  number of intervals of a level grows {growth}.",
                 total.lower, total.upper
             ),
-            svg: svg.finish(),
+            svg,
             data: vec![csv_file("tree.csv", &["level", "intervals", "length", "sum"], data)?],
         },
         table,

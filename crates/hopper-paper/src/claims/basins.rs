@@ -3,7 +3,7 @@
 use super::claim::Claim;
 use crate::error::Error;
 use basin_of_attraction::monotone_branches;
-use hopper_basin::{Fates, Shares, branches, crisis, five_humps, shares};
+use hopper_basin::{BasinFractions, Fates, basin_fractions, branches, crisis, first_humps};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 
@@ -24,7 +24,7 @@ fn multimodal() -> Result<Claim, Error> {
         );
     }
     // An independent check: the whole window is sampled, without any theory of the humps.
-    let blind = monotone_branches(&fates, five_humps(), 40_001)?;
+    let blind = monotone_branches(&fates, first_humps(5), 40_001)?;
     let blind_turns =
         blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
     Ok(Claim::new("Secs. I, III, Fig. 2", "multimodality")
@@ -48,7 +48,7 @@ fn lowest(mass_ratio: f64) -> Result<(f64, f64), Error> {
 }
 
 fn above_first() -> Result<Claim, Error> {
-    let star = alpha_star(1).high;
+    let star = alpha_star(1);
     let (light, heavy) = (lowest(0.05)?, lowest(0.1)?);
     Ok(Claim::new("Sec. V", "small M: the whole map is above α*₁")
         .paper("for low $M$ the entire map lies above the line $α$′ = $α$^{∗}_{1}: the whole range is attracted")
@@ -68,7 +68,7 @@ fn falls_through() -> Result<Claim, Error> {
     let mut signs = Vec::new();
     for m in around {
         let image = LiftOffMap::new(MassRatio::new(m)?).image(found.alpha)?;
-        signs.push(image.is_some_and(|image| image > alpha_star(1).high));
+        signs.push(image.is_some_and(|image| image > alpha_star(1)));
     }
     Ok(Claim::new("Secs. V, VI", "where that ends")
         .paper("as $M$ grows, larger and larger parts of the map drop below $α$^{∗}_{1}, between $M$ = 0.1 and 0.2")
@@ -84,11 +84,11 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let bar = progress.bar("measures", ratios.len() as u64);
     let mut results = Vec::new();
     for (k, m) in ratios.into_iter().enumerate() {
-        results.push(shares(MassRatio::new(m)?, 1, 6, POINTS)?);
+        results.push(basin_fractions(MassRatio::new(m)?, 1, 6, POINTS)?);
         bar.set(k as u64 + 1);
     }
     bar.finish();
-    let total: Vec<f64> = results.iter().map(Shares::incessant).collect();
+    let total: Vec<f64> = results.iter().map(BasinFractions::incessant).collect();
     let first = results[0].of(1);
     let how = "10 000 equally spaced points, the middles of equal parts, on each of the five intervals [$α$^{∗}_{i}, $α$^{∗}_{i+1}], fractions averaged; fates by traps. (The paper does not say whether it takes the ends: the double nearest to $α$^{∗}_{i} may lie on its left, which is another basin.)";
     let claim = |name: &str, paper: &str, value: f64, printed: f64, digit: f64| {
@@ -117,8 +117,12 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
 /// Changes of fate along α at M = 0.175, in the windows of Figs. 6, 8 and 9.
 fn finer_scales() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.175)?)?;
-    let windows =
-        [(five_humps().left, five_humps().right), (14.066, 20.371), (17.0, 17.8), (17.25, 17.33)];
+    let windows = [
+        (first_humps(5).left, first_humps(5).right),
+        (14.066, 20.371),
+        (17.0, 17.8),
+        (17.25, 17.33),
+    ];
     let mut changes = Vec::new();
     for (left, right) in windows {
         let labels: Result<Vec<u16>, _> = (0..10_000)

@@ -6,7 +6,7 @@ use crate::figures::fig_05_construction::{DEPTH, M, levels};
 use basin_of_attraction::IntervalSet;
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::{Fates, HopperFate};
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 
 pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
@@ -15,7 +15,7 @@ pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
 }
 
 fn first_level(levels: &[IntervalSet]) -> Claim {
-    let hump = (alpha_star(2).high, alpha_star(3).high);
+    let hump = (alpha_star(2), alpha_star(3));
     let count = levels.get(1).map_or(0, |level| {
         level.intervals().iter().filter(|i| i.left > hump.0 && i.right < hump.1).count()
     });
@@ -67,10 +67,10 @@ fn limit(levels: &[IntervalSet]) -> Result<Claim, Error> {
     let map = LiftOffMap::new(MassRatio::new(M)?);
     let mut rises = 0;
     for n in 1..=4 {
-        let star = alpha_star(n);
+        let star = FixedPointSpeed::new(n);
         for exponent in 1..=12 {
             for side in [1.0, -1.0] {
-                let alpha = star.high + side * 10f64.powi(-exponent);
+                let alpha = star.value() + side * 10f64.powi(-exponent);
                 rises += usize::from(!map.hop(alpha)?.loss.is_some_and(|loss| loss > 0.0));
             }
         }
@@ -88,10 +88,10 @@ fn limit(levels: &[IntervalSet]) -> Result<Claim, Error> {
 fn accumulation() -> Result<Claim, Error> {
     let ratio = MassRatio::new(0.2)?;
     let map = LiftOffMap::new(ratio);
-    let star = alpha_star(2);
+    let star = FixedPointSpeed::new(2);
     let lambda = Coefficients::new(2, ratio, Form::Corrected)?.lambda;
     let (from, to) = (1e-10, 1e-5);
-    let mut alpha = star.high - from;
+    let mut alpha = star.value() - from;
     let mut hops = 0u32;
     while star.offset_of(alpha) > -to && hops < 1_000_000 {
         alpha = map.image(alpha)?.unwrap_or(0.0);

@@ -3,9 +3,11 @@
 use super::claim::{Claim, largest};
 use crate::error::Error;
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
-use return_map::{Meeting, OneSidedStability, Side, Stability, fixed_points, one_sided_stability};
+use return_map::{
+    Intersection, OneSidedStability, Side, Stability, fixed_points, one_sided_stability,
+};
 
 /// Mass ratios of the checks: 1, and three pairs of inverses.
 const RATIOS: [f64; 7] = [0.02, 0.1, 0.5, 1.0, 2.0, 10.0, 50.0];
@@ -21,7 +23,7 @@ fn printed_digits() -> Claim {
     let mut right = true;
     let mut ours = Vec::new();
     for (n, (digits, decimals)) in (1u64..).zip(printed) {
-        let star = alpha_star(n).high;
+        let star = alpha_star(n);
         let ulp = 10f64.powi(-decimals);
         // The paper rounds some values and cuts others: both lie within one unit of the last digit.
         right &= digits.parse::<f64>().is_ok_and(|value| (value - star).abs() < ulp);
@@ -40,7 +42,7 @@ fn all_are_fixed() -> Result<Claim, Error> {
     for m in RATIOS {
         let map = LiftOffMap::new(MassRatio::new(m)?);
         for n in 1..=30 {
-            let star = alpha_star(n).high;
+            let star = alpha_star(n);
             let image = map.image(star)?.unwrap_or(f64::NAN);
             errors.push(((image - star) / star).abs());
         }
@@ -58,12 +60,11 @@ fn all_are_fixed() -> Result<Claim, Error> {
 
 fn found_from_the_map() -> Result<Claim, Error> {
     let map = LiftOffMap::new(MassRatio::new(0.2)?);
-    let window = (alpha_star(1).high - 1.0, alpha_star(5).high + 1.0);
+    let window = (alpha_star(1) - 1.0, alpha_star(5) + 1.0);
     let found = fixed_points(|x| map.image(x).ok().flatten(), window.0, window.1, 4001)?;
-    let distances =
-        found.iter().zip(1..).map(|(point, n)| (point.location - alpha_star(n).high).abs());
+    let distances = found.iter().zip(1..).map(|(point, n)| (point.location - alpha_star(n)).abs());
     let worst = largest(distances);
-    let touching = found.iter().all(|point| point.meeting == Meeting::Touching);
+    let touching = found.iter().all(|point| point.intersection == Intersection::Tangent);
     Ok(Claim::new("Sec. III, Fig. 2", "the fixed points are touches")
         .paper("the map has infinitely many fixed points, where tan $α$ = $α$, and stays below the diagonal")
         .ours(format!("{} fixed points on [$α$^{{∗}}_{{1}} − 1, $α$^{{∗}}_{{5}} + 1] at $M$ = 0.2, all touching", found.len()))
@@ -81,13 +82,13 @@ pub(super) fn probe(
     count: usize,
 ) -> OneSidedStability {
     let map = LiftOffMap::new(mass_ratio);
-    let star = alpha_star(n);
+    let star = FixedPointSpeed::new(n);
     let sign = match side {
         Side::Left => -1.0,
         Side::Right => 1.0,
     };
     let displacement = |distance: f64| {
-        let alpha = star.high + sign * distance;
+        let alpha = star.value() + sign * distance;
         let exact = sign * star.offset_of(alpha);
         let loss = map.hop(alpha).ok()?.loss?;
         // The map is evaluated at the nearest f64, at the distance `exact`. Its loss is scaled to the distance asked
@@ -103,7 +104,7 @@ fn stability() -> Result<Claim, Error> {
         for n in INDICES {
             let ratio = MassRatio::new(m)?;
             let local = Coefficients::new(n, ratio, Form::Corrected)?;
-            let largest = (0.3 * local.delta()).min(1e-3);
+            let largest = (0.3 * local.trap_length()).min(1e-3);
             let right = probe(n, ratio, Side::Right, largest, 20);
             let left = probe(n, ratio, Side::Left, largest, 20);
             wrong += usize::from(right.stability != Stability::Attracting);

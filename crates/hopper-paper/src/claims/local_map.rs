@@ -5,7 +5,7 @@ use super::fixed_points::coefficient;
 use crate::error::Error;
 use hopper_asymptotics::{Coefficients, Form};
 use hopper_basin::{Trap, TrapEdge};
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio};
 use repository_tools::Progress;
 use return_map::Side;
 
@@ -24,12 +24,12 @@ fn beta() -> Result<Claim, Error> {
     let mut errors = Vec::new();
     for n in [1, 2, 3, 10] {
         let local = Coefficients::new(n, MassRatio::ONE, Form::Corrected)?;
-        let star = alpha_star(n);
+        let star = FixedPointSpeed::new(n);
         let ratio = |delta: f64| -> Result<f64, Error> {
-            let alpha = star.high + delta;
+            let alpha = star.value() + delta;
             let first = LiftOffMap::new(MassRatio::ONE).landings(alpha)?.next().transpose()?;
             let time = first.map_or(f64::NAN, |landing| landing.time);
-            Ok((time - 2.0 * star.high) / local.flight_time_shift(star.offset_of(alpha)))
+            Ok((time - 2.0 * star.value()) / local.flight_time_shift(star.offset_of(alpha)))
         };
         // The ratio is 1 + w/(4α*) + … with w = βδ^{1/3}. An eighth of δ halves w: twice the one minus the other is 1.
         let limit = 2.0 * ratio(1e-7)? - ratio(8e-7)?;
@@ -71,8 +71,8 @@ fn lambda() -> Result<Claim, Error> {
 }
 
 fn delta() -> Result<Claim, Error> {
-    let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?.delta();
-    let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?.delta();
+    let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?.trap_length();
+    let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?.trap_length();
     let exact = Trap::new(1, MassRatio::ONE)?.delta;
     let far = (printed / exact, corrected / exact);
     Ok(Claim::new("Sec. IV A, Eq. 20", "Δ, the interval of attraction")

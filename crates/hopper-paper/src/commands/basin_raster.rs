@@ -1,17 +1,20 @@
-//! `basin-raster`: the basins over any window of (M, α), in tiles that survive anything.
+//! `basin-raster`: the basins over any window of (M, α), in tiles on disk.
+//!
+//! A run that is killed leaves its finished tiles, and the next run computes the others. The array is written from
+//! the tiles, compared with them, and only then are the tiles removed.
 
-use crate::checkpoint::Checkpoint;
 use crate::error::Error;
 use crate::figures::basin_plot::{Window, draw_basins};
 use basin_of_attraction::{Grid, Interval, LabelImage};
-use hopper_basin::{HopperFate, basin_columns, five_humps};
+use hopper_basin::{HopperFate, basin_columns, first_humps};
 use journal_figures::render;
 use passive_hopper::MassRatio;
 use rayon::prelude::*;
 use repository_tools::{Folder, Progress};
+use resumable_job::{Lock, Order, Pieces, npy_header};
 use std::collections::BTreeMap;
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::io::Write;
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Options.
@@ -31,13 +34,16 @@ pub struct Options {
     pixels: Vec<usize>,
 }
 
-/// Columns of a tile.
+/// Columns of a tile. A killed run loses the tiles it was computing, one a thread: wider tiles lose more work.
+/// Narrower ones share less work between columns, and are more files to flush.
 const TILE: usize = 16;
 
-/// Pixels of a raster along each axis, at most: a tile of so many rows is some hundred megabytes of work.
+/// The largest number of pixels along each axis. A tile of 2²⁰ rows has 32 MiB of labels, and some hundred megabytes
+/// are in use while it is computed.
 const MOST_ALONG: usize = 1 << 20;
 
-/// Pixels of the picture, at most, along each axis; a larger raster is thinned for it.
+/// The largest number of pixels of the picture along each axis. The picture of a larger raster shows some of its
+/// columns and rows only; the array has them all.
 const PICTURE: usize = 1200;
 
 /// Runs the command.
@@ -48,7 +54,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
         "basins, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels",
         grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
     );
-    let kept = Checkpoint::open(&folder.path().join("tiles"), &description)?;
+    let lock = Lock::take(folder.path(), "basin-raster")?;
+    let kept = Pieces::open(&folder.path().join("tiles"), &description)?;
     let tiles = grid.columns.div_ceil(TILE);
     let bar = Progress.bar("basins", tiles as u64);
     let done = AtomicU64::new(0);
@@ -60,8 +67,18 @@ pub fn run(options: &Options) -> Result<(), Error> {
         Ok::<(), Error>(())
     })?;
     bar.finish();
-    let (array, counts) = write_array(&folder, &kept, &grid)?;
-    let image = thinned(&kept, &grid)?;
+    let array = folder.path().join("basin.npy");
+    let mut counts = BTreeMap::new();
+    let mut picture = Picture::new(&grid);
+    // Row 0 is the lowest speed. In Fortran's order the columns, and so the tiles, follow one another in the file.
+    let header = npy_header(Order::Fortran, grid.rows, grid.columns);
+    kept.assemble(&array, &header, tiles, |tile, bytes| {
+        for pair in bytes.chunks_exact(2) {
+            *counts.entry(u16::from_le_bytes([pair[0], pair[1]])).or_insert(0) += 1;
+        }
+        picture.add(tile, bytes);
+    })?;
+    let image = picture.image();
     let window = Window {
         name: "basin",
         mass_ratio: (grid.x.left, grid.x.right),
@@ -82,6 +99,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
         .map_err(|e| Error::Render { what: "legend.json".into(), reason: e.to_string() })?;
     folder.write("legend.json", text.as_bytes())?;
     kept.remove(tiles)?;
+    folder.remove_leftovers();
+    drop(lock);
     let mut out = std::io::stdout().lock();
     let said = (|| {
         for (&label, pixels) in &counts {
@@ -97,7 +116,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
         [from, to] => Interval::new(from, to).map_err(Error::from),
         _ => Err(Error::CheckFailed("two numbers are needed, from and to".into())),
     };
-    let default = [five_humps().left, five_humps().right];
+    let default = [first_humps(5).left, first_humps(5).right];
     let [columns, rows] = options.pixels[..] else {
         return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
     };
@@ -106,7 +125,8 @@ fn grid(options: &Options) -> Result<Grid, Error> {
     }
     let speed = options.speed.as_deref().unwrap_or(&default);
     for values in [&options.mass_ratio[..], speed] {
-        // Neighbouring pixels must differ.
+        // A window narrower than 10⁻¹² of its end has some thousand doubles: many neighbouring pixels would be the
+        // same point after rounding.
         if let [from, to] = *values
             && !(to - from > 1e-12 * to.abs())
         {
@@ -117,7 +137,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
         MassRatio::new(m)?;
     }
     let grid = Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows };
-    // No column at all: whether there can be any.
+    // Labels no column, but refuses a grid that has no labels before anything is written.
     basin_columns(&grid, 0..0)?;
     Ok(grid)
 }
@@ -130,71 +150,44 @@ fn columns(grid: &Grid, tile: usize) -> Result<Vec<u8>, Error> {
     Ok(labels.iter().flatten().flat_map(|label| label.to_le_bytes()).collect())
 }
 
-/// All tiles as one NumPy array of shape (rows, columns), row 0 the lowest speed; in Fortran's order,
-/// in which tiles follow one another. Counts the labels on the way.
-fn write_array(
-    folder: &Folder,
-    kept: &Checkpoint,
-    grid: &Grid,
-) -> Result<(PathBuf, BTreeMap<u16, usize>), Error> {
-    let (path, partial) =
-        (folder.path().join("basin.npy"), folder.path().join("basin.npy.partial.tmp"));
-    let fail = |source| Error::File { path: path.clone(), source };
-    let mut file = BufWriter::new(std::fs::File::create(&partial).map_err(fail)?);
-    file.write_all(&npy_header(grid.rows, grid.columns)).map_err(fail)?;
-    let mut counts = BTreeMap::new();
-    for tile in 0..grid.columns.div_ceil(TILE) {
-        let bytes = piece(kept, tile)?;
-        for pair in bytes.chunks_exact(2) {
-            *counts.entry(u16::from_le_bytes([pair[0], pair[1]])).or_insert(0) += 1;
-        }
-        file.write_all(&bytes).map_err(fail)?;
+/// The picture of a raster that may be larger: ⌊k · size / picture size⌋ of its columns and rows.
+struct Picture {
+    grid: Grid,
+    image: LabelImage,
+    /// The next column of the picture; tiles come in order.
+    next: usize,
+}
+
+impl Picture {
+    fn new(grid: &Grid) -> Self {
+        let (columns, rows) = (grid.columns.min(PICTURE), grid.rows.min(PICTURE));
+        let labels = vec![0; columns * rows];
+        let image = LabelImage { grid: Grid { columns, rows, ..*grid }, labels };
+        Picture { grid: *grid, image, next: 0 }
     }
-    file.into_inner().map_err(|e| fail(e.into_error()))?.sync_all().map_err(fail)?;
-    std::fs::rename(&partial, &path).map_err(fail)?;
-    Ok((path, counts))
-}
 
-/// The header of version 1.0 of the format: magic, length, and a dictionary padded to 64 bytes.
-fn npy_header(rows: usize, columns: usize) -> Vec<u8> {
-    let mut text =
-        format!("{{'descr': '<u2', 'fortran_order': True, 'shape': ({rows}, {columns}), }}");
-    let unpadded = 10 + text.len() + 1;
-    text.push_str(&" ".repeat(unpadded.next_multiple_of(64) - unpadded));
-    text.push('\n');
-    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
-    bytes.extend_from_slice(&(text.len() as u16).to_le_bytes());
-    bytes.extend_from_slice(text.as_bytes());
-    bytes
-}
-
-fn piece(kept: &Checkpoint, tile: usize) -> Result<Vec<u8>, Error> {
-    kept.read(tile)?.ok_or_else(|| Error::Piece {
-        path: Path::new(kept.description()).into(),
-        reason: "a finished tile has gone",
-    })
-}
-
-/// Every so many-th pixel, for the picture.
-fn thinned(kept: &Checkpoint, grid: &Grid) -> Result<LabelImage, Error> {
-    let (columns, rows) = (grid.columns.min(PICTURE), grid.rows.min(PICTURE));
-    let mut labels = vec![0u16; columns * rows];
-    let mut held: Option<(usize, Vec<u8>)> = None;
-    for column in 0..columns {
-        let from = column * grid.columns / columns;
-        if held.as_ref().is_none_or(|(tile, _)| *tile != from / TILE) {
-            held = Some((from / TILE, piece(kept, from / TILE)?));
-        }
-        let Some((tile, bytes)) = &held else { continue };
-        let base = (from - tile * TILE) * grid.rows;
-        for row in 0..rows {
-            let at = 2 * (base + row * grid.rows / rows);
-            let label =
-                bytes.get(at..at + 2).map_or(0, |pair| u16::from_le_bytes([pair[0], pair[1]]));
-            labels[row * columns + column] = label;
+    /// Takes from the next tile the columns that the picture shows.
+    fn add(&mut self, tile: usize, bytes: &[u8]) {
+        let Grid { columns, rows, .. } = self.image.grid;
+        while self.next < columns {
+            let from = self.next * self.grid.columns / columns;
+            if from >= (tile + 1) * TILE {
+                return; // it is in a later tile
+            }
+            let base = (from - tile * TILE) * self.grid.rows;
+            for row in 0..rows {
+                let at = 2 * (base + row * self.grid.rows / rows);
+                let pair = bytes.get(at..at + 2);
+                let label = pair.map_or(0, |pair| u16::from_le_bytes([pair[0], pair[1]]));
+                self.image.labels[row * columns + self.next] = label;
+            }
+            self.next += 1;
         }
     }
-    Ok(LabelImage { grid: Grid { columns, rows, ..*grid }, labels })
+
+    fn image(self) -> LabelImage {
+        self.image
+    }
 }
 
 #[cfg(test)]
@@ -205,7 +198,7 @@ mod tests {
     use std::ops::ControlFlow;
 
     #[test]
-    fn absurd_windows_are_refused_before_anything_is_written() {
+    fn windows_without_labels_are_refused_before_anything_is_written() {
         let options = |mass_ratio: [f64; 2], speed: [f64; 2], pixels: [usize; 2]| Options {
             out: PathBuf::from("/nowhere"),
             mass_ratio: mass_ratio.to_vec(),
@@ -228,23 +221,34 @@ mod tests {
         }
     }
 
+    /// A picture of a larger raster shows its pixels at equal distances, whatever tile they are in.
     #[test]
-    fn the_header_is_one_that_numpy_reads() {
-        let header = npy_header(3, 4);
-        assert_eq!(header.len() % 64, 0);
-        assert_eq!(&header[..8], b"\x93NUMPY\x01\x00");
-        let mut bytes = header;
-        bytes.extend((0u16..12).flat_map(u16::to_le_bytes));
-        let array: ndarray::Array2<u16> =
-            ndarray_npy::ReadNpyExt::read_npy(std::io::Cursor::new(bytes)).unwrap();
-        assert_eq!(array.dim(), (3, 4));
-        assert_eq!((array[(0, 0)], array[(2, 0)], array[(0, 1)]), (0, 2, 3));
+    fn the_picture_shows_pixels_of_the_raster() {
+        let x = Interval::new(0.1, 0.9).unwrap();
+        for (columns, rows) in [(1, 1), (40, 25), (1200, 3), (1201, 2), (2999, 1300)] {
+            let grid = Grid { x, y: x, columns, rows };
+            let label = |column: usize, row: usize| (7 * column + 3 * row) as u16;
+            let mut picture = Picture::new(&grid);
+            for tile in 0..columns.div_ceil(TILE) {
+                let within = tile * TILE..columns.min((tile + 1) * TILE);
+                let labels = within.flat_map(|c| (0..rows).map(move |r| label(c, r)));
+                picture.add(tile, &labels.flat_map(u16::to_le_bytes).collect::<Vec<_>>());
+            }
+            let image = picture.image();
+            let shown = image.grid;
+            for column in 0..shown.columns {
+                for row in 0..shown.rows {
+                    let from = (column * columns / shown.columns, row * rows / shown.rows);
+                    assert_eq!(image.at(column, row), Some(label(from.0, from.1)));
+                }
+            }
+        }
     }
 
     /// Tiles hold the labels of the whole raster.
     #[test]
     fn tiles_are_the_raster() {
-        let window = Interval::new(alpha_star(1).high, alpha_star(3).high).unwrap();
+        let window = Interval::new(alpha_star(1), alpha_star(3)).unwrap();
         let x = Interval::new(0.1, 0.9).unwrap();
         let grid = Grid { x, y: window, columns: 40, rows: 25 };
         let whole = basin_raster(grid, |_| ControlFlow::Continue(())).unwrap();

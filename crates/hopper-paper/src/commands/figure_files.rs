@@ -6,8 +6,9 @@ use crate::figures::Build;
 use journal_figures::{Rendered, render};
 use repository_tools::{Folder, Progress};
 
-/// Pixels of the PNG for each point of the drawing, 144 an inch: text of 10 points is sharp on a screen.
-const PIXELS_PER_POINT: f32 = 2.0;
+/// Pixels of the PNG for a CSS pixel of the drawing (1/96 inch): 192 dpi, so that text of 10 points stays sharp on a
+/// screen while no PNG passes a megabyte.
+const PIXELS_PER_CSS_PIXEL: f64 = 2.0;
 
 /// Builds a figure and writes it in both forms, with its data.
 pub(super) fn make_figure(folder: &Folder, build: Build) -> Result<(Figure, Rendered), Error> {
@@ -18,7 +19,7 @@ pub(super) fn make_figure(folder: &Folder, build: Build) -> Result<(Figure, Rend
 
 /// Writes a figure in both forms, with its data.
 pub(super) fn write_figure(folder: &Folder, figure: &Figure) -> Result<Rendered, Error> {
-    let rendered = render(figure.name, &figure.svg, PIXELS_PER_POINT)?;
+    let rendered = render(figure.name, &figure.svg, PIXELS_PER_CSS_PIXEL)?;
     folder.write(&format!("{}.svg", figure.name), rendered.svg.as_bytes())?;
     folder.write(&format!("{}.png", figure.name), &rendered.png)?;
     figure.data.iter().try_for_each(|file| folder.write(&file.name, &file.bytes))?;

@@ -1,4 +1,4 @@
-//! `reproduce-paper`: every figure and number of the paper, every claim, and a report.
+//! `reproduce-paper`: computes every figure and every number of the paper, and writes a report.
 
 use super::claim_lines::{all_hold, line};
 use super::figure_files::make_figure;
@@ -8,7 +8,8 @@ use crate::figure::Figure;
 use crate::figures;
 use crate::report;
 use journal_figures::Rendered;
-use repository_tools::{Folder, Progress, digest, read, repository, results_folder, say};
+use repository_tools::{Folder, Progress, read, repository, results_folder, say};
+use resumable_job::digest;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -30,7 +31,7 @@ pub struct Options {
     bless: bool,
 }
 
-/// Figures that the documents show and that are committed: name and form.
+/// The figures of the README, each with its file format.
 const COMMITTED: &[(&str, Form)] = &[
     ("fig_02_map", Form::Svg),
     ("fig_03_segments", Form::Svg),
@@ -72,8 +73,19 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let seconds = begin.elapsed().as_secs_f64();
     folder.write("report.html", report::page(&made, claims.as_deref(), seconds).as_bytes())?;
     say(format_args!("report     {}", folder.path().join("report.html").display()))?;
-    let differing =
-        if options.check { compare(&made, options.only.is_empty())? } else { Vec::new() };
+    let mut differing = Vec::new();
+    if options.check {
+        let comparison = compare(&made, options.only.is_empty())?;
+        say(format_args!("check      {} files compared with docs/figures", comparison.compared))?;
+        if comparison.compared == 0 {
+            return Err(Error::CheckFailed(
+                "--check compared nothing: of the figures in --only, none has data with a digest or \
+                 a copy in docs/figures"
+                    .into(),
+            ));
+        }
+        differing = comparison.differing;
+    }
     say(format_args!("{:.1} s", begin.elapsed().as_secs_f64()))?;
     verdict(claims.as_deref().unwrap_or(&[]), &differing)?;
     if options.bless { bless(&made) } else { Ok(()) }
@@ -89,7 +101,7 @@ fn verdict(claims: &[Claim], differing: &[String]) -> Result<(), Error> {
     all_hold(claims)
 }
 
-/// Digests of all data but images, whose bytes depend on the version of the encoder.
+/// Digests of all files of numbers. Images are left out: their bytes depend on the encoder too.
 fn digests(made: &[(Figure, Rendered)]) -> BTreeMap<String, String> {
     let files = made.iter().flat_map(|(figure, _)| &figure.data);
     let numbers = files.filter(|file| !file.name.ends_with(".png"));
@@ -119,23 +131,31 @@ fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Names of the data whose digests differ from the committed ones, and of committed figures that differ from the new
-/// drawing. With `all` figures made, a digest without data counts too.
-fn compare(made: &[(Figure, Rendered)], all: bool) -> Result<Vec<String>, Error> {
+/// The files that were compared with docs/figures.
+struct Comparison {
+    compared: usize,
+    differing: Vec<String>,
+}
+
+/// Compares the digests of the data with the committed digests, and the figures of the README with the figures drawn
+/// now. If `all` figures are made, a committed digest without data counts as a difference.
+fn compare(made: &[(Figure, Rendered)], all: bool) -> Result<Comparison, Error> {
     let folder = repository().join("docs/figures");
     let path = folder.join(DIGESTS);
     let known: BTreeMap<String, String> = serde_json::from_str(&read(&path)?)
         .map_err(|e| Error::Render { what: path.display().to_string(), reason: e.to_string() })?;
     let ours = digests(made);
+    let mut compared = ours.len();
     let stale = known.keys().filter(|name| all && !ours.contains_key(*name)).cloned();
     let changed = ours.iter().filter(|(name, digest)| known.get(*name) != Some(digest));
     let mut differing: Vec<String> = stale.chain(changed.map(|(name, _)| name.clone())).collect();
     for (figure, rendered) in made {
         for (name, bytes) in committed(figure, rendered) {
+            compared += 1;
             if std::fs::read(folder.join(&name)).ok().as_deref() != Some(bytes) {
                 differing.push(name);
             }
         }
     }
-    Ok(differing)
+    Ok(Comparison { compared, differing })
 }

@@ -6,8 +6,8 @@ use crate::figure::Figure;
 use basin_of_attraction::{Grid, Interval, LabelImage};
 use hopper_basin::basin_raster;
 use journal_figures::{Anchor, DataFile, Frame, Pen, Svg, indexed_png, ticks};
-use ndarray_npy::WriteNpyExt;
 use repository_tools::Progress;
+use resumable_job::{Order, npy_header};
 use std::ops::ControlFlow;
 
 /// (M, α) ranges of the figure that enlarges a part, and its number.
@@ -52,11 +52,11 @@ pub(super) fn basin_figure(
         paper,
         notes: format!(
             "{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}",
-            shares(&image)
+            basin_fractions(&image)
         ),
         svg,
         data: vec![
-            DataFile { name: format!("{}.npy", window.name), bytes: npy(window.name, &image)? },
+            DataFile { name: format!("{}.npy", window.name), bytes: npy(&image) },
             DataFile {
                 name: format!("{}_labels.png", window.name),
                 bytes: png(window.name, &image)?,
@@ -66,7 +66,7 @@ pub(super) fn basin_figure(
 }
 
 /// The drawing of an image with axes and legend.
-pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<String, Error> {
+pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Error> {
     let (x, y) = (window.mass_ratio, window.alpha);
     let pixels = png(window.name, image)?;
     let mut svg = Svg::new(580.0, 560.0);
@@ -88,7 +88,7 @@ pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<String,
         svg.text(x1 + 5.0, y1 - 5.0, Anchor::Start, 11.5, name);
     }
     legend(&mut svg, frame.left, image);
-    Ok(svg.finish())
+    Ok(svg)
 }
 
 /// The legend, with one entry for each colour: fixed points beyond the last colour share it.
@@ -109,12 +109,15 @@ fn legend(svg: &mut Svg, left: f64, image: &LabelImage) {
 }
 
 /// The share of every label, in words.
-fn shares(image: &LabelImage) -> String {
+fn basin_fractions(image: &LabelImage) -> String {
     let pixels = image.labels.len() as f64;
     let share = |(label, count): (u16, usize)| {
         format!("{} {:.2} %", fate_colors::name(label), 100.0 * count as f64 / pixels)
     };
-    format!("Shares: {}.", image.counts().into_iter().map(share).collect::<Vec<_>>().join(", "))
+    format!(
+        "BasinFractions: {}.",
+        image.counts().into_iter().map(share).collect::<Vec<_>>().join(", ")
+    )
 }
 
 /// A PNG with one byte a pixel, the highest row first; its palette is in the order of the labels that occur.
@@ -135,13 +138,9 @@ fn png(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
     Ok(indexed_png(name, image.grid.columns, image.grid.rows, &colors, &pixels)?)
 }
 
-/// The labels as a NumPy array, rows from the lowest α up.
-fn npy(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
-    let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
-    let shape = (image.grid.rows, image.grid.columns);
-    let array = ndarray::Array2::from_shape_vec(shape, image.labels.clone())
-        .map_err(|e| fail(e.to_string()))?;
-    let mut bytes = Vec::new();
-    array.write_npy(&mut bytes).map_err(|e| fail(e.to_string()))?;
-    Ok(bytes)
+/// The labels as a NumPy file; rows start from the lowest α.
+fn npy(image: &LabelImage) -> Vec<u8> {
+    let mut bytes = npy_header(Order::C, image.grid.rows, image.grid.columns);
+    bytes.extend(image.labels.iter().flat_map(|label| label.to_le_bytes()));
+    bytes
 }

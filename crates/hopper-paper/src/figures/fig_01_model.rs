@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
-use journal_figures::{Anchor, Pen, Svg};
+use journal_figures::{Anchor, Path, Pen, Svg};
 use repository_tools::Progress;
 
 const INK: Pen = Pen::solid("#000", 1.1);
@@ -46,7 +46,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 velocities are $v$_{1}, $v$_{2}. The \
                 contact ends when the spring's pull $kx$_{1} reaches the lower mass's weight."
             .into(),
-        svg: svg.finish(),
+        svg,
         data: Vec::new(),
     })
 }
@@ -78,15 +78,14 @@ fn block(svg: &mut Svg, x: f64, bottom: f64, label: &str) {
 
 fn spring(svg: &mut Svg, x: f64, bottom: f64, top: f64) {
     let turns = 12;
-    let mut d = format!("M{x:.2} {bottom:.2}");
     let step = (bottom - top) / (turns as f64 + 2.0);
-    d.push_str(&format!("L{x:.2} {:.2}", bottom - step));
-    for k in 0..turns {
+    let coils = (0..turns).map(|k| {
         let side = if k % 2 == 0 { 9.0 } else { -9.0 };
-        d.push_str(&format!("L{:.2} {:.2}", x + side, bottom - step * (k as f64 + 1.5)));
-    }
-    d.push_str(&format!("L{x:.2} {:.2}L{x:.2} {top:.2}", top + step));
-    svg.path(&d, SPRING);
+        (x + side, bottom - step * (k as f64 + 1.5))
+    });
+    let points = [(x, bottom), (x, bottom - step)].into_iter().chain(coils);
+    let points = points.chain([(x, top + step), (x, top)]);
+    svg.path(Path::polyline(points), SPRING);
 }
 
 /// Arrows beside the blocks; `lower` and `upper` are the bottoms of the blocks on the page.

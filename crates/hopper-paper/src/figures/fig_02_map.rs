@@ -21,14 +21,14 @@ const CURVES: [(f64, Pen); 4] = [
 pub(super) fn cuts(n: u64) -> Vec<f64> {
     let mut cuts = vec![1e-3];
     for k in 1..=n {
-        cuts.extend([k as f64 * PI, alpha_star(k).high]);
+        cuts.extend([k as f64 * PI, alpha_star(k)]);
     }
     cuts
 }
 
 /// Draws the graphs.
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
-    let top = alpha_star(5).high;
+    let top = alpha_star(5);
     let mut svg = Svg::new(560.0, 540.0);
     let frame = Frame::linear(62.0, 16.0, 480.0, 470.0, (0.0, 17.8), (0.0, 17.8));
     let mut rows = Vec::new();
@@ -47,7 +47,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         }
     });
     for n in 1..=5 {
-        let star = alpha_star(n).high;
+        let star = alpha_star(n);
         let (x, y) = frame.at((star, star));
         svg.dot(x, y, 3.2, "#000");
         svg.text(x - 8.0, y - 6.0, Anchor::End, 11.5, &format!("$α$^{{∗}}_{{{n}}}"));
@@ -78,7 +78,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
              up to $α$^{{∗}}_{{5}} = {top:.3}. At $M$ = 1 gaps open in which the hopper is grounded; \
              between $nπ$ and $α$^{{∗}}_{{n}} the first landing is sudden."
         ),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("fig_02_map.csv", &["mass_ratio", "alpha", "alpha_next"], rows)?],
     })
 }

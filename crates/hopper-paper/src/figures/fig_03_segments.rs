@@ -28,7 +28,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let ratio = MassRatio::new(M)?;
     let map = LiftOffMap::new(ratio);
     let trap = Trap::new(1, ratio)?;
-    let star = alpha_star(1).high;
+    let star = alpha_star(1);
     let segments = [
         Segment { name: "$α$_{L}", says: "sudden lift-off", alpha: 3.8 },
         Segment { name: "$α$_{S}", says: "incessant hopping", alpha: star + 0.6 * trap.delta },
@@ -134,7 +134,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
              displacements of $m$_{{2}}$g$/$k$. Elsewhere on $α$_{{R}} hops may also die out without end (the decaying fate).",
             segments[0].alpha, segments[1].alpha, segments[2].alpha, segments[3].alpha
         ),
-        svg: svg.finish(),
+        svg,
         data: vec![
             csv_file(
                 "fig_03_map.csv",
@@ -148,7 +148,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
 
 /// The peak, enlarged: α_S is a hundredth wide, too narrow for the main frame.
 fn inset(svg: &mut Svg, map: &LiftOffMap, trap: &Trap) -> Result<(), Error> {
-    let star = trap.star.high;
+    let star = trap.fixed_point.value();
     let range = (star - 0.012, trap.right() + 0.012);
     let frame = Frame::linear(166.0, 226.0, 92.0, 92.0, range, (star - 0.016, star + 0.006));
     svg.fill_rect(frame.left, frame.top, frame.width, frame.height, "#ffffff");

@@ -18,7 +18,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let map = LiftOffMap::new(MassRatio::ONE);
     let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?;
     let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
-    let star = alpha_star(1).high;
+    let star = alpha_star(1);
     // f has a term δ^{4/3} at α*: squares of equal steps crowd the points there, and the curve stays smooth.
     let side =
         |end: f64| (0..=80).map(move |k| star + (end - star) * (f64::from(k) / 80.0).powi(2));
@@ -74,7 +74,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 On the left, which the paper does not give, the loss is ten times as steep. Sampled \
                 at 162 points."
             .into(),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("fig_04_local_map.csv", &["alpha", "exact", "printed", "corrected"], rows)?],
     })
 }

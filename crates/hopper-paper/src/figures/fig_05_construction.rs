@@ -25,9 +25,9 @@ pub(crate) fn levels() -> Result<Vec<IntervalSet>, Error> {
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let levels = levels()?;
     let map = LiftOffMap::new(MassRatio::new(M)?);
-    let window = (4.2, alpha_star(3).high);
+    let window = (4.2, alpha_star(3));
     let mut svg = Svg::new(620.0, 630.0);
-    let top = Frame::linear(62.0, 16.0, 530.0, 330.0, window, (0.0, alpha_star(3).high));
+    let top = Frame::linear(62.0, 16.0, 530.0, 330.0, window, (0.0, alpha_star(3)));
     draw_map(&mut svg, &top, &map, &levels);
     top.axes(&mut svg, &ticks(window, 7), &ticks(top.y, 6), "$α$_{n} (dimensionless)", "$α$_{n+1}");
     svg.text(top.left + 8.0, top.top + 16.0, Anchor::Start, 13.0, &format!("(a)  $M$ = {M}"));
@@ -71,7 +71,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         );
     }
     for n in 1..=3 {
-        let x = bars.at((alpha_star(n).high, 0.0)).0;
+        let x = bars.at((alpha_star(n), 0.0)).0;
         svg.line((x, bars.top + 4.0), (x, bars.top + 176.0), Pen::dashed("#000", 0.5, "2 2"));
         svg.text(x, bars.top + 190.0, Anchor::Middle, 12.0, &format!("$α$^{{∗}}_{{{n}}}"));
     }
@@ -98,7 +98,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
              preimages (box dimension 1/4).",
             counts.join(", ")
         ),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("fig_05_levels.csv", &["level", "left", "right"], rows)?],
     })
 }

@@ -3,7 +3,7 @@
 use super::basin_plot::{Window, basin_figure};
 use crate::error::Error;
 use crate::figure::Figure;
-use hopper_basin::five_humps;
+use hopper_basin::first_humps;
 use repository_tools::Progress;
 
 /// (M, α) windows of Figs. 8 and 9. The limits of Fig. 8 are lost in our copy of the paper: [α*₄, α*₆] holds Fig. 9.
@@ -19,7 +19,7 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_06_basin",
         mass_ratio: (0.02, 1.0),
-        alpha: (five_humps().left, five_humps().right),
+        alpha: (first_humps(5).left, first_humps(5).right),
         inset: Some((FIGURE_8.0, FIGURE_8.1, "Fig. 8")),
         tick_counts: (6, 8),
     };
@@ -42,7 +42,7 @@ pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_07_basin_large_mass_ratio",
         mass_ratio: (1.0, 10.0),
-        alpha: (five_humps().left, five_humps().right),
+        alpha: (first_humps(5).left, first_humps(5).right),
         inset: None,
         tick_counts: (9, 8),
     };

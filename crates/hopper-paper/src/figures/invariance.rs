@@ -21,8 +21,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let mut svg = Svg::new(620.0, 560.0);
     let top = Frame::linear(66.0, 16.0, 530.0, 290.0, window, (0.0, 12.8));
     for n in 1..4 {
-        let (x0, x1) =
-            (top.at((f64::from(n) * PI, 0.0)).0, top.at((alpha_star(n as u64).high, 0.0)).0);
+        let (x0, x1) = (top.at((f64::from(n) * PI, 0.0)).0, top.at((alpha_star(n as u64), 0.0)).0);
         svg.fill_rect(x0, top.top, x1 - x0, top.height, "#eeeeec");
     }
     let mut cuts: Vec<f64> = super::fig_02_map::cuts(3).into_iter().filter(|&c| c >= PI).collect();
@@ -81,7 +80,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 elsewhere the two maps differ by rounding only (differences of exactly zero are \
                 drawn at the foot, marked 0)."
             .into(),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("invariance.csv", &["alpha", "next_light", "next_heavy"], rows)?],
     })
 }

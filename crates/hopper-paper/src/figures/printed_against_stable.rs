@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
-use hopper_asymptotics::{Coefficients, Form, Left, Right};
+use hopper_asymptotics::{Coefficients, Form, LeftExpansion, RightExpansion};
 use journal_figures::{Anchor, Frame, Marker, Svg, csv_file, decades};
 use passive_hopper::{LiftOffMap, MassRatio, printed_image};
 use repository_tools::{Progress, number, parse_rows, repository};
@@ -78,7 +78,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 printed $λ$ by one third. Errors beyond the frame are drawn on it. A printed form that errs by \
                 more than all of the loss has gained energy."
             .into(),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("printed_against_stable.csv", &columns, data)?],
     })
 }
@@ -109,11 +109,11 @@ fn row(row: &Value) -> Result<Row, Error> {
         errors[0] = printed.map(|next| off(alpha - next, at_alpha));
         errors[1] = map.hop(alpha)?.loss.map(|loss| off(loss, at_alpha));
     }
-    errors[2] = map.hop_about(1, offset)?.loss.map(|loss| off(loss, exact));
+    errors[2] = map.hop_near_fixed_point(1, offset)?.loss.map(|loss| off(loss, exact));
     let expansion = if offset > 0.0 {
-        Right::new(1, MassRatio::ONE)?.loss(offset)
+        RightExpansion::new(1, MassRatio::ONE)?.loss(offset)
     } else {
-        Left::new(1, MassRatio::ONE)?.loss(offset)
+        LeftExpansion::new(1, MassRatio::ONE)?.loss(offset)
     };
     errors[3] = expansion.ok().map(|expansion| off(expansion.value, exact));
     for (form, place) in [(Form::Corrected, 4), (Form::Printed, 5)] {

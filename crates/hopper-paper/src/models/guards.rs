@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use hybrid_system::{Direction, FirstCrossing, Signal};
+use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg};
 
 const CURVE: Pen = Pen::solid("#10386e", 1.8);
@@ -13,21 +13,21 @@ const BAND: &str = "#ececea";
 struct Case {
     title: &'static str,
     says: &'static str,
-    signal: Signal,
+    signal: QuasiPolynomial,
     horizon: f64,
     range: (f64, f64),
 }
 
 fn cases() -> Vec<Case> {
     // 3 (t − 0.84)(t − 1.16)(3 − t): it is negative for 0.32 only, and samples at 0.8 and 1.2 miss that.
-    let narrow = Signal::polynomial(&[-0.84, 1.0])
-        * Signal::polynomial(&[-1.16, 1.0])
-        * Signal::polynomial(&[9.0, -3.0]);
+    let narrow = QuasiPolynomial::polynomial(&[-0.84, 1.0])
+        * QuasiPolynomial::polynomial(&[-1.16, 1.0])
+        * QuasiPolynomial::polynomial(&[9.0, -3.0]);
     vec![
         Case {
             title: "a crossing",
             says: "the first change of sign",
-            signal: Signal::cosine(1.0, 1.4) + Signal::polynomial(&[0.15]),
+            signal: QuasiPolynomial::cosine(1.0, 1.4) + QuasiPolynomial::polynomial(&[0.15]),
             horizon: 3.2,
             range: (-1.1, 1.3),
         },
@@ -41,14 +41,14 @@ fn cases() -> Vec<Case> {
         Case {
             title: "a touch",
             says: "an error: grazing at this time",
-            signal: Signal::polynomial(&[1.0, -1.6, 0.64]),
+            signal: QuasiPolynomial::polynomial(&[1.0, -1.6, 0.64]),
             horizon: 3.0,
             range: (-0.5, 1.3),
         },
         Case {
             title: "a start at zero",
             says: "left upwards, like $t$^{3}; then back",
-            signal: Signal::polynomial(&[0.0, 0.0, 0.0, 1.0, -0.5]),
+            signal: QuasiPolynomial::polynomial(&[0.0, 0.0, 0.0, 1.0, -0.5]),
             horizon: 2.6,
             range: (-1.4, 1.3),
         },
@@ -91,7 +91,7 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         title: "How a guard along a flow can meet zero".into(),
         paper: "Not in the paper.".into(),
         notes: "Falling guards as signals; what the search returns is marked.".into(),
-        svg: svg.finish(),
+        svg,
         data: Vec::new(),
     })
 }

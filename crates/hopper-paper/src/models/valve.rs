@@ -70,7 +70,7 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         notes: format!(
             "{DRAWN} turns after {TRANSIENT}, from (0.2, 0, 0), tolerances 10^{{−10}}, {COLUMNS} flow rates"
         ),
-        svg: svg.finish(),
+        svg,
         data: vec![csv_file("valve.csv", &["flow_rate", "displacement"], rows)?],
     })
 }

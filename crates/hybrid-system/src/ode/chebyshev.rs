@@ -2,17 +2,20 @@
 
 use std::sync::LazyLock;
 
-/// Nodes that a guard, and the state along a step, are followed by.
+/// Number of nodes, for the state along a step and for a guard along it. The interpolants of the state have degree
+/// eight, so that a smooth guard of it has degree 16 or more: 16 values show whether its coefficients decay. More nodes
+/// cost more evaluations on every interval; fewer mean more halvings.
 pub(super) const NODES: usize = 16;
 
-/// The nodes, and the matrix from values there to Chebyshev coefficients.
+/// The Chebyshev nodes in [−1, 1], and the matrix from values there to Chebyshev coefficients.
 pub(super) struct Transform {
-    /// cos((2j + 1)π/2V) with V nodes, from right to left.
+    /// cos((2j + 1)π/2V) for V nodes, from right to left.
     pub(super) nodes: [f64; NODES],
     /// Row k: (2 − δₖ₀)/V · cos(k(2j + 1)π/2V).
     weights: [[f64; NODES]; NODES],
 }
 
+/// Built once, at the first use.
 pub(super) static CHEBYSHEV: LazyLock<Transform> = LazyLock::new(Transform::new);
 
 impl Transform {
@@ -27,7 +30,8 @@ impl Transform {
         Transform { nodes, weights }
     }
 
-    /// The first Chebyshev coefficients of the polynomial with these values at the nodes.
+    /// The first K Chebyshev coefficients of the polynomial with these values at the nodes: numbers, or states
+    /// component by component.
     pub(super) fn coefficients<T, const K: usize>(&self, values: &[T; NODES]) -> [T; K]
     where
         T: Copy + std::ops::Add<Output = T> + std::ops::Mul<f64, Output = T>,
@@ -45,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn polynomials_of_their_degree_are_exact() {
+    fn coefficients_of_a_polynomial_are_exact() {
         // T₉ + 2T₃ − 1 at the nodes: cos 9θ + 2 cos 3θ − 1.
         let values = CHEBYSHEV.nodes.map(|u| {
             let angle = pxfm::f_acos(u);

@@ -1,14 +1,18 @@
-//! Modes whose flow is integrated.
+//! The two calls that a model with an integrated mode needs: its flow, and its first crossing.
 
+use super::integration::Integration;
 use super::search::search;
-use super::{Integration, Tolerances};
-use crate::{Crossing, Error, State, VectorField};
+use super::tolerances::Tolerances;
+use crate::crossing::Crossing;
+use crate::error::Error;
+use crate::state::State;
+use crate::system::VectorField;
 
-/// The state after `time` along ẋ = f(x): what [`HybridSystem::flow`](crate::HybridSystem::flow) gives
-/// in a mode without closed form.
+/// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
+/// mode without closed form.
 ///
-/// A flow that cannot be integrated so far has a state that is not a number, which
-/// [`Arc::state`](crate::Arc::state) and executions refuse; [`Integration`] tells why.
+/// If the integration fails before `time`, all components are NaN. [`Arc::state`](crate::Arc::state) and executions
+/// return such a state as an error; [`Integration`] gives the reason.
 pub fn integrated_flow<T, const N: usize>(
     system: &T,
     mode: T::Mode,
@@ -36,17 +40,17 @@ where
     state().unwrap_or_else(|_: Error| State::repeat(f64::NAN))
 }
 
-/// The first crossing of a guard of `mode` along ẋ = f(x): what
-/// [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing) gives in a mode without closed form.
+/// The first crossing of a guard of `mode` along ẋ = f(x): the value that
+/// [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing) returns in a mode without closed form.
 ///
-/// On each step of the integrator every guard is a function of time, by the integrator's interpolant. A step on
-/// which its values at the stages and at eighths of the step keep away from zero is passed over. Else a polynomial is
-/// laid through 16 values, on halves of the step where its last coefficients have not decayed, and no
-/// zero of that polynomial is missed: [`Certainty::Interpolated`](crate::Certainty::Interpolated). A guard
-/// that starts at zero, but for rounding, counts by the side to which it leaves. Up to eight guards nothing
+/// On each step the integrator's interpolant makes every guard a function of time. A step is passed over if the
+/// guard stays far from zero at the stages and at eighths of the step. Otherwise the guard is represented by the
+/// polynomial through 16 of its values. An interval on which the last coefficients of that polynomial are not small
+/// is halved. No zero of these polynomials is missed: [`Certainty::Interpolated`](crate::Certainty::Interpolated).
+/// A guard that starts at zero, within rounding, counts by the side to which it leaves. Up to eight guards nothing
 /// is allocated.
 ///
-/// A system with one integrated mode, a ball in air that slows it down:
+/// A system with one integrated mode, a ball with air drag:
 ///
 /// ```
 /// use hybrid_system::*;
@@ -84,13 +88,14 @@ where
 ///
 /// let start = Vector2::new(2.0, 0.0);
 /// let landing = Ball { drag: 0.5 }.first_crossing((), &start, 9.0, None)?.expect("it falls");
-/// // From height h it lands with v² = (1 − e^(−2kh))/k.
+/// // From height h the ball lands with v² = (1 − e^(−2kh))/k.
 /// assert!((landing.state[1].powi(2) - 2.0 * (1.0 - (-2f64).exp())).abs() < 1e-11);
 /// # Ok::<(), Error>(())
 /// ```
 ///
 /// # Errors
-/// [`Error::Grazing`] where a guard comes within rounding of its surface; those of [`Integration`].
+/// [`Error::Grazing`] where a guard comes within rounding of its surface; [`Error::UndecidedStart`] if rounding
+/// hides how a guard leaves a start on its surface; the errors of [`Integration`].
 pub fn integrated_crossing<T, const N: usize>(
     system: &T,
     mode: T::Mode,

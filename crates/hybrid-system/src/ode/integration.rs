@@ -1,53 +1,41 @@
-//! Solutions of ẋ = f(t, x), step by step, each step with a polynomial inside.
+//! Solutions of ẋ = f(t, x), step by step, with a polynomial for the state inside each step.
 
 use super::chebyshev::NODES;
+use super::first_step::first_step;
 use super::scheme::{ALL_STAGES, Scheme, inverse_root};
 use super::step::Step;
-use super::{first_step, vector::Vector};
-use crate::{Error, State};
+use super::tolerances::Tolerances;
+use super::vector::Vector;
+use crate::error::Error;
+use crate::state::State;
 
-/// How exactly a flow is integrated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Tolerances {
-    /// Error of a step relative to the state, component by component.
-    pub relative: f64,
-    /// Error of a step where the state is near zero, in units of the state.
-    pub absolute: f64,
-    /// Steps that one integration may take.
-    pub steps: usize,
-}
+// The step-size controller: h_new = h · clamp(SAFETY · error^(−1/order), SMALLEST_FACTOR, LARGEST_FACTOR), with the
+// error in units of the tolerance. Its constants are the usual ones (Hairer, Nørsett, Wanner, II.4). They trade
+// rejected steps for shorter steps and never affect whether a step meets its tolerance.
 
-impl Tolerances {
-    /// The same relative and absolute tolerance, and 100 000 steps.
-    pub const fn both(tolerance: f64) -> Self {
-        Tolerances { relative: tolerance, absolute: tolerance, steps: 100_000 }
-    }
-
-    fn check(&self) -> Result<(), Error> {
-        match [self.relative, self.absolute].into_iter().find(|t| !(*t > 0.0 && t.is_finite())) {
-            Some(value) => Err(Error::BadTolerance { value }),
-            None => Ok(()),
-        }
-    }
-}
-
-/// The part of the new size that a step is given.
+/// Safety factor of the step-size controller. Steps of exactly the predicted size would often be rejected.
 const SAFETY: f64 = 0.9;
 
-/// A step is at least this part of the one before.
-const SMALLER: f64 = 0.2;
+/// A step is at least this fraction of the step before. One very large error may come from outside the range where the
+/// prediction holds, and should not stop the integration.
+const SMALLEST_FACTOR: f64 = 0.2;
 
-/// And at most this multiple.
-const LARGER: f64 = 10.0;
+/// A step is at most this multiple of the step before. An error may be small by chance.
+const LARGEST_FACTOR: f64 = 10.0;
 
-/// Steps in a row that may be rejected.
-const REJECTED: usize = 100;
+/// Smallest step, relative to the last accepted one. Shorter steps mean that the field is not smooth there or that the
+/// solution is leaving for infinity; the integration ends with [`Error::Integration`].
+const SMALLEST_STEP: f64 = 1e-14;
+
+/// Trials of one step. Each rejection shortens the step, usually by far. After a hundred rejections in a row the
+/// integration ends with [`Error::Integration`].
+const MOST_TRIALS: usize = 100;
 
 /// A solution of ẋ = f(t, x), followed step by step.
 ///
-/// Verner's pair of orders 9 and 8, or 8 and 7 for tolerances from 2e-11 on. The tolerance bounds the estimated error of each step; errors of steps add up
-/// and are carried on by the flow. The arithmetic is the same on every machine, as far as the field's is.
-/// Nothing is allocated.
+/// The scheme is Verner's pair of orders 9 and 8, or of orders 8 and 7 for relative tolerances from 2e-11 on. The
+/// tolerance bounds the estimated error of each step. The flow carries these errors on, and they add up. The
+/// results are the same on every machine if those of the field are. Nothing is allocated.
 ///
 /// ```
 /// use hybrid_system::{Integration, Tolerances};
@@ -64,12 +52,12 @@ const REJECTED: usize = 100;
 /// ```
 pub struct Integration<F, const N: usize> {
     inner: Steps<F, State<N>>,
-    /// The polynomial of the last step, once it has been asked for.
+    /// The polynomial of the last step; `None` until [`at`](Self::at) needs it.
     inside: Option<Step<N>>,
 }
 
 impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
-    /// From `start` at time zero.
+    /// Starts from `start` at time zero.
     ///
     /// # Errors
     /// [`Error::BadTolerance`] unless both tolerances are positive and finite,
@@ -78,13 +66,13 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         Ok(Integration { inner: Steps::new(field, start, tolerances)?, inside: None })
     }
 
-    /// With a first step no longer than this.
+    /// The same with a first step no longer than this.
     pub(super) fn starting_with(mut self, longest: f64) -> Self {
         self.inner.next = self.inner.next.min(longest);
         self
     }
 
-    /// The times that the last step leads from and to; both zero before the first.
+    /// Start and end of the last step; both zero before the first step.
     pub fn interval(&self) -> (f64, f64) {
         (self.inner.from, self.inner.time)
     }
@@ -94,10 +82,10 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         self.inner.state
     }
 
-    /// Takes a step within the tolerances.
+    /// Takes one step within the tolerances.
     ///
     /// # Errors
-    /// [`Error::Integration`] if the tolerances cannot be met, or no steps are left;
+    /// [`Error::Integration`] if no step meets the tolerances, or no steps are left;
     /// [`Error::StateNotFinite`] if the state is no longer finite.
     pub fn step(&mut self) -> Result<(), Error> {
         self.inside = None;
@@ -124,11 +112,15 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         self.inner.inside()
     }
 
-    /// States all over the last step, to the shape of the orbit: those of its stages, and of the cubic between its
-    /// ends, eight to the step.
+    /// States along the last step that cost no evaluation of the field: those of its stages, and nine of the cubic
+    /// through both ends with their slopes, an eighth of the step apart.
+    ///
+    /// They follow the shape of the orbit, not its digits: the stages are of low order, and the error of the cubic
+    /// is of order h⁴. They serve to see that a guard stays far from zero.
     pub(super) fn samples(&self) -> impl Iterator<Item = State<N>> {
         let Steps { before, state, slopes, slope, last, stages, scheme, .. } = &self.inner;
         let cubic = (0..=8).map(move |k| {
+            // The cubic Hermite interpolant at s ∈ [0, 1], r = 1 − s.
             let s = 0.125 * f64::from(k);
             let (r, part) = (1.0 - s, s * (1.0 - s) * last);
             before * (r * r * (1.0 + 2.0 * s))
@@ -138,41 +130,45 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         stages[1..scheme.stages].iter().copied().chain(cubic)
     }
 
-    /// As [`Steps::directly_at`].
+    /// The state at a time in the last step, as [`Steps::directly_at`] gives it.
     pub(super) fn directly_at(&mut self, time: f64) -> Result<State<N>, Error> {
         self.inner.directly_at(time)
     }
 }
 
 /// Steps of the scheme, for states of any kind.
+///
+/// Invariant: `slope` is the field at (`time`, `state`), and after a step `slopes` and `stages` belong to the step from
+/// (`from`, `before`) of size `last`, until [`directly_at`](Self::directly_at) overwrites them.
 pub(super) struct Steps<F, V> {
     field: F,
     tolerances: Tolerances,
     scheme: &'static Scheme,
-    /// Time and state before the last step.
+    /// Time and state at the start of the last step.
     from: f64,
     before: V,
-    /// Time, state and its derivative now.
+    /// Time, state and its derivative at the end of the last step.
     pub(super) time: f64,
     state: V,
     slope: V,
-    /// The states at the stages of the last step, and the field there.
+    /// The states at the stages of the last step, and the field at each of them.
     stages: [V; ALL_STAGES],
     slopes: [V; ALL_STAGES],
-    /// Whether those of the interpolant are among them.
+    /// True if the stages of the interpolant have been computed, too. Most steps never need them.
     dense: bool,
-    /// Size of the last step, and of the next.
+    /// Size of the last step, and planned size of the next.
     last: f64,
     next: f64,
+    /// Number of trials, rejected ones included.
     taken: usize,
 }
 
 impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     pub(super) fn new(field: F, start: &V, tolerances: Tolerances) -> Result<Self, Error> {
         tolerances.check()?;
-        start.finite(0.0)?;
+        start.check_finite(0.0)?;
         let slope = field(0.0, start);
-        slope.finite(0.0)?;
+        slope.check_finite(0.0)?;
         let scheme = Scheme::within(tolerances.relative);
         let next = first_step(&field, start, &slope, tolerances, scheme.order);
         Ok(Steps {
@@ -195,10 +191,10 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
 
     pub(super) fn step(&mut self) -> Result<(), Error> {
         let failed = |reason, time| Err(Error::Integration { reason, time });
-        let mut most = LARGER;
-        for _ in 0..REJECTED {
+        let mut largest_factor = LARGEST_FACTOR;
+        for _ in 0..MOST_TRIALS {
             let size = self.next;
-            if size < 1e-14 * self.last || self.time + size <= self.time {
+            if size < SMALLEST_STEP * self.last || self.time + size <= self.time {
                 return failed("the step size has become too small", self.time);
             }
             if self.taken >= self.tolerances.steps {
@@ -207,19 +203,24 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
             self.taken += 1;
             self.slopes[0] = self.slope;
             let (state, error) = self.trial(size);
-            let norm = error.relative_to(&self.state, &state, &self.tolerances);
-            // A trial state outside the field's domain asks for a smaller step, too.
-            let wish = SAFETY * inverse_root(norm, self.scheme.order);
-            let scale = if norm.is_finite() { wish.clamp(SMALLER, most) } else { SMALLER };
-            self.next = size * scale;
+            let norm = error.in_tolerances(&self.state, &state, &self.tolerances);
+            // The norm is not finite if a stage lies outside the domain of the field: a shorter step may stay inside.
+            let predicted = SAFETY * inverse_root(norm, self.scheme.order);
+            let factor = if norm.is_finite() {
+                predicted.clamp(SMALLEST_FACTOR, largest_factor)
+            } else {
+                SMALLEST_FACTOR
+            };
+            self.next = size * factor;
             if norm <= 1.0 {
                 self.dense = false;
                 (self.from, self.before) = (self.time, self.state);
                 (self.time, self.state, self.last) = (self.time + size, state, size);
                 self.slope = (self.field)(self.time, &self.state);
-                return self.state.finite(self.time);
+                return self.state.check_finite(self.time);
             }
-            most = 1.0;
+            // After a rejection the next trial must not be longer.
+            largest_factor = 1.0;
         }
         failed("a hundred steps in a row were rejected", self.time)
     }
@@ -239,15 +240,17 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         (after, error)
     }
 
-    /// One stage of a step from a state.
+    /// Computes one stage of a step of this size from `from` at `time`.
     fn stage(&mut self, stage: usize, time: f64, from: V, size: f64) {
         let at = V::combination(&from, size, &self.scheme.rows[stage], &self.slopes);
         self.stages[stage] = at;
         self.slopes[stage] = (self.field)(time + size * self.scheme.times[stage], &at);
     }
 
-    /// The state at a time in the last step, by a step of its own that ends there: without the rounding of
-    /// the interpolant, whose coefficients are large. Its stages take the place of those of the last step.
+    /// The state at a time in the last step, by a separate step that ends there.
+    ///
+    /// Unlike the interpolant, whose coefficients are large and cancel, this loses no digits. Its stages overwrite
+    /// those of the last step.
     pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
         let size = time - self.from;
         let mut state = self.before;
@@ -257,12 +260,12 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         for (slope, b) in self.slopes.iter().zip(&self.scheme.weights) {
             state.add(size * b, slope);
         }
-        state.finite(time).map(|()| state)
+        state.check_finite(time).map(|()| state)
     }
 }
 
 impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Steps<F, State<N>> {
-    /// The polynomial of the last step.
+    /// The polynomial of the last step: at node j the state is before + h Σᵢ bᵢ(sⱼ) kᵢ.
     fn inside(&mut self) -> Step<N> {
         if !self.dense {
             for stage in self.scheme.stages..ALL_STAGES {
@@ -270,16 +273,16 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Steps<F, State<N>> {
             }
             self.dense = true;
         }
-        let mut moves = [[0.0; NODES]; N];
+        let mut changes = [[0.0; NODES]; N];
         for (slope, weights) in self.slopes.iter().zip(&self.scheme.nodes) {
-            for (axis, moves) in moves.iter_mut().enumerate() {
-                for (sum, weight) in moves.iter_mut().zip(weights) {
+            for (axis, changes) in changes.iter_mut().enumerate() {
+                for (sum, weight) in changes.iter_mut().zip(weights) {
                     *sum += weight * slope[axis];
                 }
             }
         }
         let node =
-            |j: usize| State::from_fn(|axis, _| self.before[axis] + self.last * moves[axis][j]);
+            |j: usize| State::from_fn(|axis, _| self.before[axis] + self.last * changes[axis][j]);
         Step::new(self.from, self.time, std::array::from_fn(node))
     }
 }
@@ -293,10 +296,10 @@ mod tests {
         Vector2::new(x[1], -x[0])
     }
 
-    /// The interpolant is as good as the steps: errors everywhere within a step follow the tolerance.
+    /// The interpolant is as accurate as the steps: errors everywhere inside a step are proportional to the tolerance.
     #[test]
-    #[allow(clippy::disallowed_methods)] // the tolerance is far above a misrounding
-    fn the_error_follows_the_tolerance_inside_the_steps_too() {
+    #[allow(clippy::disallowed_methods)] // std's sine is off by an ulp on some machines, far below the tolerance
+    fn errors_inside_steps_follow_the_tolerance() {
         for exponent in 3..=12 {
             let tolerance = 10f64.powi(-exponent);
             let start = Vector2::new(1.0, 0.0);
@@ -317,21 +320,21 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_integrated_is_an_error() {
+    fn a_field_that_is_not_finite_is_an_error() {
         let start = Vector2::new(1.0, 0.0);
         let tolerances = Tolerances::both(1e-9);
         let bad = Integration::new(pendulum, &start, Tolerances::both(0.0));
         assert_eq!(bad.err(), Some(Error::BadTolerance { value: 0.0 }));
-        let nowhere = |_: f64, _: &Vector2<f64>| Vector2::new(f64::NAN, 0.0);
-        let bad = Integration::new(nowhere, &start, tolerances).err();
+        let not_a_number = |_: f64, _: &Vector2<f64>| Vector2::new(f64::NAN, 0.0);
+        let bad = Integration::new(not_a_number, &start, tolerances).err();
         assert!(matches!(bad, Some(Error::StateNotFinite { .. })));
-        // x' = x² leaves for infinity at t = 1.
+        // The solution of x′ = x² goes to infinity at t = 1.
         let blow_up = |_: f64, x: &Vector2<f64>| Vector2::new(x[0] * x[0], 0.0);
         let mut run = Integration::new(blow_up, &start, tolerances).unwrap();
         let error = (0..100_000).find_map(|_| run.step().err()).unwrap();
         assert!(matches!(error, Error::Integration { .. } | Error::StateNotFinite { .. }));
         assert!(run.interval().1 < 1.0 + 1e-7);
-        // A field with a jump in time that is not finite beyond it.
+        // A field that is not finite after t = 1.
         let wall =
             |t: f64, _: &Vector2<f64>| Vector2::new(if t > 1.0 { f64::NAN } else { 1.0 }, 0.0);
         let mut run = Integration::new(wall, &start, tolerances).unwrap();
@@ -339,7 +342,7 @@ mod tests {
     }
 
     #[test]
-    fn steps_are_bounded() {
+    fn the_number_of_steps_is_limited() {
         let tolerances = Tolerances { steps: 10, ..Tolerances::both(1e-12) };
         let mut run = Integration::new(pendulum, &Vector2::new(1.0, 0.0), tolerances).unwrap();
         let error = (0..100).find_map(|_| run.step().err()).unwrap();

@@ -1,17 +1,24 @@
-//! Flows given as ẋ = f(t, x) (feature `ode`).
+//! How is a flow followed that is only given as ẋ = f(t, x)? (feature `ode`)
+//!
+//! [`Integration`] takes the steps of a Runge–Kutta scheme of Verner, whose coefficients come from the crate
+//! `differential-equations` (`scheme`). Inside each step the state is a polynomial (`step`, through values at the
+//! nodes of `chebyshev`). `search` follows all guards of a mode from step to step, one `followed_guard` each, which
+//! decides by `polynomial_test` whether a step holds a crossing. A model calls `flow` and `variation`.
 
 mod chebyshev;
 mod first_step;
 mod flow;
+mod followed_guard;
 mod integration;
+mod polynomial_test;
 mod scheme;
 mod search;
 mod step;
+mod tolerances;
 mod variation;
 mod vector;
-mod watch;
 
-use first_step::first_step;
 pub use flow::{integrated_crossing, integrated_flow};
-pub use integration::{Integration, Tolerances};
+pub use integration::Integration;
+pub use tolerances::Tolerances;
 pub use variation::{Linearized, integrated_jacobian};

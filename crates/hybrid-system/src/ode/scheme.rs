@@ -1,41 +1,45 @@
-//! The Runge–Kutta schemes: Verner's pairs 9(8) and 8(7), with interpolants of order 8.
+//! The Runge–Kutta schemes: J. H. Verner's "efficient" pairs of orders 9(8) and 8(7), with interpolants of order 8.
 //!
-//! The only file that uses `differential-equations`, for its tables of coefficients.
+//! The coefficients are the tables `rkv988e` and `rkv878e` of the crate `differential-equations`, which copies them
+//! from Verner's pages. This is the only file that uses that crate, and only for these tables. The tests check the
+//! sums that make a scheme consistent.
 
 use super::chebyshev::{CHEBYSHEV, NODES};
 use differential_equations::tableau::ButcherTableau;
 use std::sync::LazyLock;
 
-/// Stages of a step with those of its interpolant.
+/// Stages of a step together with those of its interpolant, in both tables.
 pub(super) const ALL_STAGES: usize = 21;
 
-/// Coefficients, as a step needs them.
+/// The coefficients of a scheme, arranged as a step needs them.
 pub(super) struct Scheme {
-    /// Order of a step.
+    /// Order of a step, the higher one of the pair.
     pub(super) order: u32,
-    /// Stages of a step.
+    /// Stages of a step without those of its interpolant.
     pub(super) stages: usize,
-    /// bᵢ.
+    /// bᵢ: a step is x + h Σ bᵢ kᵢ.
     pub(super) weights: Vec<f64>,
-    /// bᵢ less those of the lower order.
+    /// bᵢ minus the weights of the lower order: h Σ eᵢ kᵢ estimates the error of a step.
     pub(super) errors: Vec<f64>,
-    /// cᵢ.
+    /// cᵢ: stage i is at time t + cᵢ h.
     pub(super) times: [f64; ALL_STAGES],
-    /// Row i: the aᵢⱼ that are not zero, with their j, by twos; a zero may fill the last.
+    /// Row i: the aᵢⱼ that are not zero, as (j, aᵢⱼ), in pairs. The last pair may be filled with a zero.
     pub(super) rows: [Vec<[(usize, f64); 2]>; ALL_STAGES],
-    /// By stages: the weights of the interpolant at the Chebyshev nodes of the step.
+    /// Row i: the weights of stage i in the interpolant at the Chebyshev nodes of the step.
     pub(super) nodes: [[f64; NODES]; ALL_STAGES],
 }
 
-/// For tight tolerances.
+/// Orders 9(8), 16 stages: for tight tolerances.
 static NINE: LazyLock<Scheme> =
     LazyLock::new(|| Scheme::new(9, &ButcherTableau::<f64, 16, ALL_STAGES>::rkv988e()));
 
-/// For others: fewer stages a step.
+/// Orders 8(7), 13 stages: for all other tolerances.
 static EIGHT: LazyLock<Scheme> =
     LazyLock::new(|| Scheme::new(8, &ButcherTableau::<f64, 13, ALL_STAGES>::rkv878e()));
 
-/// The tolerance under which order nine takes less time: measured on a valve whose stability limits the steps.
+/// The tolerance below which order nine takes less time. Chosen by measurement, on the pressure relief valve of the
+/// crate `return-map`, whose steps are limited by stability. It affects speed only: both schemes meet every
+/// tolerance.
 const TIGHT: f64 = 2e-11;
 
 impl Scheme {
@@ -47,6 +51,7 @@ impl Scheme {
     fn new<const S: usize>(order: u32, table: &ButcherTableau<f64, S, ALL_STAGES>) -> Self {
         let lower = table.bh.unwrap_or(table.b);
         let inside = table.bi.unwrap_or([[0.0; ALL_STAGES]; ALL_STAGES]);
+        // Each step sums a row in two independent halves, the even and the odd terms.
         let row = |i: usize| {
             let terms: Vec<_> =
                 (0..i).map(|j| (j, table.a[i][j])).filter(|&(_, a)| a != 0.0).collect();
@@ -64,7 +69,7 @@ impl Scheme {
     }
 }
 
-/// The weights of the interpolant at the nodes, by stages.
+/// The weights of the interpolant at the nodes, for each stage: bᵢ(s) = s Σ cₖ sᵏ at s ∈ (0, 1), the place in the step.
 fn at_nodes(inside: &[[f64; ALL_STAGES]; ALL_STAGES]) -> [[f64; NODES]; ALL_STAGES] {
     let mut all = [[0.0; NODES]; ALL_STAGES];
     for (node, u) in CHEBYSHEV.nodes.iter().enumerate() {
@@ -76,28 +81,37 @@ fn at_nodes(inside: &[[f64; ALL_STAGES]; ALL_STAGES]) -> [[f64; NODES]; ALL_STAG
     all
 }
 
-/// Σ cₖ sᵏ as if in twice the digits (Graillat, Langlois, Louvet 2005): coefficients of 10⁵ cancel.
+/// Σ cₖ sᵏ as if in twice the digits: the compensated Horner scheme of Graillat, Langlois and Louvet (2005).
+///
+/// The coefficients of the interpolants are as large as 10⁵ and cancel; the plain scheme would lose five digits.
 fn compensated(c: &[f64], s: f64) -> f64 {
-    let (mut sum, mut lost) = (0.0, 0.0);
+    let (mut sum, mut correction) = (0.0, 0.0);
     for &c in c.iter().rev() {
         let product: f64 = sum * s;
         let next = product + c;
+        // The exact errors: of the sum (Knuth's two-sum) and of the product (by a fused multiply-add). They are the
+        // coefficients of a polynomial themselves, which is summed beside.
         let back = next - product;
-        let rounded = (product - (next - back)) + (c - back);
-        lost = lost * s + (sum.mul_add(s, -product) + rounded);
+        let sum_error = (product - (next - back)) + (c - back);
+        let product_error = sum.mul_add(s, -product);
+        correction = correction * s + (product_error + sum_error);
         sum = next;
     }
-    sum + lost
+    sum + correction
 }
 
-/// x^(−1/order), to a few percent: sizes of steps need no more.
+/// x^(−1/order), within 3 %. The size of a step needs no more, and a power would take longer than the rest of the step
+/// control.
 pub(super) fn inverse_root(x: f64, order: u32) -> f64 {
+    /// The bits of 1.0.
     const ONE: u64 = 0x3ff0_0000_0000_0000;
-    // The bits of a double are its logarithm, piecewise linear.
+    // The bits of a double, read as an integer, are a piecewise linear approximation of its logarithm, with 1.0 as
+    // zero: log y = −(log x)/order.
     let parts = u64::from(order);
+    // Zero and subnormal numbers do not follow that rule.
     let x = x.max(f64::MIN_POSITIVE);
     let guess = f64::from_bits(ONE + ONE / parts - x.to_bits() / parts);
-    // One of Newton's steps for y⁻ⁿ = x.
+    // One step of Newton's method for y⁻ⁿ = x.
     guess + guess * (1.0 - x * guess.powi(order as i32)) / f64::from(order)
 }
 
@@ -106,7 +120,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn inverse_roots_to_a_few_percent() {
+    fn inverse_roots_are_right_within_three_percent() {
         for (k, order) in (-300..300).flat_map(|k| [(k, 8), (k, 9)]) {
             let x = 1.37f64.powi(k);
             let exact = pxfm::f_pow(x, -1.0 / f64::from(order));
@@ -116,9 +130,9 @@ mod tests {
 
     /// The sums that make a scheme consistent: Σ bᵢ = 1, Σⱼ aᵢⱼ = cᵢ, Σ bᵢ cᵢᵏ = 1/(k+1).
     ///
-    /// The table of order eight is printed with fewer digits.
+    /// The published table of order eight has fewer digits, and so a larger tolerance.
     #[test]
-    fn tables() {
+    fn tables_satisfy_the_order_conditions() {
         for (scheme, digits) in [(&*NINE, 1e-13), (&*EIGHT, 5e-12)] {
             for (row, time) in scheme.rows.iter().zip(&scheme.times) {
                 assert!((row.iter().flatten().map(|(_, a)| a).sum::<f64>() - time).abs() < digits);

@@ -1,16 +1,24 @@
 //! The first crossing of all guards of a mode along an integrated flow.
 
+use super::followed_guard::{FollowedGuard, StepOutcome};
+use super::integration::Integration;
 use super::step::Step;
-use super::watch::{Ahead, Watch};
-use super::{Integration, Tolerances};
-use crate::crossing::{beyond, sooner};
-use crate::{Certainty, Crossing, Error, HybridSystem, State, bracketed_root};
+use super::tolerances::Tolerances;
+use crate::crossing::{Certainty, Crossing, bracketed_root, sooner, step_to_sign};
+use crate::error::Error;
+use crate::state::State;
+use crate::system::HybridSystem;
 
-/// Shares of the step that a crossing may move by; the least that shows a change of sign.
-const NEAR: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
+/// How far a crossing is moved at most when it is polished, in units of the step: the least of these that shows a
+/// change of sign. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary slope; a guard
+/// that is crossed slowly needs more. Past the last value the crossing stays where the interpolant has it.
+const POLISHING_REACHES: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
 
-/// Guards of one mode that are followed without allocating.
-const GUARDS: usize = 8;
+/// Guards of one mode that are followed without allocating. More guards cost one allocation for each search.
+const GUARDS_ON_STACK: usize = 8;
+
+/// The first step after rounding has hidden a start, relative to the time up to which it was hidden.
+const SHORTER_FIRST_STEP: f64 = 0.5;
 
 /// Follows `field` from `start` until a guard of `mode` is crossed, or to `horizon`.
 pub(super) fn search<T, const N: usize>(
@@ -33,11 +41,18 @@ where
     let mut first_step = f64::INFINITY;
     loop {
         let integration = Integration::new(&field, start, tolerances)?.starting_with(first_step);
-        match attempt(system, mode, start, horizon, &field(0.0, start), integration)? {
-            Attempt::Done(crossing) => return Ok(crossing),
-            // A shorter first step is rounded less, unless it is the state itself that hides the crossing.
-            Attempt::Hidden { until, .. } if until < 0.5 * first_step => first_step = 0.5 * until,
-            Attempt::Hidden { until, surface } => {
+        let rate = field(0.0, start);
+        match search_once(system, mode, start, horizon, &rate, integration)? {
+            SearchOutcome::Finished(crossing) => return Ok(crossing),
+            // The rounding of an interpolant grows with the length of its step. So a shorter first step shows more, as
+            // long as the hidden time shrinks with it.
+            SearchOutcome::HiddenByRounding { until, .. }
+                if until < SHORTER_FIRST_STEP * first_step =>
+            {
+                first_step = SHORTER_FIRST_STEP * until;
+            }
+            // It does not shrink any more: the rounding of the state itself hides the crossing.
+            SearchOutcome::HiddenByRounding { until, surface } => {
                 let surface = format!("{surface:?}");
                 return Err(Error::UndecidedStart { surface, interval: until });
             }
@@ -45,68 +60,75 @@ where
     }
 }
 
-/// What a search led to.
-enum Attempt<S, const N: usize> {
-    /// The first crossing, if there is one.
-    Done(Option<Crossing<S, N>>),
-    /// A guard left a start at zero to one side and was on the other at this time; rounding hides the rest.
-    Hidden { until: f64, surface: S },
+/// The result of a search with one choice of the first step.
+enum SearchOutcome<S, const N: usize> {
+    /// The first crossing; `None` if there is none up to the horizon.
+    Finished(Option<Crossing<S, N>>),
+    /// Rounding hides how this guard leaves its start, up to this time.
+    HiddenByRounding { until: f64, surface: S },
 }
 
-fn attempt<T, F, const N: usize>(
+fn search_once<T, F, const N: usize>(
     system: &T,
     mode: T::Mode,
     start: &State<N>,
     horizon: f64,
     rate: &State<N>,
     mut integration: Integration<F, N>,
-) -> Result<Attempt<T::Surface, N>, Error>
+) -> Result<SearchOutcome<T::Surface, N>, Error>
 where
     T: HybridSystem<N> + ?Sized,
     F: Fn(f64, &State<N>) -> State<N>,
 {
     let guards = system.guards(mode);
     let value = |surface| move |state: &State<N>| -> f64 { system.guard_value(surface, state) };
-    let mut few: [Option<Watch>; GUARDS] = [const { None }; GUARDS];
-    let mut many = Vec::new();
-    let watches = if guards.len() <= GUARDS {
-        &mut few[..guards.len()]
+    let mut on_stack: [Option<FollowedGuard>; GUARDS_ON_STACK] = [const { None }; GUARDS_ON_STACK];
+    let mut on_heap = Vec::new();
+    let followed = if guards.len() <= GUARDS_ON_STACK {
+        &mut on_stack[..guards.len()]
     } else {
-        many.resize_with(guards.len(), || None);
-        &mut many[..]
+        on_heap.resize_with(guards.len(), || None);
+        &mut on_heap[..]
     };
-    for (watch, guard) in watches.iter_mut().zip(guards) {
-        *watch = Some(Watch::new(guard.direction, start, rate, value(guard.surface))?);
+    for (followed, guard) in followed.iter_mut().zip(guards) {
+        *followed = Some(FollowedGuard::new(guard.direction, start, rate, value(guard.surface))?);
     }
     while integration.interval().1 < horizon {
         integration.step()?;
-        let away = watches.iter().zip(guards).all(|(watch, guard)| {
+        // The common case costs neither the stages of the interpolant nor the polynomial of a guard.
+        let all_stay_away = followed.iter().zip(guards).all(|(followed, guard)| {
             let values = integration.samples().map(|state| value(guard.surface)(&state));
-            watch.as_ref().is_some_and(|watch| watch.stays(values))
+            followed.as_ref().is_some_and(|followed| followed.stays_away(values))
         });
-        if away {
+        if all_stay_away {
             continue;
         }
         let step = integration.last_step();
         let until = step.to.min(horizon);
         let mut first: Option<(f64, T::Surface)> = None;
-        let mut touch: Option<(f64, f64, T::Surface)> = None;
-        for (watch, guard) in watches.iter_mut().zip(guards) {
-            let Some(watch) = watch else { continue };
-            match watch.crossing(&step, until, value(guard.surface))? {
-                Ahead::At { time } if first.is_none_or(|(best, _)| sooner(time, best)) => {
+        let mut grazing: Option<(f64, f64, T::Surface)> = None;
+        for (followed, guard) in followed.iter_mut().zip(guards) {
+            let Some(followed) = followed else { continue };
+            match followed.crossing(&step, until, value(guard.surface))? {
+                StepOutcome::Crossing { time }
+                    if first.is_none_or(|(best, _)| sooner(time, best)) =>
+                {
                     first = Some((time, guard.surface));
                 }
-                Ahead::Grazing { time, value } if touch.is_none_or(|(best, ..)| time < best) => {
-                    touch = Some((time, value, guard.surface));
+                StepOutcome::Grazing { time, value }
+                    if grazing.is_none_or(|(best, ..)| time < best) =>
+                {
+                    grazing = Some((time, value, guard.surface));
                 }
-                Ahead::Hidden { until } => {
-                    return Ok(Attempt::Hidden { until, surface: guard.surface });
+                StepOutcome::HiddenByRounding { until } => {
+                    return Ok(SearchOutcome::HiddenByRounding { until, surface: guard.surface });
                 }
+                // A later crossing, a later grazing, or none.
                 _ => {}
             }
         }
-        if let Some((time, value, surface)) = touch
+        // A grazing after the first crossing never happens: the reset comes before it.
+        if let Some((time, value, surface)) = grazing
             && first.is_none_or(|(best, _)| time <= best)
         {
             return Err(Error::Grazing { surface: format!("{surface:?}"), time, value });
@@ -115,14 +137,17 @@ where
             let value = value(surface);
             let (time, state) = polished(&mut integration, &step, time, until, value)?;
             let certainty = Certainty::Interpolated;
-            return Ok(Attempt::Done(Some(Crossing { surface, time, state, certainty })));
+            return Ok(SearchOutcome::Finished(Some(Crossing { surface, time, state, certainty })));
         }
     }
-    Ok(Attempt::Done(None))
+    Ok(SearchOutcome::Finished(None))
 }
 
-/// A crossing without the rounding of the interpolant: its time on the step moved to where a step that ends
-/// there leads, and the state then.
+/// A crossing freed of the rounding of the interpolant, with the state there.
+///
+/// A separate step from the start of the last step to `time` gives the state without that rounding. The difference
+/// between the two states changes little around `time`; so it is added to the interpolant, and the crossing is
+/// found once more, next to the old one.
 fn polished<F, const N: usize>(
     integration: &mut Integration<F, N>,
     step: &Step<N>,
@@ -133,21 +158,23 @@ fn polished<F, const N: usize>(
 where
     F: Fn(f64, &State<N>) -> State<N>,
 {
+    // A separate step would have no length.
     if time <= step.from {
         return Ok((time, step.state(time)));
     }
-    let off = integration.directly_at(time)? - step.state(time);
-    let moved = |time: f64| step.state(time) + off;
-    let along = |time: f64| guard(&moved(time));
-    for share in NEAR {
-        let reach = share * (step.to - step.from);
+    let correction = integration.directly_at(time)? - step.state(time);
+    let corrected = |time: f64| step.state(time) + correction;
+    let along = |time: f64| guard(&corrected(time));
+    for fraction in POLISHING_REACHES {
+        let reach = fraction * (step.to - step.from);
         let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
         let (before, after) = (along(left), along(right));
         if before.signum() != after.signum() {
-            let time = beyond(along, bracketed_root(along, left, right)?, right, after).min(until);
-            return Ok((time, moved(time)));
+            let root = bracketed_root(along, left, right)?;
+            let time = step_to_sign(along, root, right, after).min(until);
+            return Ok((time, corrected(time)));
         }
     }
-    // Crossed so slowly that the difference matters: it stays where the interpolant has it.
+    // The guard is crossed so slowly that the correction moves the crossing farther than that.
     Ok((time, step.state(time)))
 }

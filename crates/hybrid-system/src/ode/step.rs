@@ -1,10 +1,11 @@
-//! One step of an integration as a polynomial, cheap to look into.
+//! The state along one step of an integration, as a polynomial in time.
 
 use super::chebyshev::{CHEBYSHEV, NODES};
-use crate::State;
+use crate::state::State;
 use std::cell::OnceCell;
 
-/// Coefficients of the interpolants, which are of degree eight at most.
+/// Chebyshev coefficients that are kept: all of them. The interpolants have degree eight at most, so that the other
+/// seven of the 16 are rounding.
 const COEFFICIENTS: usize = 9;
 
 /// The state along one step: component by component a polynomial in u ∈ [−1, 1], t = middle + u·radius.
@@ -12,14 +13,13 @@ const COEFFICIENTS: usize = 9;
 pub(super) struct Step<const N: usize> {
     pub(super) from: f64,
     pub(super) to: f64,
-    /// At the Chebyshev nodes.
+    /// The states at the Chebyshev nodes.
     nodes: [State<N>; NODES],
-    /// Chebyshev coefficients, once they are needed.
+    /// Chebyshev coefficients, computed when they are first needed.
     coefficients: OnceCell<[State<N>; COEFFICIENTS]>,
 }
 
 impl<const N: usize> Step<N> {
-    /// From its values at 16 Chebyshev nodes.
     pub(super) fn new(from: f64, to: f64, nodes: [State<N>; NODES]) -> Self {
         Step { from, to, nodes, coefficients: OnceCell::new() }
     }
@@ -30,6 +30,7 @@ impl<const N: usize> Step<N> {
 
     /// The state at a time of the step, by Clenshaw's recurrence.
     pub(super) fn state(&self, time: f64) -> State<N> {
+        // Symmetric in both ends: u is exactly ∓1 there.
         let u = ((time - self.from) - (self.to - time)) / (self.to - self.from);
         let coefficients = self.coefficients();
         let (mut next, mut after) = (State::<N>::zeros(), State::<N>::zeros());
@@ -42,8 +43,8 @@ impl<const N: usize> Step<N> {
         coefficients[0] + next * u - after
     }
 
-    /// A bound on the size of each component along the step.
-    pub(super) fn size(&self) -> State<N> {
+    /// A bound on the absolute value of each component along the step: Σ|cₖ|, because |Tₖ| ≤ 1.
+    pub(super) fn magnitude(&self) -> State<N> {
         self.coefficients().iter().fold(State::zeros(), |sum, c| sum + c.abs())
     }
 }

@@ -1,9 +1,11 @@
 //! ∂φ(t; x₀)/∂x₀ along an integrated flow, by its variational equation.
 
-use super::Tolerances;
 use super::integration::Steps;
+use super::tolerances::Tolerances;
 use super::vector::Vector;
-use crate::{Error, State, VectorField};
+use crate::error::Error;
+use crate::state::State;
+use crate::system::VectorField;
 use nalgebra::SMatrix;
 
 /// A vector field with its Jacobian.
@@ -12,16 +14,16 @@ pub trait Linearized<const N: usize>: VectorField<N> {
     fn field_jacobian(&self, mode: Self::Mode, state: &State<N>) -> SMatrix<f64, N, N>;
 }
 
-/// The state and Φ, its derivative with respect to the start.
+/// The state and Φ, its derivative with respect to the start, integrated together.
 #[derive(Debug, Clone, Copy)]
-struct Tangent<const N: usize> {
+struct StateAndTransition<const N: usize> {
     state: State<N>,
     transition: SMatrix<f64, N, N>,
 }
 
-impl<const N: usize> Vector for Tangent<N> {
+impl<const N: usize> Vector for StateAndTransition<N> {
     fn zero() -> Self {
-        Tangent { state: State::zeros(), transition: SMatrix::zeros() }
+        StateAndTransition { state: State::zeros(), transition: SMatrix::zeros() }
     }
     fn add(&mut self, factor: f64, other: &Self) {
         self.state += other.state * factor;
@@ -32,13 +34,13 @@ impl<const N: usize> Vector for Tangent<N> {
     }
 }
 
-/// ∂φ(t; x₀)/∂x₀ in an integrated mode: what
-/// [`Differentiable::flow_jacobian`](crate::Differentiable::flow_jacobian) gives there.
+/// ∂φ(t; x₀)/∂x₀ in an integrated mode: the value that
+/// [`Differentiable::flow_jacobian`](crate::Differentiable::flow_jacobian) returns there.
 ///
-/// The tolerances hold for its entries as for the state.
+/// The tolerances apply to its entries as to the state.
 ///
 /// # Errors
-/// [`Error::BadLimit`] for a negative time, and those of [`Integration`](crate::Integration).
+/// [`Error::BadLimit`] for a negative time, and the errors of [`Integration`](crate::Integration).
 pub fn integrated_jacobian<T, const N: usize>(
     system: &T,
     mode: T::Mode,
@@ -50,11 +52,11 @@ where
     T: Linearized<N> + ?Sized,
 {
     // (x, Φ)˙ = (f(x), ∂f/∂x Φ)
-    let field = |_: f64, at: &Tangent<N>| Tangent {
+    let field = |_: f64, at: &StateAndTransition<N>| StateAndTransition {
         state: system.vector_field(mode, &at.state),
         transition: system.field_jacobian(mode, &at.state) * at.transition,
     };
-    let begin = Tangent { state: *start, transition: SMatrix::identity() };
+    let begin = StateAndTransition { state: *start, transition: SMatrix::identity() };
     if time == 0.0 {
         return Ok(begin.transition);
     }

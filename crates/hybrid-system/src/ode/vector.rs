@@ -1,15 +1,18 @@
-//! What the integrator needs of a state.
+//! The operations on states that the integrator needs.
 
-use super::Tolerances;
 use super::scheme::ALL_STAGES;
-use crate::{Error, State};
+use super::tolerances::Tolerances;
+use crate::error::Error;
+use crate::state::State;
 
-/// States that can be integrated.
+/// States that can be integrated: the state of a system, or that state with its derivatives (`variation`).
 pub(super) trait Vector: Copy {
     fn zero() -> Self;
     /// self + factor · other.
     fn add(&mut self, factor: f64, other: &Self);
-    /// from + size · Σ aⱼ slopeⱼ; the terms (j, aⱼ) come in pairs.
+    /// from + size · Σ aⱼ slopeⱼ, for terms (j, aⱼ) in pairs.
+    ///
+    /// The first and the second terms of the pairs are summed apart, so that the two sums do not wait for each other.
     fn combination(
         from: &Self,
         size: f64,
@@ -29,19 +32,20 @@ pub(super) trait Vector: Copy {
     /// All components.
     fn components(&self) -> impl Iterator<Item = f64>;
 
-    /// The largest component, each in units of its tolerance.
-    fn relative_to(&self, before: &Self, after: &Self, tolerances: &Tolerances) -> f64 {
+    /// The largest component of an error, each component in units of its tolerance; NaN if any component is NaN. A step
+    /// is accepted if this is at most 1.
+    fn in_tolerances(&self, before: &Self, after: &Self, tolerances: &Tolerances) -> f64 {
         let sizes = before.components().zip(after.components());
-        let shares = self.components().zip(sizes).map(|(error, (a, b))| {
+        let errors = self.components().zip(sizes).map(|(error, (a, b))| {
             let size = if a.abs() > b.abs() { a.abs() } else { b.abs() };
             (error / (tolerances.absolute + tolerances.relative * size)).abs()
         });
-        // What is not a number stays.
-        shares.fold(0.0, |worst, share| if share > worst || share.is_nan() { share } else { worst })
+        // `f64::max` would drop NaN, and the step would be accepted.
+        errors.fold(0.0, |worst, error| if error > worst || error.is_nan() { error } else { worst })
     }
 
     /// An error unless all components are finite.
-    fn finite(&self, time: f64) -> Result<(), Error> {
+    fn check_finite(&self, time: f64) -> Result<(), Error> {
         if self.components().all(f64::is_finite) {
             return Ok(());
         }
@@ -58,7 +62,8 @@ impl<const N: usize> Vector for State<N> {
             self[axis] += factor * other[axis];
         }
     }
-    /// Axis by axis: whole vectors would be loaded before they are stored, three words by two.
+    /// Component by component, which keeps each sum in a register. Sums of whole vectors are moved through memory two
+    /// words at a time, and a state of three components is loaded again before it has been stored.
     fn combination(
         from: &Self,
         size: f64,

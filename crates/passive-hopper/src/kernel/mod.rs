@@ -9,12 +9,7 @@
 //! ```
 //!
 //! Whatever is near a verdict, or outside the tables, is left to the careful path of
-//! [`LiftOffMap::hop`](crate::LiftOffMap::hop).
+//! [`LiftOffMap::hop`](crate::map::lift_off_map::LiftOffMap::hop).
 
-pub(crate) mod bulk;
-pub(crate) mod flight;
-pub(crate) mod hop;
-pub(crate) mod landings;
-mod start;
-pub(crate) mod table;
-mod turn;
+pub(crate) mod batch;
+pub(crate) mod scalar;

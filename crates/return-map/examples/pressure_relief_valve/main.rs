@@ -1,4 +1,5 @@
-//! The bifurcation diagram of a pressure relief valve, as numbers: its turns after a transient, by flow rate.
+//! The bifurcation diagram of a pressure relief valve, as numbers. For each flow rate it has the displacements at the
+//! turning points after a transient.
 //!
 //! Run with `cargo run --release -p return-map --example pressure_relief_valve`; `cargo xtask valve-diagram`
 //! draws it.
@@ -11,7 +12,7 @@ use hybrid_system::Error;
 use model::turns;
 
 fn main() -> Result<(), Error> {
-    println!("{:>4}  displacements at the last turns", "q");
+    println!("{:>4}  displacements at the last turning points", "q");
     for flow_rate in [0.5, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 7.5, 8.0, 9.0] {
         let mut found = turns(flow_rate, 500, 64)?;
         found.sort_by(f64::total_cmp);
@@ -31,18 +32,18 @@ mod tests {
     use model::{Mode, Valve};
     use nalgebra::Vector3;
 
-    /// In a strong stream the disc comes to rest where spring and pressure balance: y₃ = y₁ + δ, q = y₁ √y₃.
+    /// At large flow rates the disc comes to rest where spring and pressure balance: y₃ = y₁ + δ, q = y₁ √y₃.
     #[test]
-    fn it_comes_to_rest_in_a_strong_stream() {
+    fn the_disc_comes_to_rest_at_large_flow_rates() {
         for flow_rate in [9.0, 9.9] {
             let found = turns(flow_rate, 1500, 1).unwrap()[0];
             assert!((found * (found + 10.0).sqrt() - flow_rate).abs() < 1e-6, "{found}");
         }
     }
 
-    /// No arc lets the disc through its seat, and every impact keeps four fifths of the speed.
+    /// On no arc does the disc pass through its seat.
     #[test]
-    fn never_through_the_seat() {
+    fn the_disc_never_passes_its_seat() {
         for flow_rate in [0.3, 1.0, 3.0, 6.0] {
             let valve = Valve { flow_rate };
             let start = Vector3::new(0.2, 0.0, 0.0);
@@ -62,25 +63,26 @@ mod tests {
         }
     }
 
-    /// Started without pressure its bounces accumulate: it rests on its seat until the pressure carries the load.
+    /// Without pressure at the start the impacts end in a Zeno limit. The disc rests on its seat until the pressure
+    /// equals the load.
     #[test]
-    fn it_rests_and_is_released() {
+    fn the_disc_rests_and_is_released() {
         let valve = Valve { flow_rate: 0.2 };
         let start = Vector3::new(0.2, 0.0, 0.0);
         let limits = hybrid_system::Limits::new(200.0, 100_000);
         let arcs: Vec<_> =
             Execution::new(&valve, Mode::Open, start, limits).collect::<Result<_, _>>().unwrap();
         let rests = arcs.iter().filter(|arc| arc.mode == Mode::Closed).count();
-        let ends = arcs.iter().filter(|arc| matches!(arc.end, ArcEnd::Accumulation { .. })).count();
+        let ends = arcs.iter().filter(|arc| matches!(arc.end, ArcEnd::Zeno { .. })).count();
         assert!(rests > 0 && ends == rests, "{rests} {ends}");
         for pair in arcs.windows(2).filter(|pair| pair[0].mode == Mode::Closed) {
             assert_eq!((pair[1].mode, pair[1].start), (Mode::Open, Vector3::new(0.0, 0.0, 10.0)));
         }
     }
 
-    /// At q = 2 every period has one impact, and the same turn.
+    /// At q = 2 the motion is periodic, with one turning point a period.
     #[test]
-    fn one_turn_a_period() {
+    fn one_turning_point_a_period() {
         let found = turns(2.0, 300, 8).unwrap();
         assert!(found.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 1e-8), "{found:?}");
         assert!((found[0] - 1.434_55).abs() < 1e-4, "{}", found[0]);

@@ -1,37 +1,39 @@
-//! A pressure relief valve whose disc hits its seat (Hős, Champneys; the tutorial of the MPGOS package).
+//! A pressure relief valve whose disc hits its seat (Hős, Champneys; parameters from the tutorial of the MPGOS
+//! package).
 
 use hybrid_system::*;
 use nalgebra::{SVector, Vector2, Vector3};
 use return_map::Section;
 
-/// κ, the damping.
+/// κ, the damping coefficient.
 const DAMPING: f64 = 1.25;
-/// δ, the load of the spring.
+/// δ, the precompression of the spring: the pressure that opens the valve.
 const LOAD: f64 = 10.0;
-/// β, how fast the pressure builds up.
+/// β, the rate at which the pressure builds up.
 const FILLING: f64 = 20.0;
 /// r: y₂ → −r y₂ at the seat.
 const RESTITUTION: f64 = 0.8;
-/// As in the tutorial.
+/// The tolerances of the tutorial, so that speeds can be compared.
 const TOLERANCES: Tolerances = Tolerances::both(1e-10);
 
-/// Where the disc is.
+/// The two modes of the disc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Mode {
-    /// In the stream: ẏ₁ = y₂, ẏ₂ = −κ y₂ − (y₁ + δ) + y₃, ẏ₃ = β (q − y₁ √y₃). Integrated.
+    /// The disc is off its seat: ẏ₁ = y₂, ẏ₂ = −κ y₂ − (y₁ + δ) + y₃, ẏ₃ = β (q − y₁ √y₃). This flow is
+    /// integrated.
     Open,
-    /// On its seat, pressed there by the spring: ẏ₃ = β q. In closed form.
+    /// The spring presses the disc on its seat: ẏ₃ = β q. This flow has a closed form.
     Closed,
 }
 
-/// What ends an arc.
+/// The events that end an arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Surface {
-    /// y₁ = 0: the disc meets its seat.
+    /// y₁ = 0: the disc hits its seat.
     Seat,
-    /// y₂ = 0, falling: it is farthest from it.
+    /// y₂ = 0, falling: a turning point, where the disc is farthest from its seat.
     Turn,
-    /// y₃ = δ: the pressure lifts it off the seat.
+    /// y₃ = δ: the pressure lifts the disc off its seat.
     Release,
 }
 
@@ -90,7 +92,7 @@ impl HybridSystem<3> for Valve {
         Reset::Jump { mode: Mode::Open, state }
     }
 
-    /// Bounces that accumulate leave it on its seat until the pressure carries the load.
+    /// After a Zeno limit the disc rests on its seat until the pressure equals the load.
     fn rest(&self, _: Mode, limit: &State<3>) -> Option<(Mode, State<3>)> {
         (limit[2] < LOAD).then_some((Mode::Closed, Vector3::new(0.0, 0.0, limit[2])))
     }
@@ -118,7 +120,7 @@ impl HybridSystem<3> for Valve {
     }
 }
 
-/// The turns, by displacement and pressure: the section of the tutorial.
+/// The section of the turning points, with displacement and pressure as coordinates, as in the tutorial.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Turns;
 
@@ -131,16 +133,18 @@ impl Section<Valve, 3, 2> for Turns {
     }
 }
 
-/// Where every orbit of the tutorial starts: open by 0.2, without pressure.
+/// The start of every orbit of the tutorial: displacement 0.2 and no pressure.
 pub(crate) const START: Vector2<f64> = Vector2::new(0.2, 0.0);
 
-/// Limits that no orbit of so many turns comes to.
+/// Limits for an orbit of this number of turning points. The time and the number of events between two turning
+/// points stay far below them for all flow rates of the diagram.
 fn limits(turns: usize) -> Limits {
     Limits::new(1000.0 * (1 + turns) as f64, 10_000 * (1 + turns))
 }
 
-/// The displacements at `kept` turns after `transient` ones, bounces that accumulate and rests on the seat
-/// included.
+/// The displacements at `kept` turning points, after `transient` turning points that are left out.
+///
+/// The orbit may contain Zeno limits and rests on the seat.
 pub(crate) fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
     let valve = Valve { flow_rate };
     let (mode, start) = Turns.point(&START);
@@ -157,6 +161,7 @@ pub(crate) fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec
             return Ok(found);
         }
     }
-    let reason = format!("{turn} turns where {} were asked for", transient + kept);
+    let reason =
+        format!("{turn} turning points were found where {} were asked for", transient + kept);
     Err(Error::Model { reason })
 }

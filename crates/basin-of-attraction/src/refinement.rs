@@ -1,0 +1,37 @@
+//! When the search for interval basins stops, and why it stopped.
+
+/// When to stop the search for preimages. The preimages of long intervals are found first.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Refinement {
+    /// Stop as soon as no more than this length is undecided.
+    pub undecided: f64,
+    /// Do not look for preimages of intervals shorter than this.
+    pub shortest: f64,
+    /// Do not look for preimages of intervals of this level or higher.
+    pub levels: usize,
+    /// Stop as soon as this number of intervals is found.
+    pub intervals: usize,
+}
+
+/// Which limit of a [`Refinement`] stopped the search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StopReason {
+    /// The undecided length is at most [`Refinement::undecided`], or every interval has been followed.
+    Resolved,
+    /// All intervals not yet followed are shorter than [`Refinement::shortest`], or of the last level.
+    ShortestInterval,
+    /// All intervals not yet followed are of the level [`Refinement::levels`].
+    LevelLimit,
+    /// There are [`Refinement::intervals`] intervals or more.
+    IntervalLimit,
+}
+
+impl Default for Refinement {
+    /// Stops at an undecided length of 10⁻⁶, or at a million intervals.
+    ///
+    /// Intervals shorter than 10⁻¹² are not followed: in windows between −100 and 100 their ends have ulps of up to
+    /// 10⁻¹⁴. The limits on levels and intervals bound time and memory.
+    fn default() -> Self {
+        Refinement { undecided: 1e-6, shortest: 1e-12, levels: 1_000_000, intervals: 1_000_000 }
+    }
+}

@@ -1,0 +1,72 @@
+//! Basin fractions from sample points: 95 % intervals contain the true fraction in 95 of 100 samples.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use basin_of_attraction::{
+    ConfidenceInterval, Interval, low_discrepancy_fractions, random_fractions, wilson_interval,
+};
+
+fn interval(left: f64, right: f64) -> Interval {
+    Interval::new(left, right).unwrap()
+}
+
+const THIRD: f64 = 1.0 / 3.0;
+
+/// The colour of the gap in which x falls, by the number of steps of x → 3x mod 1 to the middle one.
+fn cantor_label(x: f64, colours: u16) -> u16 {
+    let mut x = x;
+    for step in 0..60u16 {
+        if x > THIRD && x < 2.0 * THIRD {
+            return step % colours;
+        }
+        x = if x <= THIRD { 3.0 * x } else { 3.0 * x - 2.0 };
+    }
+    colours
+}
+
+/// Of 1000 intervals of 95 %, 930 to 970 contain the true fraction.
+#[test]
+fn intervals_cover_as_often_as_stated() {
+    let unit = interval(0.0, 1.0);
+    let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
+    let wide = interval(-1.5, 0.5);
+    type Label<'a> = &'a (dyn Fn(f64) -> u16 + Sync);
+    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] =
+        [("B1", unit, &|x| cantor_label(x, 2), 0, 0.6), ("B4", wide, &step, 1, 0.5)];
+    for (name, window, label, basin, truth) in cases {
+        let covered = |fraction: &dyn Fn(u64) -> ConfidenceInterval| {
+            (0..1000).filter(|&seed| fraction(seed).covers(truth)).count()
+        };
+        let random = covered(&|seed| random_fractions(window, 400, seed, label).unwrap()[&basin]);
+        assert!((930..=970).contains(&random), "{name}, random: {random}");
+        let low = covered(&|seed| {
+            low_discrepancy_fractions(window, 100, 20, seed, label).unwrap()[&basin]
+        });
+        assert!((930..=970).contains(&low), "{name}, low discrepancy: {low}");
+    }
+}
+
+#[test]
+fn intervals_of_rare_labels_cover_too() {
+    // One point in fifty thousand lies in the basin. Most replicates have none; all together often have one.
+    let unit = interval(0.0, 1.0);
+    let truth = 2e-5;
+    let covered = (0..300u64)
+        .filter(|&seed| {
+            let label = |x: f64| u16::from(x > 0.3 && x < 0.3 + truth);
+            let fractions = low_discrepancy_fractions(unit, 1000, 16, seed, label).unwrap();
+            let none = wilson_interval(0, 16_000).unwrap();
+            fractions.get(&1).copied().unwrap_or(none).covers(truth)
+        })
+        .count();
+    assert!(covered >= 279, "{covered} of 300");
+}
+
+#[test]
+fn low_discrepancy_intervals_are_shorter_than_random_ones() {
+    let window = interval(-1.5, 0.5);
+    let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
+    let random = random_fractions(window, 20_000, 1, label).unwrap()[&1];
+    let low = low_discrepancy_fractions(window, 1000, 20, 1, label).unwrap()[&1];
+    assert!(low.half_width() < 0.1 * random.half_width());
+}

@@ -1,0 +1,99 @@
+//! The map on the left of a fixed point, to three orders.
+
+use crate::coefficients::{Coefficients, Form};
+use crate::error::Error;
+use crate::expansion_value::ExpansionValue;
+use crate::local_map::LEFT_FACTOR;
+use passive_hopper::MassRatio;
+
+/// δ′ = δ − 10λ|δ|^{4/3} [1 + c₁|δ|^{1/3} + c₂|δ|^{2/3}] + O(|δ|^{7/3}), δ < 0.
+///
+/// The first landing has stretch 1 + x, x ≈ α*β|δ|^{1/3}, and speed V ≈ −α*. The spring pulls the lower mass off
+/// again, for a flight of τ = 3x/α*. That flight ends at stretch 1 − 2x, with three times the first closing speed.
+/// The hop therefore loses 1 + 3² = 10 times as much as on the right. To the next orders, with a = α* and
+/// κ = M/(1+M):
+///
+/// ```text
+///   c₁ = −β/a        c₂ = −β² (34/25 + 31/(80a²) − 9κ/10)
+/// ```
+///
+/// c₁ is −ℓ₅ of the right side. For the derivation write both landings as series in t = τ − 2a: the first from the
+/// exact local forms of `passive_hopper::LocalFlight`, the second from (h − V) D + S u = x S² with
+/// h₂ = 3x/(2a) + …. The sum of the squared closing speeds is then
+///
+/// ```text
+///   Γ₁² + Γ₂² = (5/2) a² t⁴ [1 + (9κ/10 − 107/75 − 283/(240a²)) t² + O(t³)]
+///   t = −s [1 − s/(4a) + (4a² + 25) s²/(240a²) − …],   s = β|δ|^{1/3}
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LeftExpansion {
+    /// λ, in the [corrected](Form::Corrected) form. The leading coefficient is 10λ.
+    pub lambda: f64,
+    /// c₁, c₂ of the equation above.
+    pub coefficients: [f64; 2],
+}
+
+/// The largest |δ| (1 + λ³) for which the error was measured, and for which [`LeftExpansion`] has values. Beyond it
+/// the second flight is no longer short.
+pub const LEFT_RANGE: f64 = 1e-3;
+
+/// Bound on |c₃ + c₄|δ|^{1/3} + …|/(1 + λ). Chosen by measurement against the exact map for n = 1…100,
+/// M = 10⁻³…10³. Outside that range the error may be larger than stated.
+const NEGLECTED: f64 = 12.0;
+
+impl LeftExpansion {
+    /// Exponent of the first neglected term of δ′.
+    pub const NEGLECTED_EXPONENT: f64 = 7.0 / 3.0;
+
+    /// The expansion about α*_n.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for n = 0.
+    pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
+        let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
+        let (a, b, kappa) = (local.alpha_star, local.beta, mass_ratio.kappa());
+        let c1 = -b / a;
+        let c2 = -b * b * (34.0 / 25.0 + 31.0 / (80.0 * a * a) - 0.9 * kappa);
+        Ok(LeftExpansion { lambda: local.lambda, coefficients: [c1, c2] })
+    }
+
+    /// The largest |δ| with a value: [`LEFT_RANGE`]/(1 + λ³).
+    pub fn range(&self) -> f64 {
+        LEFT_RANGE / (1.0 + self.lambda * self.lambda * self.lambda)
+    }
+
+    /// δ′ for −[`range`](Self::range) ≤ δ ≤ 0.
+    ///
+    /// # Errors
+    /// [`Error::OutsideRange`] elsewhere.
+    pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
+        let loss = self.loss(delta)?;
+        // One ulp of δ for the rounding of the difference.
+        let error = loss.error + f64::EPSILON * delta.abs();
+        Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
+    }
+
+    /// The loss δ − δ′ for −[`range`](Self::range) ≤ δ ≤ 0, without the cancellation of a difference.
+    ///
+    /// # Errors
+    /// [`Error::OutsideRange`] elsewhere.
+    pub fn loss(&self, delta: f64) -> Result<ExpansionValue, Error> {
+        let range = self.range();
+        if !(-range..=0.0).contains(&delta) {
+            return Err(Error::OutsideRange { value: delta, left: -range, right: 0.0 });
+        }
+        let size = delta.abs();
+        let root = pxfm::f_cbrt(size);
+        let leading = LEFT_FACTOR * self.lambda * size * root;
+        let [c1, c2] = self.coefficients;
+        let series = (c1 + c2 * root) * root;
+        // Eight ulps cover the roundings of λ, the root, the products and the series.
+        let rounding = 8.0 * f64::EPSILON * leading;
+        let neglected = NEGLECTED * (1.0 + self.lambda) * leading * size;
+        Ok(ExpansionValue {
+            value: leading * (1.0 + series),
+            error: neglected + rounding,
+            neglected_exponent: Self::NEGLECTED_EXPONENT,
+        })
+    }
+}

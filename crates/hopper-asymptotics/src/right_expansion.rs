@@ -1,0 +1,92 @@
+//! The map on the right of a fixed point, to five orders.
+
+use crate::coefficients::{Coefficients, Form};
+use crate::error::Error;
+use crate::expansion_value::ExpansionValue;
+use passive_hopper::MassRatio;
+
+/// δ′ = δ − λδ^{4/3} [1 + ℓ₅δ^{1/3} + ℓ₆δ^{2/3} + ℓ₇δ + ℓ₈δ^{4/3}] + O(δ³), δ > 0.
+///
+/// With a = α*, β³ = 12a²/(1+a²):
+///
+/// ```text
+///   ℓ₅ = β/a     ℓ₆ = −β² (4a² − 25)/(40a²)     ℓ₇ = −(24a² − 43)/(12a (1+a²))
+///   ℓ₈ = β [25200a⁴β³μ + 144a⁴β³ − 29400a²β³ − 403200a² + 83825β³]/(403200a⁴)
+/// ```
+///
+/// ```
+/// use hopper_asymptotics::RightExpansion;
+/// use passive_hopper::{LiftOffMap, MassRatio};
+/// let series = RightExpansion::new(1, MassRatio::ONE)?.displacement(1e-3)?;
+/// let exact = LiftOffMap::new(MassRatio::ONE).hop_near_fixed_point(1, 1e-3)?.next.expect("it hops again");
+/// assert!((series.value - exact).abs() <= series.error && series.error < 2e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RightExpansion {
+    /// λ, in the [corrected](Form::Corrected) form.
+    pub lambda: f64,
+    /// ℓ₅, ℓ₆, ℓ₇, ℓ₈ of the equation above.
+    pub coefficients: [f64; 4],
+}
+
+/// The largest δ for which the error was measured, and for which [`RightExpansion`] has values.
+pub const RIGHT_RANGE: f64 = 0.1;
+
+/// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|. Measured against the exact map for n = 1…100, M = 10⁻³…10³, δ up to
+/// [`RIGHT_RANGE`]: at most 0.44. Outside that range the error may be larger than stated.
+const NEGLECTED: f64 = 0.5;
+
+impl RightExpansion {
+    /// Exponent of the first neglected term of δ′.
+    pub const NEGLECTED_EXPONENT: f64 = 3.0;
+
+    /// The expansion about α*_n.
+    ///
+    /// # Errors
+    /// [`Error::Index`] for n = 0.
+    pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
+        let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
+        let (a, b, mu) = (local.alpha_star, local.beta, mass_ratio.mu());
+        // The equations above, divided by powers of a² so that no number grows with n.
+        let square = a * a;
+        let cube = b * b * b;
+        let l5 = b / a;
+        let l6 = -b * b * (4.0 - 25.0 / square) / 40.0;
+        let l7 = -(24.0 - 43.0 / square) / (12.0 * a * (1.0 + 1.0 / square));
+        let bracket = cube * (25_200.0 * mu + 144.0) - (29_400.0 * cube + 403_200.0) / square
+            + 83_825.0 * cube / (square * square);
+        let l8 = b * bracket / 403_200.0;
+        Ok(RightExpansion { lambda: local.lambda, coefficients: [l5, l6, l7, l8] })
+    }
+
+    /// δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`].
+    ///
+    /// # Errors
+    /// [`Error::OutsideRange`] elsewhere.
+    pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
+        let loss = self.loss(delta)?;
+        // One ulp of δ for the rounding of the difference.
+        let error = loss.error + f64::EPSILON * delta;
+        Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
+    }
+
+    /// The loss δ − δ′ for 0 ≤ δ ≤ [`RIGHT_RANGE`], without the cancellation of a difference.
+    ///
+    /// # Errors
+    /// [`Error::OutsideRange`] elsewhere.
+    pub fn loss(&self, delta: f64) -> Result<ExpansionValue, Error> {
+        if !(0.0..=RIGHT_RANGE).contains(&delta) {
+            return Err(Error::OutsideRange { value: delta, left: 0.0, right: RIGHT_RANGE });
+        }
+        let root = pxfm::f_cbrt(delta);
+        let leading = self.lambda * delta * root;
+        // Horner: ((ℓ₈ v + ℓ₇) v + …) v with v = δ^{1/3}.
+        let series = self.coefficients.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
+        // Eight ulps cover the roundings of λ, the root, the products and the series.
+        let rounding = 8.0 * f64::EPSILON * leading;
+        let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
+        let neglected_exponent = Self::NEGLECTED_EXPONENT;
+        Ok(ExpansionValue { value: leading * (1.0 + series), error, neglected_exponent })
+    }
+}

@@ -1,0 +1,37 @@
+//! The length Δ_n of the trapping region for large λ.
+
+use crate::error::Error;
+use crate::expansion_value::ExpansionValue;
+use crate::right_expansion::RightExpansion;
+use passive_hopper::MassRatio;
+
+/// The smallest λ for which [`trap_length_series`] has a value.
+///
+/// The series is in 1/λ. For smaller λ its terms no longer fall, and the bound on the error was not measured.
+pub const SMALLEST_LAMBDA: f64 = 3.0;
+
+/// Bound on |c₃ + c₄/λ + …| in the factor 1 + c₁/λ + c₂/λ² + c₃/λ³ + … of Δ. Chosen by measurement:
+/// `tests/against_reference.rs` compares all reference values of Δ with λ ≥ 3.
+const NEGLECTED: f64 = 6.0;
+
+/// Δ_n = λ⁻³ [1 − 3ℓ₅/λ + (9ℓ₅² − 3ℓ₆)/λ²] + O(λ⁻⁶), the length of the trapping region [α*_n, α*_n + Δ_n].
+///
+/// Δ solves δ′ = 0. With v = δ^{1/3} and the [`RightExpansion`] this is λv (1 + ℓ₅v + ℓ₆v² + …) = 1, solved in
+/// powers of 1/λ. The neglected exponent is that of λ. The leading term is 2(1+α*²)⁴/(81 μ³ α*¹¹).
+///
+/// # Errors
+/// [`Error::Index`] for n = 0; [`Error::OutsideRange`] with λ if it is under [`SMALLEST_LAMBDA`].
+pub fn trap_length_series(n: u64, mass_ratio: MassRatio) -> Result<ExpansionValue, Error> {
+    let right = RightExpansion::new(n, mass_ratio)?;
+    let lambda = right.lambda;
+    if !(lambda >= SMALLEST_LAMBDA) {
+        let (left, right) = (SMALLEST_LAMBDA, f64::INFINITY);
+        return Err(Error::OutsideRange { value: lambda, left, right });
+    }
+    let [l5, l6, ..] = right.coefficients;
+    let leading = 1.0 / (lambda * lambda * lambda);
+    let series = 1.0 - 3.0 * l5 / lambda + (9.0 * l5 * l5 - 3.0 * l6) / (lambda * lambda);
+    // The neglected factor is at most NEGLECTED/λ³. Sixteen ulps cover the roundings of λ, ℓ₅, ℓ₆ and the sum.
+    let error = leading * (NEGLECTED * leading + 16.0 * f64::EPSILON);
+    Ok(ExpansionValue { value: leading * series, error, neglected_exponent: -6.0 })
+}

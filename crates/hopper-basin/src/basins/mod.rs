@@ -1,0 +1,18 @@
+//! Which speeds and mass ratios belong to the basin of a fixed point?
+//!
+//! The answer has several forms:
+//! an image over the (M, α) plane ([`rasters`]),
+//! the fractions of the fates by the paper's protocol ([`fractions`]),
+//! all basins at one mass ratio as intervals, with what remains undecided ([`intervals`]),
+//! and one basin level by level, as the paper constructs it ([`levels`]).
+//! Intervals and levels come from the monotone branches of the map ([`branches`]).
+//! [`window`] names the speeds of the paper's basins.
+//!
+//! This room uses `traps`, `fates` and `raster`.
+
+pub(crate) mod branches;
+pub(crate) mod fractions;
+pub(crate) mod intervals;
+pub(crate) mod levels;
+pub(crate) mod rasters;
+pub(crate) mod window;

@@ -1,0 +1,137 @@
+//! The fates of all lift-off speeds at one mass ratio.
+
+use crate::error::Error;
+use crate::fates::hopper_fate::HopperFate;
+use crate::traps::trap::Trap;
+use basin_of_attraction::{Fate, Image, ScalarMap, Traps, classify};
+use passive_hopper::{LiftOffMap, MassRatio, index_below};
+use std::sync::OnceLock;
+
+/// The number of traps that [`Fates`] keeps once computed. The trap of a larger n is computed whenever it is asked
+/// for: speeds above α*_64 ≈ 203 are slower to classify, with the same result.
+const KEPT_TRAPS: usize = 64;
+
+/// The number of hops after which a fate is given up as [undecided](HopperFate::Undecided).
+///
+/// A million hops take less than a second if each has few sudden lift-offs. For M above 10⁴ a hop may have thousands; give
+/// [`fate_within`](Fates::fate_within) a smaller budget there.
+///
+/// The slowest orbits start an ulp below a fixed point. From a distance δ they need about 3/(10 λ δ^{1/3})
+/// hops to leave, some 10⁵/(3λ) for δ = 10⁻¹⁵, with λ proportional to μ. For the small M at which this would
+/// exceed the budget, a [trap](crate::TrapEdge::NextFixedPoint) covers the whole interval between the fixed
+/// points, and no orbit has to leave. For M above 10⁴ such orbits may be undecided.
+pub const HOP_BUDGET: usize = 1_000_000;
+
+/// The fates at one mass ratio.
+///
+/// Since f(α) ≤ α, an orbit only descends. Its fate is decided when it enters a [`Trap`] or is grounded. Closeness to
+/// a fixed point decides no fate: orbits pass fixed points slowly on the left.
+///
+/// ```
+/// use hopper_basin::{Fates, HopperFate};
+/// use passive_hopper::MassRatio;
+/// let fates = Fates::new(MassRatio::new(0.2)?)?;
+/// assert_eq!(fates.fate(4.55)?, HopperFate::Incessant { n: 1 });
+/// assert_eq!(fates.fate(4.60)?, HopperFate::Decaying);
+/// # Ok::<(), hopper_basin::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Fates {
+    map: LiftOffMap,
+    /// The traps of the first fixed points, each computed when it is first asked for.
+    first: [OnceLock<Trap>; KEPT_TRAPS],
+}
+
+impl Fates {
+    /// The fates at `mass_ratio`.
+    ///
+    /// # Errors
+    /// As [`Trap::new`].
+    pub fn new(mass_ratio: MassRatio) -> Result<Self, Error> {
+        let map = LiftOffMap::new(mass_ratio);
+        let fates = Fates { map, first: [const { OnceLock::new() }; KEPT_TRAPS] };
+        // Nearly every orbit asks for this trap, and an error shows here rather than later.
+        fates.trap(0)?;
+        Ok(fates)
+    }
+
+    /// The lift-off map at this mass ratio.
+    pub fn map(&self) -> &LiftOffMap {
+        &self.map
+    }
+
+    /// The trap of α*_n.
+    ///
+    /// # Errors
+    /// As [`Trap::new`].
+    pub fn trap(&self, n: u64) -> Result<Trap, Error> {
+        let slot = self.first.get(usize::try_from(n).unwrap_or(usize::MAX));
+        if let Some(&trap) = slot.and_then(OnceLock::get) {
+            return Ok(trap);
+        }
+        let trap = Trap::new(n, self.map.mass_ratio())?;
+        Ok(slot.map_or(trap, |slot| *slot.get_or_init(|| trap)))
+    }
+
+    /// The fate of the hopper that lifts off with speed `alpha`.
+    ///
+    /// # Errors
+    /// [`Error::Hopper`] for a speed that is not positive, finite and below 2⁴³.
+    pub fn fate(&self, alpha: f64) -> Result<HopperFate, Error> {
+        self.fate_within(alpha, HOP_BUDGET).map(|(fate, _)| fate)
+    }
+
+    /// The fate, and the number of hops until it was known, with a given budget of hops.
+    ///
+    /// # Errors
+    /// As [`fate`](Self::fate).
+    pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
+        // Returns an error for an invalid α, and computes nothing else. `classify` would call it undecided.
+        self.map.landings(alpha)?;
+        let (fate, hops) = classify(self, self, alpha, budget);
+        let fate = match fate {
+            Fate::Stopped => HopperFate::Grounded,
+            Fate::Trapped(0) => HopperFate::Decaying,
+            Fate::Trapped(label) if u64::from(label) < HopperFate::LARGEST_LABEL => {
+                HopperFate::Incessant { n: u64::from(label) }
+            }
+            // The generic label of all n ≥ 65 000: the orbit itself tells which.
+            Fate::Trapped(_) => HopperFate::Incessant { n: self.last_index(alpha, hops)? },
+            Fate::Undecided(reason) => HopperFate::Undecided(reason),
+        };
+        Ok((fate, hops))
+    }
+
+    /// The index of the fixed point below the orbit of `alpha` after `hops` hops.
+    fn last_index(&self, alpha: f64, hops: usize) -> Result<u64, Error> {
+        let mut speed = alpha;
+        for _ in 0..hops {
+            match self.map.image(speed) {
+                Ok(Some(next)) => speed = next,
+                // Not reached: `classify` followed the same hops into a trap.
+                Ok(None) | Err(_) => break,
+            }
+        }
+        Ok(index_below(speed)?)
+    }
+}
+
+/// The map for the generic tools. A hop whose verdicts are not certain is undecided.
+impl ScalarMap for Fates {
+    fn image(&self, alpha: f64) -> Image {
+        match self.map().hop(alpha) {
+            Ok(hop) if hop.certain => hop.next.into(),
+            Ok(_) | Err(_) => Image::Undecided,
+        }
+    }
+}
+
+impl Traps for Fates {
+    /// The index of the trap that contains `alpha`. All indices from 65 000 up share the label 65 000, because the
+    /// generic tools have labels of 16 bits.
+    fn label(&self, alpha: f64) -> Option<u16> {
+        let n = index_below(alpha).ok()?;
+        let trap = self.trap(n).ok()?;
+        trap.contains(alpha).then_some(n.min(HopperFate::LARGEST_LABEL) as u16)
+    }
+}

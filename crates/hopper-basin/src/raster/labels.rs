@@ -1,0 +1,68 @@
+//! The labels of many lift-off speeds at once.
+
+use crate::error::Error;
+use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::hopper_fate::HopperFate;
+use crate::raster::strip;
+
+/// Fewer speeds than this are classified one by one.
+///
+/// A strip first computes the traps and laps of every column, some microseconds each, and a vector of hops needs many
+/// orbits to be full. The value was set when strips were written; it affects the time only.
+const FEWEST_SPEEDS: usize = 32;
+
+impl Fates {
+    /// The [labels](HopperFate::label) of the fates of all `speeds`, in any order: the same labels that
+    /// [`fate`](Self::fate) gives one by one, in less time.
+    ///
+    /// The orbits hop together, as in [`LiftOffMap::images`](passive_hopper::LiftOffMap::images), and not all are
+    /// followed: if two orbits visit the same laps of the map and end in the same way, every orbit between them has
+    /// their fate. An empty slice gives an empty vector.
+    ///
+    /// ```
+    /// use hopper_basin::{Fates, HopperFate};
+    /// use passive_hopper::MassRatio;
+    /// let fates = Fates::new(MassRatio::new(0.2)?)?;
+    /// assert_eq!(fates.labels(&[4.55, 4.60])?, [1, HopperFate::Decaying.label()]);
+    /// # Ok::<(), hopper_basin::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`fate`](Self::fate), for any of the speeds.
+    pub fn labels(&self, speeds: &[f64]) -> Result<Vec<u16>, Error> {
+        Ok(labels_of_columns(&[self], speeds)?.pop().unwrap_or_default())
+    }
+}
+
+/// The labels of `speeds` at every mass ratio.
+pub(crate) fn labels_of_columns(
+    columns: &[&Fates],
+    speeds: &[f64],
+) -> Result<Vec<Vec<u16>>, Error> {
+    if speeds.len() < FEWEST_SPEEDS {
+        let one_by_one = |fates: &&Fates| {
+            speeds.iter().map(|&speed| fates.fate(speed).map(HopperFate::label)).collect()
+        };
+        return columns.iter().map(one_by_one).collect();
+    }
+    if let Some(fates) = columns.first() {
+        // Returns an error for an invalid speed, and computes nothing else. The strip takes valid speeds for granted.
+        for &speed in speeds {
+            fates.map().landings(speed)?;
+        }
+    }
+    if speeds.is_sorted() {
+        return strip::labels(columns, speeds);
+    }
+    let mut order: Vec<usize> = (0..speeds.len()).collect();
+    order.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
+    let sorted: Vec<f64> = order.iter().map(|&at| speeds[at]).collect();
+    let in_given_order = |labels: Vec<u16>| {
+        let mut all = vec![HopperFate::UNDECIDED; speeds.len()];
+        for (&at, label) in order.iter().zip(labels) {
+            all[at] = label;
+        }
+        all
+    };
+    Ok(strip::labels(columns, &sorted)?.into_iter().map(in_given_order).collect())
+}

@@ -1,0 +1,120 @@
+//! The laps of the map: the intervals on which it is proved to be continuous and monotone.
+//!
+//! ```text
+//!   hump n      α*_n … maximum        rises   1 − 4μW > 0 (docs/model.md)
+//!               maximum … minimum     falls   1 − 4μW < 0
+//!               minimum … (n+1)π      rises
+//!   window n+1  (n+1)π … α*_{n+1}     rises   proved for some M, up to 10⁻³ below α*_{n+1} (`rising_windows`)
+//! ```
+//!
+//! For M < 1 the map is continuous at (n+1)π. So the last part of hump n and window n+1 form one lap. If the hump has
+//! no maximum, all of hump n and window n+1 form one lap.
+
+use crate::error::Error;
+use crate::raster::rising_windows::rising_window;
+use crate::traps::hump::Hump;
+use passive_hopper::{MassRatio, index_below};
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// The laps of hump n and window n+1.
+#[derive(Debug, Clone, Copy)]
+struct LapsOfHump {
+    star: f64,
+    /// The ends of the falling lap, (maximum, minimum); infinite if the map only rises.
+    falling: (f64, f64),
+    /// The end of the last lap. From here to α*_{n+1} nothing is proved.
+    end: f64,
+    /// Bounds on the relative slope |α′ (dα′/dα)/α| on the three laps.
+    slopes: [f64; 3],
+}
+
+/// A lap at one mass ratio.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Lap {
+    /// The number of the lap, different for all laps and less than 2^[`ID_BITS`].
+    pub(crate) id: u8,
+    /// A bound on the relative slope |α′ (dα′/dα)/α| on the lap.
+    pub(crate) slope: f64,
+}
+
+/// The laps at one mass ratio.
+pub(crate) struct Laps {
+    humps: Vec<LapsOfHump>,
+}
+
+/// The relative distance that a speed must keep from the ends of its lap.
+///
+/// It stands for the rounding errors of the computed ends, which are some ulps, hence is a hundred times
+/// larger than needed. A larger distance would cost orbits next to the ends; a smaller one gains nothing. If μ just
+/// exceeds 1/(4 max W), the computed maximum and minimum may err by more. There 1 − 4μW differs from zero
+/// by rounding errors only, and README.md shows that this does no harm (invariant LAP).
+const DISTANCE_FROM_ENDS: f64 = 1e-12;
+
+/// The largest M with laps. At M = 1 the last lap of a hump ends at (n+1)π, because no window is proved to rise
+/// for M > 0.905.
+///
+/// For M > 1 the map jumps at (n+1)π and hops have several sudden lift-offs. Two orbits then hardly ever visit
+/// the same laps: with laps, rasters took up to a tenth longer (docs/performance.md).
+const LARGEST_MASS_RATIO: f64 = 1.0;
+
+/// The bits of a lap's number in an itinerary.
+pub(crate) const ID_BITS: u32 = 5;
+
+/// The number of humps with laps: 3 laps each, 30 in all, have numbers below 2⁵. All speeds above α*_10 ≈ 33 are followed
+/// one by one. With more humps a number would need six bits, and an itinerary could hold ten laps instead of twelve.
+pub(crate) const HUMPS_WITH_LAPS: u64 = (1 << ID_BITS) / 3;
+
+impl Laps {
+    /// The laps of all humps that begin at or below `largest`; `None` for mass ratios without laps.
+    pub(crate) fn below(mass_ratio: MassRatio, largest: f64) -> Result<Option<Self>, Error> {
+        let last = index_below(largest)?;
+        if mass_ratio.value() > LARGEST_MASS_RATIO {
+            return Ok(None);
+        }
+        let humps = (0..HUMPS_WITH_LAPS.min(last + 1)).map(|n| LapsOfHump::new(n, mass_ratio));
+        Ok(Some(Laps { humps: humps.collect::<Result<_, Error>>()? }))
+    }
+
+    /// The lap that contains all speeds within `error` of `alpha`; `None` if the interval of these speeds
+    /// reaches an end of a lap, or lies where nothing is proved.
+    #[inline]
+    pub(crate) fn lap(&self, alpha: f64, error: f64) -> Option<Lap> {
+        let distance = error + DISTANCE_FROM_ENDS * alpha;
+        // As in the index of traps: α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index of the largest α*_n ≤ α, or one
+        // more. It is one more as well if ⌊α/π⌋ is the first hump without an entry.
+        let floor = (alpha * FRAC_1_PI) as usize;
+        let above = self.humps.get(floor).is_none_or(|hump| alpha < hump.star);
+        let n = floor - usize::from(above).min(floor);
+        let LapsOfHump { star, falling: (maximum, minimum), end, slopes } = *self.humps.get(n)?;
+        let which = usize::from(alpha > maximum) + usize::from(alpha > minimum);
+        let inside = (alpha - star > distance)
+            & ((alpha - maximum).abs() > distance)
+            & ((alpha - minimum).abs() > distance)
+            & (end - alpha > distance);
+        inside.then_some(Lap { id: (3 * n + which) as u8, slope: slopes[which] })
+    }
+}
+
+impl LapsOfHump {
+    fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
+        let mu = mass_ratio.mu();
+        let hump = Hump::new(n)?;
+        let window =
+            rising_window(n + 1).filter(|window| mass_ratio.value() <= window.largest_mass_ratio);
+        let contact_end = (n + 1) as f64 * PI;
+        let end = window.map_or(contact_end, |window| window.part.right);
+        let falling = hump.falling(mu)?;
+        // On the hump α′ (dα′/dα)/α = 1 − 4μW with 0 ≤ W ≤ max W: at most 1 where it is positive, and at most
+        // 4μ max W − 1 in size where it is negative.
+        let hump_slope = (4.0 * mu * hump.largest_w() - 1.0).max(1.0);
+        // The last lap includes the window. The bounds of windows exceed 1, and so hold on the hump as well.
+        let last_slope = window.map_or(1.0, |window| window.steepest);
+        let first_slope = if falling.is_some() { hump_slope } else { last_slope };
+        Ok(LapsOfHump {
+            star: hump.star.value(),
+            falling: falling.unwrap_or((f64::INFINITY, f64::INFINITY)),
+            end,
+            slopes: [first_slope, hump_slope, last_slope],
+        })
+    }
+}

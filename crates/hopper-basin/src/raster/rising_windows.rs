@@ -1,0 +1,237 @@
+//! The sudden windows (nπ, α*_n) on which the map is proved to rise.
+//!
+//! The proof is a test at the end of this file. It encloses the derivative over the plane of h and M with intervals.
+
+use basin_of_attraction::Interval;
+use passive_hopper::alpha_star;
+use std::f64::consts::PI;
+
+/// How near to α*_n the proof goes.
+///
+/// At α*_n the slope changes like the cube root of the distance, and an interval proof needs ever smaller boxes. Speeds
+/// in the remaining 10⁻³ have no lap; in a raster of the paper's window they are 0.03 % of the rows.
+const DISTANCE_FROM_STAR: f64 = 1e-3;
+
+/// For the windows n = 1, 2, …: the largest M and a bound on the relative slope |α′ (dα′/dα)/α|.
+///
+/// The test proves both. The mass ratios must be below 0.9056, up to which a hop has at most one sudden lift-off. The
+/// slopes are 8n + 2, about a third above the largest found on samples (7.8, 14, …, 50). A bound that is too large
+/// widens the error bounds of itineraries, so that fewer gaps close.
+///
+/// Samples rise up to M = 0.905 in windows 4 to 8 as well, and in 9 and 10. How the smaller mass ratios of windows 4
+/// to 8 were chosen is not recorded; near 0.905 the smallest slope tends to zero with n, and a proof needs more boxes.
+const PROVED: [(f64, f64); 8] = [
+    (0.905, 10.0),
+    (0.905, 18.0),
+    (0.905, 26.0),
+    (0.9, 34.0),
+    (0.89, 42.0),
+    (0.87, 50.0),
+    (0.85, 58.0),
+    (0.83, 66.0),
+];
+
+/// A part of a sudden window on which the map is proved to rise, for small mass ratios.
+///
+/// For these mass ratios a hop has at most one sudden lift-off, and the map is continuous on the window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct RisingWindow {
+    /// From nπ to 10⁻³ below α*_n.
+    pub(crate) part: Interval,
+    /// The largest M of the proof.
+    pub(crate) largest_mass_ratio: f64,
+    /// α′ (dα′/dα)/α lies between zero and this.
+    pub(crate) steepest: f64,
+}
+
+/// Window n if n is in 1, …, 8; `None` for all other windows, for which there is no proof.
+pub(crate) fn rising_window(n: u64) -> Option<RisingWindow> {
+    let at = usize::try_from(n).ok()?.checked_sub(1)?;
+    let &(largest_mass_ratio, steepest) = PROVED.get(at)?;
+    let part = Interval { left: n as f64 * PI, right: alpha_star(n) - DISTANCE_FROM_STAR };
+    Some(RisingWindow { part, largest_mass_ratio, steepest })
+}
+
+#[cfg(test)]
+mod tests {
+    //! Proof with intervals: for small mass ratios the map rises in the sudden windows (nπ, α*_n).
+    //!
+    //! The parameter is h, half the time of the first flight. With at most one sudden lift-off (M ≤ 0.9056),
+    //!
+    //! ```text
+    //!   b = α − h = Sρ,  x = 2hb,  V = b − h + κΓ,  g = dα/dh = Γ/D,  dΓ/dh = −4bα
+    //!   dx/dh = 2b + 2h(g − 1),  dV/dh = g − 2 − 4κbα
+    //!   α′ (dα′/dα)/α = 1 + 4μbD − μ [A dx/dh + B dV/dh]/(2αg)
+    //!   A = 2(−Γ₂ sin τ₂ − x₂ (1−cos τ₂)),  B = 2(−Γ₂ (1−cos τ₂) − x₂ (τ₂ − sin τ₂))       second flight
+    //! ```
+    //!
+    //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight is
+    //! monotone in x and V. So the range of each over an interval is given by its values at the ends. The intervals are not
+    //! rounded outwards. Instead the bounds must hold with 10⁻⁶ to spare, a thousand times what the roundings amount to.
+
+    #![allow(clippy::disallowed_methods)]
+
+    use super::*;
+    use passive_hopper::{HalfFlight, LiftOffMap, MassRatio};
+
+    /// The interval [low, high].
+    #[derive(Clone, Copy, Debug)]
+    struct Range(f64, f64);
+
+    impl Range {
+        /// Between two values, in any order.
+        fn of(a: f64, b: f64) -> Self {
+            Range(a.min(b), a.max(b))
+        }
+        fn plus(self, other: Self) -> Self {
+            Range(self.0 + other.0, self.1 + other.1)
+        }
+        fn minus(self, other: Self) -> Self {
+            Range(self.0 - other.1, self.1 - other.0)
+        }
+        fn times(self, other: Self) -> Self {
+            let all = [self.0 * other.0, self.0 * other.1, self.1 * other.0, self.1 * other.1];
+            Range(
+                all.into_iter().fold(f64::MAX, f64::min),
+                all.into_iter().fold(f64::MIN, f64::max),
+            )
+        }
+        fn scaled(self, factor: f64) -> Self {
+            Range::of(self.0 * factor, self.1 * factor)
+        }
+        fn shifted(self, by: f64) -> Self {
+            Range(self.0 + by, self.1 + by)
+        }
+        /// The quotient, for a divisor whose numbers are all positive.
+        fn over(self, other: Self) -> Self {
+            assert!(other.0 > 0.0);
+            self.times(Range(1.0 / other.1, 1.0 / other.0))
+        }
+    }
+
+    /// Half the time of the flight from (x, V), V < π, by bisection: V(h) increases on (max(V, 0), π). Sixty halvings reach
+    /// neighbouring `f64`.
+    fn second(x: f64, v: f64) -> f64 {
+        let (mut left, mut right) = (v.max(0.0), PI);
+        for _ in 0..60 {
+            let middle = 0.5 * (left + right);
+            if HalfFlight::at(middle).start_speed(x) < v { left = middle } else { right = middle }
+        }
+        0.5 * (left + right)
+    }
+
+    /// The relative slope α′ (dα′/dα)/α over intervals of h and M.
+    fn slope(h: Range, m: Range) -> Range {
+        let (begin, end) = (HalfFlight::at(h.0), HalfFlight::at(h.1));
+        let between = |f: fn(&HalfFlight) -> f64| Range::of(f(&begin), f(&end));
+        let kappa = Range(m.0 / (1.0 + m.0), m.1 / (1.0 + m.1));
+        let mu = Range(m.0 / (1.0 + m.0).powi(2), m.1 / (1.0 + m.1).powi(2));
+        let d = between(|half| half.d);
+        let closing = between(|half| half.closing_speed(0.0));
+        let b = between(|half| half.sin).times(between(|half| half.rho));
+        // b = Sρ ≥ 0 on a window; at its ends rounding may give less.
+        let b = Range(b.0.max(0.0), b.1);
+        let alpha = between(|half| half.start_speed(0.0));
+        let g = between(|half| half.start_speed_slope(0.0));
+        let x = h.times(b).scaled(2.0);
+        let v = b.minus(h).plus(kappa.times(closing));
+        let b_alpha = b.times(alpha);
+        let x_slope = b.scaled(2.0).plus(h.times(g.shifted(-1.0)).scaled(2.0));
+        let v_slope = g.shifted(-2.0).minus(kappa.times(b_alpha).scaled(4.0));
+        assert!(v.1 < PI);
+        // The second flight. A relative 10⁻⁹ covers the error of the bisection.
+        let h2 = Range(second(x.0, v.0) * (1.0 - 1e-9), (second(x.1, v.1) * (1.0 + 1e-9)).min(PI));
+        // At h = 0 the functions divide by zero; 10⁻⁹ changes them by less than the 10⁻⁶ to spare.
+        let half = |h: f64| HalfFlight::at(h.max(1e-9));
+        let (begin, end) = (half(h2.0), half(h2.1));
+        let top = if h2.0 < PI / 2.0 && h2.1 > PI / 2.0 { 1.0 } else { begin.sin.max(end.sin) };
+        let sin = Range(begin.sin.min(end.sin), top);
+        let cos = Range(end.cos, begin.cos);
+        let u = Range(-begin.u, -end.u);
+        let rho = Range(-begin.rho, -end.rho);
+        let closing2 = rho.times(u.plus(x.times(sin))).scaled(2.0);
+        let x2 = x.plus(h2.times(v.minus(h2)).scaled(2.0));
+        let versine = sin.times(sin).scaled(2.0);
+        let delay = Range(begin.d, end.d).scaled(2.0);
+        let by_x = closing2.times(sin.times(cos)).scaled(2.0).plus(x2.times(versine)).scaled(-2.0);
+        let by_v = closing2.times(versine).plus(x2.times(delay)).scaled(-2.0);
+        let taken = by_x.times(x_slope).plus(by_v.times(v_slope)).over(alpha.times(g).scaled(2.0));
+        mu.times(b.times(d).scaled(4.0).minus(taken)).shifted(1.0)
+    }
+
+    /// Proves the bounds on a box of h and M; a box on which the intervals are too wide is halved.
+    fn prove(h: Range, m: Range, (star, steepest): (f64, f64), boxes: &mut usize) {
+        *boxes += 1;
+        // Far more boxes than a proof takes: without this limit a false bound would be halved for ever.
+        assert!(*boxes < 3_000_000, "no proof at h = {h:?}, M = {m:?}: {:?}", slope(h, m));
+        let found = slope(h, m);
+        if found.0 > 1e-6 && found.1 + 1e-6 < steepest {
+            return;
+        }
+        // The longer side is halved. Lengths of h count relative to the distance from α*_n, on which the slope depends; the
+        // factor 2 of M was chosen for few boxes.
+        if (h.1 - h.0) / (star - h.0).min(0.5) > 2.0 * (m.1 - m.0) {
+            let middle = 0.5 * (h.0 + h.1);
+            prove(Range(h.0, middle), m, (star, steepest), boxes);
+            prove(Range(middle, h.1), m, (star, steepest), boxes);
+        } else {
+            let middle = 0.5 * (m.0 + m.1);
+            prove(h, Range(m.0, middle), (star, steepest), boxes);
+            prove(h, Range(middle, m.1), (star, steepest), boxes);
+        }
+    }
+
+    #[test]
+    fn the_map_rises_in_its_windows() {
+        for n in 1..=8 {
+            let window = rising_window(n).unwrap();
+            // h of the upper end solves A(h) = α; A(h) > h on the window.
+            let (mut left, mut right) = (n as f64 * PI, alpha_star(n));
+            for _ in 0..60 {
+                let middle = 0.5 * (left + right);
+                if HalfFlight::at(middle).start_speed(0.0) < window.part.right {
+                    left = middle
+                } else {
+                    right = middle
+                }
+            }
+            let mut boxes = 0;
+            let limits = (alpha_star(n), window.steepest);
+            let ratios = Range(0.0, window.largest_mass_ratio);
+            prove(Range(n as f64 * PI, right), ratios, limits, &mut boxes);
+        }
+    }
+
+    /// The formula agrees with the derivative of the map.
+    #[test]
+    fn the_slope_is_that_of_the_map() {
+        for k in 0..4000u32 {
+            let part = |step: f64| (f64::from(k) * step).fract();
+            let n = 1 + u64::from(k % 8);
+            let window = rising_window(n).unwrap();
+            let m = 0.001 + (window.largest_mass_ratio - 0.001) * part(0.618_033_988_749_895);
+            let alpha = window.part.left
+                + window.part.length() * (0.001 + 0.998 * part(0.754_877_666_246_693));
+            let map = LiftOffMap::new(MassRatio::new(m).unwrap());
+            let exact = map.slopes(alpha).unwrap().unwrap().by_speed
+                * map.image(alpha).unwrap().unwrap()
+                / alpha;
+            let h = 0.5 * map.landings(alpha).unwrap().next().unwrap().unwrap().time;
+            let found = slope(Range(h, h), Range(m, m));
+            assert!(
+                (found.0 - exact).abs() < 1e-6 * exact.abs() + 1e-7,
+                "M = {m}, α = {alpha}: {found:?} {exact}"
+            );
+        }
+    }
+
+    /// Only the eight windows of the proof are given, whatever the index.
+    #[test]
+    fn other_windows_are_not_proved() {
+        for n in [0, 9, 10, u64::MAX] {
+            assert_eq!(rising_window(n), None);
+        }
+        let window = rising_window(1).unwrap();
+        assert!(window.largest_mass_ratio > 0.9 && window.part.contains(4.0));
+    }
+}

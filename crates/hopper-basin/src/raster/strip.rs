@@ -1,0 +1,297 @@
+//! A strip: several columns side by side, whose orbits hop together.
+//!
+//! ```text
+//!   for every hump, from the lowest up:
+//!     follow every 16th speed of every column
+//!     as soon as the orbits of two neighbouring followed speeds have ended:
+//!       if their itineraries agree    give all speeds between them their label
+//!       else                          follow the middle speed as well
+//!     keep the labelled intervals: an orbit that comes down to one has ended
+//! ```
+//!
+//! A strip has several columns because one column has too few orbits at a time to fill the vectors of a processor.
+
+use crate::error::Error;
+use crate::fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
+use crate::fates::hopper_fate::HopperFate;
+use crate::raster::column::Column;
+use crate::raster::itinerary::Itinerary;
+use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
+use crate::raster::laps::HUMPS_WITH_LAPS;
+use passive_hopper::{LiftOffMap, alpha_star, index_below};
+use std::ops::Range;
+
+/// At first every 16th speed is followed.
+///
+/// A larger step follows fewer orbits where gaps close at once, and needs more rounds of halving elsewhere; late rounds
+/// have few orbits to fill the vectors. The value was set when columns were first bisected; it affects the time only.
+const COARSEST: usize = 16;
+
+/// A strip labels additional speeds below its lowest one, fewer by this factor, so that orbits that come down from the
+/// window find intervals of known fate there. Without these speeds Fig. 9 takes 1.7 times as long; they cost half as
+/// many more speeds, most of which are never followed.
+const LOWER: usize = 2;
+
+/// A speed that is followed. Speeds are named by their index in the column.
+#[derive(Debug, Clone, Copy)]
+struct Followed {
+    column: u32,
+    at: u32,
+    /// The neighbouring followed speeds when this one was started; itself if there is none.
+    left: u32,
+    right: u32,
+    itinerary: Itinerary,
+}
+
+/// The orbits of a hump. `index`, `hops` and `before` have one entry for every orbit that has not ended (invariant LISTS).
+#[derive(Default)]
+struct Orbits<'a> {
+    /// All orbits that have been started.
+    all: Vec<Followed>,
+    /// The orbits that have not ended, as indices of `all`.
+    index: Vec<u32>,
+    /// Their maps and where they are now.
+    hops: Vec<(&'a LiftOffMap, Option<f64>)>,
+    /// Where they were before the last hop; NaN for orbits that have not hopped.
+    before: Vec<f64>,
+    /// The number of hops of the oldest.
+    count: usize,
+    /// The interval of known fate in which each of them is; used by `retire` alone.
+    found: Vec<u32>,
+    /// The orbits that have ended since their gaps were last looked at.
+    ended: Vec<u32>,
+}
+
+struct Strip<'a> {
+    columns: Vec<Column<'a>>,
+    speeds: Vec<f64>,
+    intervals: KnownIntervals,
+    orbits: Orbits<'a>,
+    /// The last error of a fate that was computed by itself.
+    failed: Result<(), Error>,
+}
+
+/// The labels of `speeds` > 0, in increasing order, at every mass ratio.
+pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
+    let (speeds, lower) = with_lower_speeds(speeds);
+    let columns: Vec<_> =
+        all.iter().map(|fates| Column::new(fates, &speeds)).collect::<Result<_, _>>()?;
+    let mut intervals = KnownIntervals::new(columns.len(), &speeds, lower);
+    for (at, column) in columns.iter().enumerate() {
+        for (fate, ends) in column.known_traps() {
+            intervals.add_between(at, &speeds, fate, ends);
+        }
+    }
+    let orbits = Orbits::default();
+    let mut strip = Strip { columns, speeds, intervals, orbits, failed: Ok(()) };
+    strip.label()?;
+    strip.failed?;
+    Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
+}
+
+/// Fewer speeds, equally spaced from 0 up to the first of `speeds`, and then `speeds`; and the number of the former.
+fn with_lower_speeds(speeds: &[f64]) -> (Vec<f64>, usize) {
+    let first = speeds.first().copied().unwrap_or(0.0);
+    let count = speeds.len() / LOWER;
+    let lower = (0..count).map(|k| first * (k as f64 + 0.5) / count as f64);
+    // Half of the smallest subnormal is 0, which is no valid speed.
+    let mut all: Vec<f64> = lower.filter(|&speed| speed > 0.0).collect();
+    let count = all.len();
+    all.extend_from_slice(speeds);
+    (all, count)
+}
+
+impl Strip<'_> {
+    fn label(&mut self) -> Result<(), Error> {
+        let last = self.speeds.last().map_or(Ok(0), |&speed| index_below(speed))?;
+        let with_laps = self.columns.iter().any(|column| column.laps.is_some());
+        let mut first = 0;
+        // DOWN: orbits only descend, so that the intervals of lower humps are complete when an orbit comes down to them.
+        // Without laps there are no such intervals, and all humps are one.
+        for n in 0..if with_laps { HUMPS_WITH_LAPS.min(last + 1) } else { 0 } {
+            let star = alpha_star(n + 1);
+            let end = first + self.speeds[first..].partition_point(|&speed| speed < star);
+            self.label_hump(first..end, true);
+            first = end;
+        }
+        self.label_hump(first..self.speeds.len(), false);
+        Ok(())
+    }
+
+    /// Labels the speeds of a hump. Without laps every speed is followed.
+    fn label_hump(&mut self, hump: Range<usize>, with_laps: bool) {
+        self.orbits.count = 0;
+        self.orbits.all.clear();
+        for column in 0..self.columns.len() {
+            self.start_column(column, &hump, with_laps);
+        }
+        self.retire(0);
+        loop {
+            self.refine();
+            if self.orbits.index.is_empty() {
+                break;
+            }
+            self.hop();
+        }
+        for (at, column) in self.columns.iter().enumerate() {
+            for (range, itinerary, label) in column.closed_intervals(hump.clone()) {
+                let ends = (self.speeds[range.start], self.speeds[range.end]);
+                self.intervals.add(at, range, KnownFate { itinerary, label }, ends);
+            }
+        }
+    }
+
+    /// Starts the first orbits of a column: of every 16th speed and the last, or of all speeds without laps.
+    fn start_column(&mut self, column: usize, hump: &Range<usize>, with_laps: bool) {
+        if hump.is_empty() {
+            return;
+        }
+        let (first, last) = (hump.start as u32, hump.end as u32 - 1);
+        if !with_laps || self.columns[column].laps.is_none() {
+            for at in first..=last {
+                self.start(column, at, (at, at));
+            }
+            return;
+        }
+        let mut left = first;
+        let mut at = first;
+        loop {
+            let right = (at + COARSEST as u32).min(last);
+            self.start(column, at, (left, right));
+            if at == last {
+                break;
+            }
+            (left, at) = (at, right);
+        }
+    }
+
+    fn start(&mut self, column: usize, at: u32, (left, right): (u32, u32)) {
+        let map = self.columns[column].fates.map();
+        let orbits = &mut self.orbits;
+        orbits.index.push(orbits.all.len() as u32);
+        orbits.hops.push((map, Some(self.speeds[at as usize])));
+        // An orbit that has not hopped does not stand still: NaN equals no speed.
+        orbits.before.push(f64::NAN);
+        let (column, itinerary) = (column as u32, Itinerary::START);
+        orbits.all.push(Followed { column, at, left, right, itinerary });
+    }
+
+    /// Takes all orbits one hop further, and retires those that end.
+    fn hop(&mut self) {
+        let Orbits { all, index, hops, before, .. } = &mut self.orbits;
+        before.clear();
+        before.extend(hops.iter().map(|hop| hop.1.unwrap_or(f64::NAN)));
+        // A hop with an error keeps its speed. `ends` takes such an orbit for one that stands still, and classifies it
+        // by itself, which gives its error or its reason.
+        let _ = LiftOffMap::images_of_pairs(hops);
+        for ((&at, hop), &alpha) in index.iter().zip(hops.iter()).zip(before.iter()) {
+            let Followed { column, itinerary, .. } = &mut all[at as usize];
+            match &self.columns[*column as usize].laps {
+                Some(laps) => itinerary.hop(alpha, hop.1, laps, hop.0),
+                None => itinerary.give_up(),
+            }
+        }
+        self.orbits.count += 1;
+        self.retire(0);
+    }
+
+    /// Labels the orbits that have ended among those from `first` on, and removes them from the lists.
+    fn retire(&mut self, first: usize) {
+        // All look-ups first, in a loop without branches, which the processor overlaps.
+        let Orbits { all, index, hops, before, found, .. } = &mut self.orbits;
+        found.clear();
+        let orbits = index[first..].iter().zip(&hops[first..]).zip(&before[first..]);
+        found.extend(orbits.map(|((&at, hop), before)| {
+            let alpha = hop.1.unwrap_or(f64::NAN);
+            let found = self.intervals.find(all[at as usize].column as usize, alpha);
+            // An orbit that stands still, or whose hop had an error, is left to `ends`.
+            if alpha == *before { NO_INTERVAL } else { found }
+        }));
+        let mut kept = first;
+        for from in first..self.orbits.index.len() {
+            let at = self.orbits.index[from];
+            let hop = self.orbits.hops[from];
+            if self.ends(at, (self.orbits.before[from], hop.1), self.orbits.found[from - first]) {
+                self.orbits.ended.push(at);
+            } else {
+                // LISTS: `before` is not compacted, only shortened. Until the next hop, which fills it anew, only the
+                // entries of orbits started since are read.
+                (self.orbits.index[kept], self.orbits.hops[kept]) = (at, hop);
+                kept += 1;
+            }
+        }
+        self.orbits.index.truncate(kept);
+        self.orbits.hops.truncate(kept);
+        self.orbits.before.truncate(kept);
+    }
+
+    /// Whether an orbit has ended; if so, labels it and completes its itinerary.
+    #[inline]
+    fn ends(&mut self, at: u32, (before, speed): (f64, Option<f64>), found: u32) -> bool {
+        if found != NO_INTERVAL {
+            let known = self.intervals.get(found);
+            self.end_in(at, speed.unwrap_or(f64::NAN), known);
+            return true;
+        }
+        let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
+        let column = &mut self.columns[*column as usize];
+        let Some(alpha) = speed else {
+            column.labels[*start as usize] = HopperFate::GROUNDED;
+            return true;
+        };
+        if alpha != before && alpha > 0.0 && self.orbits.count <= HOP_BUDGET {
+            // The table of intervals misses parts of traps. An orbit must end at the hop that enters a trap, as it does in
+            // `Fates::fate`: the computed map may leave the last ulps of a trap again (invariant TRAP).
+            match column.trap(alpha) {
+                None => return false,
+                Some(trap) if u64::from(trap.0.label) != HopperFate::LARGEST_LABEL => {
+                    self.end_in(at, alpha, trap);
+                    return true;
+                }
+                // The generic traps give all indices from 65 000 up this label, `HopperFate` does not.
+                Some(_) => {}
+            }
+        }
+        // The orbit stands still, has no valid speed, or has used up its hops: its fate by itself has the reason.
+        itinerary.give_up();
+        match column.fates.fate(self.speeds[*start as usize]) {
+            Ok(fate) => column.labels[*start as usize] = fate.label(),
+            Err(error) => self.failed = Err(error),
+        }
+        true
+    }
+
+    /// Ends an orbit that has come to `alpha` in an interval of known fate.
+    #[inline]
+    fn end_in(&mut self, at: u32, alpha: f64, (known, ends): (KnownFate, (f64, f64))) {
+        let Followed { column, at, itinerary, .. } = &mut self.orbits.all[at as usize];
+        itinerary.end_in(alpha, &known.itinerary, ends);
+        self.columns[*column as usize].labels[*at as usize] = known.label;
+    }
+
+    /// Closes or halves the gaps beside all orbits that have ended, until no started orbit has ended.
+    fn refine(&mut self) {
+        while !self.orbits.ended.is_empty() {
+            let mut ended = std::mem::take(&mut self.orbits.ended);
+            let first = self.orbits.index.len();
+            for index in ended.drain(..) {
+                let Followed { column, at, left, right, itinerary } =
+                    self.orbits.all[index as usize];
+                let column = column as usize;
+                self.columns[column].finish(at as usize, itinerary);
+                for (left, right) in [(left, at), (at, right)] {
+                    if left < right
+                        && let Some(middle) =
+                            self.columns[column].close_gap(left as usize, right as usize)
+                    {
+                        self.start(column, middle as u32, (left, right));
+                    }
+                }
+            }
+            // The vector goes back, so that its memory is used again.
+            self.orbits.ended = ended;
+            // A started orbit may be in an interval of known fate already.
+            self.retire(first);
+        }
+    }
+}

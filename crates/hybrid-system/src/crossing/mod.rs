@@ -1,0 +1,43 @@
+//! How is the first crossing of a guard found?
+//!
+//! [`earliest_crossing`] searches every guard by the strongest means that the model gives and returns the earliest
+//! result:
+//!
+//! | the model gives | file | no crossing is missed because |
+//! |---|---|---|
+//! | the guard as a quasi-polynomial | `quasi_polynomial_search` | bounds on g″ follow from the coefficients |
+//! | enclosures of g, g′, g″ | `enclosure_search` | the model's enclosures are bounds |
+//! | values only | `sampled` | no guarantee between two samples |
+//!
+//! `under_bounds` chooses between the first two. `bracketed_root` refines a change of sign, `step_past_root` moves the
+//! result to the far side of the surface, and `closest_approach` describes a grazing.
+
+mod bracketed_root;
+mod certainty;
+mod closest_approach;
+mod earliest;
+mod enclosure;
+mod enclosure_search;
+mod first_crossing;
+mod guard_rounding;
+mod guarded_flow;
+mod quasi_polynomial;
+mod quasi_polynomial_search;
+mod same_instant;
+mod sampled;
+mod step_past_root;
+mod under_bounds;
+mod zero_test;
+
+pub use bracketed_root::bracketed_root;
+pub use certainty::{Certainty, Crossing};
+pub(crate) use earliest::earliest_crossing;
+pub use enclosure::Enclosure;
+pub use first_crossing::FirstCrossing;
+pub(crate) use guard_rounding::guard_rounding;
+pub(crate) use guarded_flow::GuardedFlow;
+pub use quasi_polynomial::QuasiPolynomial;
+#[cfg(feature = "ode")]
+pub(crate) use same_instant::sooner;
+#[cfg(feature = "ode")]
+pub(crate) use step_past_root::step_to_sign;

@@ -1,0 +1,14 @@
+//! Which of two crossing times is earlier, if rounding allows an answer.
+
+/// Two times within this many ulps count as the same instant. A crossing time is right to a few ulps: `bracketed_root`
+/// stops at a bracket of two ulps, and the step past the root adds one or two. A larger number would swap the order of
+/// events that rounding does tell apart.
+const SAME_INSTANT_ULPS: f64 = 4.0;
+
+/// True if `time` comes before `other` by more than a few ulps.
+///
+/// Guards are searched in the order in which the model lists them. Because this comparison is strict by a margin, the
+/// guard listed first keeps its place among crossings at the same instant.
+pub(crate) fn sooner(time: f64, other: f64) -> bool {
+    time < other * (1.0 - SAME_INSTANT_ULPS * f64::EPSILON)
+}

@@ -1,0 +1,20 @@
+//! The answer of a test for zeros on one interval of time.
+
+/// The answer of bounds about the zeros of a function on one interval.
+///
+/// The tests themselves are statements (2) and (3) of [mathematics](crate::mathematics).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum ZeroTest {
+    /// The function has no zero on the interval.
+    NoZero {
+        /// Its sign there, ±1.
+        sign: f64,
+    },
+    /// The function is monotone on the interval: it has a zero if and only if its sign changes.
+    Monotone {
+        /// A number with the sign of the derivative.
+        slope: f64,
+    },
+    /// The bounds are too wide for either answer: the interval must be halved.
+    Undecided,
+}

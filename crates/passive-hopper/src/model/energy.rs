@@ -1,0 +1,24 @@
+//! Energy.
+
+use crate::model::mass_ratio::MassRatio;
+use crate::model::state::HopperState;
+
+/// Total energy in units of m₁m₂g²/k:
+/// E = ½(1+M)(ẏ₁² + Mẏ₂²) + ½M s² + y₁ + M y₂.
+///
+/// Constant on every arc; a landing takes ½M(1+M)ẏ₂² and nothing else does.
+pub fn energy(mass_ratio: MassRatio, state: &HopperState) -> f64 {
+    let m = mass_ratio.value();
+    let (v1, v2) = (state.upper_velocity, state.lower_velocity);
+    let s = state.stretch();
+    0.5 * (1.0 + m) * (v1 * v1 + m * v2 * v2)
+        + 0.5 * m * s * s
+        + state.upper_position
+        + m * state.lower_position
+}
+
+/// What a plastic landing with the lower mass at `lower_velocity` takes, ½M(1+M)ẏ₂².
+pub fn landing_loss(mass_ratio: MassRatio, lower_velocity: f64) -> f64 {
+    let m = mass_ratio.value();
+    0.5 * m * (1.0 + m) * lower_velocity * lower_velocity
+}

@@ -1,0 +1,198 @@
+//! The lossless hops: fixed points of every map, whatever the mass ratio.
+
+use crate::error::Error;
+use crate::landing::from_ground::LARGEST_LIFT_OFF_SPEED;
+use crate::precision::double_double::DoubleDouble;
+use std::cmp::Ordering;
+use std::sync::OnceLock;
+
+/// α*_n, the n-th positive root of tan α = α (paper, Eq. 3); α*_0 = 0.
+///
+/// Lift-off at this speed lands after τ = 2α*_n with no speed at all: the hop repeats for ever.
+/// The value is the `f64` nearest to the root; [`FixedPointSpeed`] has 100 bits of it.
+///
+/// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²).
+///
+/// ```
+/// use passive_hopper::alpha_star;
+/// assert_eq!(alpha_star(1), 4.493409457909064);
+/// assert_eq!(alpha_star(2), 7.725251836937707);
+/// ```
+pub fn alpha_star(n: u64) -> f64 {
+    exact_alpha_star(n).high
+}
+
+/// α*_n to 100 bits, for questions that 53 bits leave open: on which side of it a speed lies, and how far away.
+///
+/// ```
+/// use passive_hopper::{FixedPointSpeed, alpha_star};
+/// use std::cmp::Ordering;
+/// let star = FixedPointSpeed::new(1);
+/// assert_eq!(star.value(), alpha_star(1));
+/// // The nearest f64 lies below α*_1; the offset is far smaller than the spacing of f64 there.
+/// assert_eq!(star.compare(star.value()), Ordering::Less);
+/// assert!(star.offset_of(star.value()).abs() < 4.5e-16);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FixedPointSpeed(DoubleDouble);
+
+impl FixedPointSpeed {
+    /// α*_n; zero for n = 0.
+    pub fn new(n: u64) -> Self {
+        FixedPointSpeed(exact_alpha_star(n))
+    }
+
+    /// The `f64` nearest to α*_n.
+    pub fn value(self) -> f64 {
+        self.0.high
+    }
+
+    /// α*_n − [`value`](Self::value), at most half an ulp of it.
+    pub fn rest(self) -> f64 {
+        self.0.low
+    }
+
+    /// Compares the speed `alpha` with α*_n: `Less` if `alpha` lies below α*_n.
+    pub fn compare(self, alpha: f64) -> Ordering {
+        self.0.compare(alpha)
+    }
+
+    /// `alpha` − α*_n, rounded once.
+    pub fn offset_of(self, alpha: f64) -> f64 {
+        self.0.offset_of(alpha)
+    }
+
+    /// The smallest `f64` that is not below α*_n.
+    pub fn smallest_not_below(self) -> f64 {
+        if self.0.low > 0.0 { self.0.high.next_up() } else { self.0.high }
+    }
+
+    /// The largest `f64` below α*_n.
+    pub fn largest_below(self) -> f64 {
+        if self.0.low > 0.0 { self.0.high } else { self.0.high.next_down() }
+    }
+}
+
+/// α*_n to 100 bits. The first 128 values are computed once and kept.
+pub(crate) fn exact_alpha_star(n: u64) -> DoubleDouble {
+    static FIRST: OnceLock<[DoubleDouble; 128]> = OnceLock::new();
+    let first = FIRST.get_or_init(|| std::array::from_fn(|n| solve(n as u64)));
+    first.get(n as usize).copied().unwrap_or_else(|| solve(n))
+}
+
+fn solve(n: u64) -> DoubleDouble {
+    if n == 0 {
+        return DoubleDouble::ZERO;
+    }
+    // n + ½ in two parts, each an f64.
+    let low = n & ((1 << 26) - 1);
+    let q = DoubleDouble::multiple_of_pi((n - low) as f64)
+        + DoubleDouble::multiple_of_pi(low as f64 + 0.5);
+    let mut alpha = q;
+    // The error shrinks by at least 21 in a step; 24 steps take any start to 106 bits.
+    for _ in 0..24 {
+        let next = q - arc_tangent(DoubleDouble::ONE / alpha);
+        if next == alpha {
+            break;
+        }
+        alpha = next;
+    }
+    alpha
+}
+
+/// arctan x = x − x³/3 + x⁵/5 − …, for 0 < x < ¼.
+fn arc_tangent(x: DoubleDouble) -> DoubleDouble {
+    let minus_square = -x.squared();
+    let (mut power, mut sum, mut odd) = (x, x, 1.0);
+    while power.high.abs() > 1e-34 * x.high {
+        power = power * minus_square;
+        odd += 2.0;
+        sum = sum + power / DoubleDouble::from(odd);
+    }
+    sum
+}
+
+/// n π to 100 bits: where a first landing has stretch one, and the flight an integer number of turns.
+pub(crate) fn n_pi(n: u64) -> DoubleDouble {
+    DoubleDouble::multiple_of_pi(n as f64)
+}
+
+/// The largest n with α*_n ≤ `alpha`.
+///
+/// Decided on 100 bits: an `alpha` one ulp below α*_n belongs to n − 1.
+///
+/// # Errors
+/// [`Error::LiftOffSpeed`] unless `alpha` is zero or positive and finite,
+/// [`Error::LiftOffSpeedTooLarge`] above 2⁴³.
+pub fn index_below(alpha: f64) -> Result<u64, Error> {
+    if !(alpha >= 0.0) || !alpha.is_finite() {
+        return Err(Error::LiftOffSpeed { value: alpha });
+    }
+    if alpha > LARGEST_LIFT_OFF_SPEED {
+        return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
+    }
+    // α*_n ∈ (nπ, (n+½)π): it is ⌊α/π⌋, or one off.
+    let mut n = (alpha / std::f64::consts::PI) as u64 + 1;
+    while n > 0 && exact_alpha_star(n).compare(alpha) == Ordering::Less {
+        n -= 1;
+    }
+    Ok(n)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// α*_n to 50 digits, computed independently (mpmath).
+    const REFERENCE: &str = include_str!("../../tests/data/fixed_points.json");
+
+    #[test]
+    fn agrees_with_fifty_digits() {
+        let rows: Vec<serde_json::Value> = serde_json::from_str(REFERENCE).unwrap();
+        assert!(rows.len() >= 33);
+        for row in rows {
+            let n = row["n"].as_u64().unwrap();
+            let text = row["alpha_star"].as_str().unwrap();
+            let ours = exact_alpha_star(n);
+            assert_eq!(ours.high, text.parse::<f64>().unwrap(), "n = {n}");
+            // The rest, from the decimal digits: integer part and 30 digits of the fraction.
+            let (whole, fraction) = text.split_once('.').unwrap();
+            let mut exact = DoubleDouble::from(whole.parse::<f64>().unwrap());
+            for (place, chunk) in fraction.as_bytes().chunks(10).take(4).enumerate() {
+                let digits: f64 = std::str::from_utf8(chunk).unwrap().parse().unwrap();
+                let mut term = DoubleDouble::from(digits);
+                let digits_so_far = 10 * place + chunk.len();
+                for _ in 0..digits_so_far {
+                    term = term / DoubleDouble::from(10.0);
+                }
+                exact = exact + term;
+            }
+            let error = ours - exact;
+            assert!(error.high.abs() < 1e-29 * ours.high, "n = {n}: off by {:e}", error.high);
+        }
+    }
+
+    #[test]
+    fn index_is_right_on_both_sides_of_every_fixed_point() {
+        for n in 1..2000 {
+            let star = exact_alpha_star(n);
+            let (below, above) = if star.low < 0.0 {
+                (star.high.next_down(), star.high)
+            } else {
+                (star.high, star.high.next_up())
+            };
+            assert_eq!(index_below(below), Ok(n - 1));
+            assert_eq!(index_below(above), Ok(n));
+        }
+        assert_eq!(index_below(0.0), Ok(0));
+        assert_eq!(index_below(4.0), Ok(0));
+        assert!(index_below(f64::NAN).is_err() && index_below(1e300).is_err());
+    }
+
+    #[test]
+    fn huge_indices_do_not_break() {
+        for n in [1 << 40, 1 << 50, u64::MAX] {
+            assert!(alpha_star(n).is_finite());
+        }
+    }
+}

@@ -1,0 +1,248 @@
+//! Numbers as unevaluated sums of two `f64`, for the constants that decide which side of a branch
+//! a speed lies on.
+
+use std::cmp::Ordering;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+use std::sync::OnceLock;
+
+/// A number `high + low` with |`low`| ≤ ½ ulp(`high`): about 106 bits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct DoubleDouble {
+    /// The nearest `f64`.
+    pub(crate) high: f64,
+    /// What is left.
+    pub(crate) low: f64,
+}
+
+/// π to 161 bits, in three parts.
+const PI_PARTS: [f64; 3] =
+    [std::f64::consts::PI, 1.224_646_799_147_353_2e-16, -2.994_769_809_718_339_7e-33];
+
+impl DoubleDouble {
+    pub(crate) const ZERO: DoubleDouble = DoubleDouble { high: 0.0, low: 0.0 };
+    pub(crate) const ONE: DoubleDouble = DoubleDouble { high: 1.0, low: 0.0 };
+
+    /// `high + low`, renormalised, for |`high`| ≥ |`low`|.
+    fn ordered_sum(high: f64, low: f64) -> Self {
+        let sum = high + low;
+        DoubleDouble { high: sum, low: low - (sum - high) }
+    }
+
+    /// The exact sum of two `f64`.
+    pub(crate) fn exact_sum(a: f64, b: f64) -> Self {
+        let sum = a + b;
+        let b_rounded = sum - a;
+        let low = (a - (sum - b_rounded)) + (b - b_rounded);
+        DoubleDouble { high: sum, low }
+    }
+
+    /// The exact product of two `f64`, by Dekker's splitting (no fused multiply-add needed).
+    ///
+    /// Exact while neither the factors exceed 2⁹⁹⁵ nor the product's error term underflows.
+    pub(crate) fn exact_product(a: f64, b: f64) -> Self {
+        let (a_high, a_low) = split(a);
+        let (b_high, b_low) = split(b);
+        let high = a * b;
+        let low = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
+        DoubleDouble { high, low }
+    }
+
+    /// n π, relatively right to 2⁻¹⁰⁵.
+    pub(crate) fn multiple_of_pi(n: f64) -> Self {
+        let [a, b, c] = PI_PARTS;
+        Self::exact_product(a, n) + Self::exact_product(b, n) + c * n
+    }
+
+    /// self².
+    pub(crate) fn squared(self) -> Self {
+        self * self
+    }
+
+    /// √self; 0 for a number that is not positive.
+    pub(crate) fn sqrt(self) -> Self {
+        if !(self.high > 0.0) {
+            return Self::ZERO;
+        }
+        // One Newton step from the f64 root: r + (x − r²)/(2r).
+        let root = self.high.sqrt();
+        let rest = self - Self::exact_product(root, root);
+        Self::ordered_sum(root, rest.high / (2.0 * root))
+    }
+
+    /// sin and cos, absolutely right to about 2⁻¹⁰⁰; sin relatively so near zero.
+    pub(crate) fn sin_cos(self) -> (Self, Self) {
+        let turns = (self.high / std::f64::consts::PI).round();
+        // Part by part: the first difference cancels without error.
+        let [a, b, c] = PI_PARTS.map(|part| Self::exact_product(part, turns));
+        let rest = ((self - a) - b) - c;
+        let square = rest.squared();
+        let (mut sin, mut cos) = (Self::ZERO, Self::ZERO);
+        for k in (0..TERMS).rev() {
+            let inverse = inverse_factorials();
+            sin = inverse[2 * k + 1] - sin * square;
+            cos = inverse[2 * k] - cos * square;
+        }
+        let sign = if turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        (sin * rest * sign, cos * sign)
+    }
+
+    /// Compares `value` with this number: `Less` if `value` is below it.
+    pub(crate) fn compare(self, value: f64) -> Ordering {
+        value.total_cmp(&self.high).then(0f64.total_cmp(&self.low))
+    }
+
+    /// `value` minus this number, rounded once.
+    pub(crate) fn offset_of(self, value: f64) -> f64 {
+        let difference = Self::exact_sum(value, -self.high);
+        difference.high + (difference.low - self.low)
+    }
+}
+
+/// Terms of the series of sin and cos: (π/2)³²/32! is under 2⁻¹⁰⁶.
+const TERMS: usize = 17;
+
+/// 1/k! for k up to 40.
+fn inverse_factorials() -> &'static [DoubleDouble; 40] {
+    static TABLE: OnceLock<[DoubleDouble; 40]> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let mut table = [DoubleDouble::ONE; 40];
+        for k in 1..40 {
+            table[k] = table[k - 1] / DoubleDouble::from(k as f64);
+        }
+        table
+    })
+}
+
+impl From<f64> for DoubleDouble {
+    fn from(high: f64) -> Self {
+        DoubleDouble { high, low: 0.0 }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        let high = Self::exact_sum(self.high, other.high);
+        let low = Self::exact_sum(self.low, other.low);
+        let partial = Self::ordered_sum(high.high, high.low + low.high);
+        Self::ordered_sum(partial.high, partial.low + low.low)
+    }
+}
+
+impl Add<f64> for DoubleDouble {
+    type Output = Self;
+    fn add(self, other: f64) -> Self {
+        self + Self::from(other)
+    }
+}
+
+impl Neg for DoubleDouble {
+    type Output = Self;
+    fn neg(self) -> Self {
+        DoubleDouble { high: -self.high, low: -self.low }
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = Self;
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        let product = Self::exact_product(self.high, other.high);
+        let rest = self.high * other.low + self.low * other.high;
+        Self::ordered_sum(product.high, product.low + rest)
+    }
+}
+
+impl Mul<f64> for DoubleDouble {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        let product = Self::exact_product(self.high, factor);
+        Self::ordered_sum(product.high, product.low + self.low * factor)
+    }
+}
+
+impl Div for DoubleDouble {
+    type Output = Self;
+    fn div(self, divisor: Self) -> Self {
+        // Long division, three digits of 53 bits.
+        let first = self.high / divisor.high;
+        let rest = self - divisor * first;
+        let second = rest.high / divisor.high;
+        let rest = rest - divisor * second;
+        let third = rest.high / divisor.high;
+        Self::ordered_sum(first, second) + third
+    }
+}
+
+fn split(a: f64) -> (f64, f64) {
+    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
+    let c = SPLITTER * a;
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn sums_and_products_are_exact(a in -1e6..1e6f64, b in -1e6..1e6f64) {
+            let product = DoubleDouble::exact_product(a, b);
+            prop_assert_eq!(product.high, a * b);
+            prop_assert_eq!(product.low, a.mul_add(b, -product.high));
+            let sum = DoubleDouble::exact_sum(a, b);
+            prop_assert_eq!(sum.high, a + b);
+        }
+
+        #[test]
+        fn reciprocals_multiply_to_one(a in 0.1..1e6f64, b in -1e-12..1e-12f64) {
+            let x = DoubleDouble::exact_sum(a, b);
+            let one = x * (DoubleDouble::ONE / x);
+            prop_assert!(((one.high - 1.0) + one.low).abs() < 1e-30);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn sines_are_on_the_circle_and_near_f64(x in -1e4..1e4f64, low in -1e-17..1e-17f64) {
+            let (sin, cos) = (DoubleDouble::from(x) + low).sin_cos();
+            let one = sin.squared() + cos.squared();
+            prop_assert!(((one.high - 1.0) + one.low).abs() < 1e-30);
+            prop_assert!((sin.high - pxfm::f_sin(x)).abs() < 2e-16);
+            prop_assert!((cos.high - pxfm::f_cos(x)).abs() < 2e-16);
+        }
+
+        #[test]
+        fn roots_square_back(x in 1e-6..1e6f64, low in -1e-17..1e-17f64) {
+            let x = DoubleDouble::from(x) + low;
+            let back = x.sqrt().squared() - x;
+            prop_assert!(back.high.abs() < 1e-30 * x.high);
+        }
+    }
+
+    /// tan α* = α*, with α* from another route (arctangents): the sine series to 30 digits.
+    #[test]
+    fn sines_at_the_fixed_points() {
+        for n in [1, 2, 10, 1000] {
+            let star = crate::model::fixed_points::exact_alpha_star(n);
+            let (sin, cos) = star.sin_cos();
+            let rest = sin - star * cos;
+            assert!(rest.high.abs() < 1e-28 * star.high, "{n}: {}", rest.high);
+        }
+    }
+
+    #[test]
+    fn comparison_sees_the_low_part() {
+        let pi = DoubleDouble::multiple_of_pi(1.0);
+        assert_eq!(pi.compare(std::f64::consts::PI), Ordering::Less);
+        assert_eq!(pi.compare(std::f64::consts::PI.next_up()), Ordering::Greater);
+    }
+}

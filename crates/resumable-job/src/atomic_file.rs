@@ -1,0 +1,255 @@
+//! Files that appear under their name complete or not at all.
+//!
+//! The bytes go to a temporary file beside the final one, are flushed to the disk, and the temporary file is renamed.
+//! The temporary name holds the number of the process and a counter, and is created anew each time, so no two
+//! writers ever share it. The writer locks its temporary file: a temporary file without a lock has lost its writer.
+
+use crate::error::Error;
+use crate::open_file::is_named;
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{BufWriter, ErrorKind, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The end of every temporary name.
+const SUFFIX: &str = ".partial.tmp";
+
+/// Temporary files that this process has begun.
+static BEGUN: AtomicU64 = AtomicU64::new(0);
+
+/// A file under construction; [`AtomicFile::finish`] gives it its name. Dropped before, it leaves nothing behind.
+#[derive(Debug)]
+pub struct AtomicFile {
+    file: BufWriter<File>,
+    temporary: PathBuf,
+    path: PathBuf,
+    has_its_name: bool,
+}
+
+impl AtomicFile {
+    /// Begins a file that will be named `path`, in a folder that exists.
+    pub fn create(path: &Path) -> Result<Self, Error> {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        loop {
+            let count = BEGUN.fetch_add(1, Ordering::Relaxed);
+            let temporary =
+                path.with_file_name(format!("{name}.{}-{count}{SUFFIX}", std::process::id()));
+            let new = OpenOptions::new().read(true).write(true).create_new(true).open(&temporary);
+            let file = match new {
+                Ok(file) => file,
+                // The number of a process is used again after its end, and in another container at the same
+                // time. The name then belongs to somebody else: the next count is tried.
+                Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
+                Err(error) => return Err(Error::at(&temporary)(error)),
+            };
+            let ours = match file.try_lock() {
+                Ok(()) => is_named(&file, &temporary).map_err(Error::at(&temporary))?,
+                // `remove_leftovers` of another process found the file before it was locked, and removes it.
+                Err(TryLockError::WouldBlock) => false,
+                // Without locks on this file system, `remove_leftovers` removes nothing either.
+                Err(TryLockError::Error(_)) => true,
+            };
+            if ours {
+                let path = path.to_path_buf();
+                let file = BufWriter::new(file);
+                return Ok(AtomicFile { file, temporary, path, has_its_name: false });
+            }
+        }
+    }
+
+    /// Appends bytes.
+    pub fn append(&mut self, bytes: &[u8]) -> Result<(), Error> {
+        self.file.write_all(bytes).map_err(Error::at(&self.temporary))
+    }
+
+    /// Flushes the bytes to the disk and gives the file its name.
+    pub fn finish(self) -> Result<(), Error> {
+        self.finish_if(|_| Ok(()))
+    }
+
+    /// The same, if `check` accepts the file. It receives the flushed file, at its start; after an error of `check`
+    /// the file that had the name before is untouched.
+    pub fn finish_if<E: From<Error>>(
+        mut self,
+        check: impl FnOnce(&mut File) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let flushed = self.file.flush().and_then(|()| {
+            let file = self.file.get_mut();
+            file.sync_all()?;
+            file.seek(SeekFrom::Start(0))
+        });
+        flushed.map_err(Error::at(&self.temporary))?;
+        check(self.file.get_mut())?;
+        std::fs::rename(&self.temporary, &self.path).map_err(Error::at(&self.path))?;
+        self.has_its_name = true;
+        sync_folder_of(&self.path);
+        Ok(())
+    }
+}
+
+impl Drop for AtomicFile {
+    fn drop(&mut self) {
+        if !self.has_its_name {
+            // An earlier error is the one to tell; if this fails too, `remove_leftovers` removes the file later.
+            let _ = std::fs::remove_file(&self.temporary);
+        }
+    }
+}
+
+/// Writes a whole file: who looks finds the old bytes or the new ones.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    let mut file = AtomicFile::create(path)?;
+    file.append(bytes)?;
+    file.finish()
+}
+
+/// Removes from a folder the temporary files of [`AtomicFile`]s whose process no longer runs.
+///
+/// Files of running or stopped processes stay, since these hold their locks. Where files cannot be locked or read,
+/// they stay too: a leftover costs room and does no other harm, so no failure is reported.
+pub fn remove_leftovers(folder: &Path) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        if !is_temporary(&entry.file_name().to_string_lossy()) {
+            continue;
+        }
+        let path = entry.path();
+        // Opened for writing, because some network file systems lock nothing else.
+        let Ok(file) = OpenOptions::new().write(true).open(&path) else { continue };
+        if file.try_lock().is_ok() && is_named(&file, &path).unwrap_or(false) {
+            // The lock is held during the removal: a writer that created this file just now sees it (`create`).
+            let _ = std::fs::remove_file(&path);
+        }
+    }
+}
+
+/// True for names as [`AtomicFile::create`] makes them: NAME.PROCESS-COUNT.partial.tmp.
+fn is_temporary(name: &str) -> bool {
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
+    name.strip_suffix(SUFFIX)
+        .and_then(|rest| rest.rsplit_once('.'))
+        .and_then(|(_, numbers)| numbers.split_once('-'))
+        .is_some_and(|(process, count)| is_number(process) && is_number(count))
+}
+
+/// Flushes the folder, which holds the name. Some systems cannot flush folders: a name may then be lost when the
+/// power fails, but not when the process is killed, so this is no error.
+fn sync_folder_of(path: &Path) {
+    let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let _ = File::open(parent.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn folder(name: &str) -> PathBuf {
+        let folder =
+            std::env::temp_dir().join(format!("resumable_file_{name}_{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&folder);
+        std::fs::create_dir_all(&folder).unwrap();
+        folder
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_has_its_name_only_when_finished() {
+        let folder = folder("name");
+        let path = folder.join("a");
+        write_atomically(&path, b"old").unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.append(b"new").unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        file.finish().unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        let mut dropped = AtomicFile::create(&path).unwrap();
+        dropped.append(b"never").unwrap();
+        drop(dropped);
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        assert_eq!(names(&folder), ["a"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_refused_file_leaves_the_old_one() {
+        let folder = folder("refused");
+        let path = folder.join("a");
+        write_atomically(&path, b"old").unwrap();
+        let mut file = AtomicFile::create(&path).unwrap();
+        file.append(b"new").unwrap();
+        let error = std::io::Error::other("refused");
+        let refused: Result<(), Error> = file.finish_if(|_| Err(Error::at(&path)(error)));
+        assert!(refused.is_err());
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(&folder), ["a"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn many_writers_of_one_name_leave_the_bytes_of_one_of_them() {
+        let folder = folder("many");
+        let path = folder.join("a");
+        std::thread::scope(|scope| {
+            for letter in b'a'..b'i' {
+                let path = &path;
+                scope.spawn(move || {
+                    for _ in 0..20 {
+                        write_atomically(path, &vec![letter; 100_000]).unwrap();
+                        remove_leftovers(path.parent().unwrap());
+                    }
+                });
+            }
+        });
+        let bytes = std::fs::read(&path).unwrap();
+        assert_eq!(bytes.len(), 100_000);
+        assert!(bytes.iter().all(|byte| *byte == bytes[0]));
+        assert_eq!(names(&folder), ["a"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn leftovers_go_and_files_in_use_stay() {
+        let folder = folder("leftovers");
+        let file = AtomicFile::create(&folder.join("a")).unwrap();
+        let stay = ["b.partial.tmp", "c.1-x.partial.tmp", "d.-1.partial.tmp", "e.tmp", "f.1-2.tmp"];
+        for name in stay.iter().chain(&["g.npy.123-4.partial.tmp", "h.1-0.partial.tmp"]) {
+            std::fs::write(folder.join(name), b"").unwrap();
+        }
+        remove_leftovers(&folder);
+        let mut expected: Vec<_> = stay.iter().map(|&name| name.to_owned()).collect();
+        expected.push(file.temporary.file_name().unwrap().to_string_lossy().into_owned());
+        expected.sort();
+        assert_eq!(names(&folder), expected);
+        file.finish().unwrap();
+        assert!(folder.join("a").exists());
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_name_left_by_an_earlier_process_of_the_same_number_is_passed_over() {
+        let folder = folder("same_number");
+        let next = BEGUN.load(Ordering::Relaxed);
+        // Other tests of this process take counts meanwhile: a range of names is occupied.
+        for count in next..next + 50 {
+            let name = format!("a.{}-{count}{SUFFIX}", std::process::id());
+            std::fs::write(folder.join(name), b"left over").unwrap();
+        }
+        write_atomically(&folder.join("a"), b"bytes").unwrap();
+        assert_eq!(std::fs::read(folder.join("a")).unwrap(), b"bytes");
+        remove_leftovers(&folder);
+        assert_eq!(names(&folder), ["a"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn errors_name_the_file() {
+        let error = write_atomically(Path::new("/dev/null/a"), b"").unwrap_err();
+        assert!(error.to_string().contains("/dev/null/a"), "{error}");
+    }
+}

@@ -1,0 +1,84 @@
+//! The reasons why a job on disk cannot go on.
+
+use std::path::PathBuf;
+use thiserror::Error;
+
+/// The reason why a job on disk cannot go on.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The system could not read or write a file or folder.
+    #[error("{path}: {source}")]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// The answer of the system.
+        source: std::io::Error,
+    },
+    /// Another process holds the lock.
+    #[error(
+        "{}: {} is at work on '{part}' in this folder; wait until it ends, or give another folder",
+        .folder.display(), process(*.holder)
+    )]
+    AtWork {
+        /// The folder.
+        folder: PathBuf,
+        /// The part of the folder that is locked.
+        part: String,
+        /// The number of the process that holds the lock; `None` if the lock file does not tell it.
+        holder: Option<u32>,
+    },
+    /// The file system of this folder has no locks.
+    #[error(
+        "{}: files cannot be locked here ({source}), so two runs could damage each other; \
+         give a folder on another file system",
+        .folder.display()
+    )]
+    NoLocks {
+        /// The folder.
+        folder: PathBuf,
+        /// The answer of the system.
+        source: std::io::Error,
+    },
+    /// A finished piece cannot be used.
+    #[error("{path}: {reason}; remove it, or give another folder")]
+    Piece {
+        /// The file of the piece.
+        path: PathBuf,
+        /// The defect.
+        reason: &'static str,
+    },
+    /// A piece was finished, and its file is missing now.
+    #[error("{path}: this finished piece of the job '{job}' is missing; run again to compute it")]
+    MissingPiece {
+        /// The file of the piece.
+        path: PathBuf,
+        /// The description of the job.
+        job: String,
+    },
+    /// An assembled file does not hold the bytes of its pieces.
+    #[error(
+        "{path}: the file written does not hold the bytes of {part}, from byte {offset} on; \
+         it was removed, the pieces are kept: run again"
+    )]
+    Differs {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// The header, a piece with its number, or the end of the file.
+        part: String,
+        /// The place in the file at which this part starts.
+        offset: u64,
+    },
+}
+
+/// A process in words.
+fn process(holder: Option<u32>) -> String {
+    holder.map_or_else(|| "another process".to_owned(), |pid| format!("process {pid}"))
+}
+
+impl Error {
+    /// Attaches a path to an answer of the system.
+    pub(crate) fn at(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Error {
+        move |source| Error::File { path: path.to_path_buf(), source }
+    }
+}
