@@ -148,7 +148,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                     50 000 points each, without errors; “falls rapidly with $M$”."
                 .into(),
             notes: format!(
-                "BasinFractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
+                "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with bounds that hold for the branches found \
                  and up to rounding; beyond, by {POINTS} points of a golden rotation with {REPLICATES} random \
                  starts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \

@@ -43,7 +43,7 @@ fn compare(k: u64, contact: bool) -> Result<Comparison, passive_hopper::Error> {
     // Whether the first landing is sudden does not depend on M.
     let sudden = here.sudden > 0;
     let difference = (here.next_speed_squared - there.next_speed_squared).abs() / (alpha * alpha);
-    // A next_speed_squared within rounding of zero may be called either way.
+    // α′² within rounding of zero: the hopper may be grounded at M and not at 1/M, and both are right.
     let near = here.next_speed_squared.abs() <= ROUNDING * alpha * alpha;
     let verdicts_agree = near || here.next.is_some() == there.next.is_some();
     let image_difference = match (here.next, there.next) {

@@ -115,7 +115,7 @@ fn basin_fractions(image: &LabelImage) -> String {
         format!("{} {:.2} %", fate_colors::name(label), 100.0 * count as f64 / pixels)
     };
     format!(
-        "BasinFractions: {}.",
+        "Basin fractions: {}.",
         image.counts().into_iter().map(share).collect::<Vec<_>>().join(", ")
     )
 }
