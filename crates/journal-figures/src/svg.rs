@@ -94,6 +94,7 @@ impl Svg {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = pxfm::f_hypot(dx, dy).max(1e-9);
         let (ux, uy) = (dx / length, dy / length);
+        // Length and half width of the head, chosen by eye; both grow with the pen, so that thick arrows stay arrows.
         let head = 3.0 + 2.5 * pen.width;
         let base = (to.0 - head * ux, to.1 - head * uy);
         self.line(from, base, pen);

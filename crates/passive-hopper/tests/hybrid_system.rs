@@ -6,7 +6,7 @@
 mod reference;
 
 use approx::assert_relative_eq;
-use hybrid_system::{Event, Execution, Guard, HybridSystem, Limits, Reset, State, Stop};
+use hybrid_system::{Event, Execution, HybridSystem, Limits, Searched, State, Stop};
 use nalgebra::SVector;
 use passive_hopper::{
     Hopper, HopperState, HopperSurface, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
@@ -32,28 +32,7 @@ impl Section<Hopper, 4, 1> for GradualLiftOff {
     }
 }
 
-/// The hopper's flows, guards and resets without its closed forms of landings and lift-offs, so that the crossings
-/// are searched for.
-struct Searched(Hopper);
-
-impl HybridSystem<4> for Searched {
-    type Mode = Phase;
-    type Surface = HopperSurface;
-    fn flow(&self, phase: Phase, start: &State<4>, time: f64) -> State<4> {
-        self.0.flow(phase, start, time)
-    }
-    fn guards(&self, phase: Phase) -> &[Guard<HopperSurface>] {
-        self.0.guards(phase)
-    }
-    fn guard_value(&self, surface: HopperSurface, state: &State<4>) -> f64 {
-        self.0.guard_value(surface, state)
-    }
-    fn reset(&self, phase: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
-        self.0.reset(phase, surface, before)
-    }
-}
-
-impl Section<Searched, 4, 1> for GradualLiftOff {
+impl Section<Searched<Hopper>, 4, 1> for GradualLiftOff {
     fn point(&self, alpha: &SVector<f64, 1>) -> (Phase, State<4>) {
         Section::<Hopper, 4, 1>::point(self, alpha)
     }
