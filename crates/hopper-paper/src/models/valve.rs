@@ -1,12 +1,9 @@
 //! The bifurcation diagram of the pressure relief valve.
 
-// The model of the example, so that figure and example cannot differ.
-#[path = "../../../return-map/examples/pressure_relief_valve/model.rs"]
-mod model;
-
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
+use example_systems::valve::turns;
 use journal_figures::{Frame, Svg, csv_file, indexed_png, ticks};
 use rayon::prelude::*;
 
@@ -31,7 +28,7 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         let columns = piece * PIECE..(piece + 1) * PIECE;
         let turns: Vec<Vec<f64>> = columns
             .into_par_iter()
-            .map(|column| model::turns(rate(column), TRANSIENT, DRAWN))
+            .map(|column| turns(rate(column), TRANSIENT, DRAWN))
             .collect::<Result<_, _>>()?;
         Ok(turns.concat())
     })?;
