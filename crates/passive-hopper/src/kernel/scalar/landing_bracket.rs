@@ -37,7 +37,7 @@ const EIGHT_DIGITS: f64 = 1e-8;
 pub(crate) struct LandingBracket {
     pub(crate) left: f64,
     pub(crate) right: f64,
-    /// The initial guess, inside the bracket or not.
+    /// The initial guess, which may lie outside the bracket.
     pub(crate) guess: f64,
     /// The parity sign (−1)^m if the landing must lie above α*_m, that is where u (−1)^m < 0; 0 if there is no such
     /// condition. The condition is not part of the bracket, because its end would need α*_m.
@@ -48,7 +48,7 @@ pub(crate) struct LandingBracket {
 
 impl LandingBracket {
     /// The bracket for V < π: there is one branch only, so it is certain.
-    #[inline(always)]
+    # The bracket for V < π. There is only one branch, so that the bracket is certain.
     pub(crate) fn below_pi(state: &GroundState) -> Self {
         let GroundState { excess, velocity, .. } = *state;
         LandingBracket {
