@@ -64,7 +64,7 @@ where
             }
             match self.test(left, right)? {
                 ZeroTest::NoZero { sign } if sign != side && direction.admits(side, sign) => {
-                    // Rounding hid the zero from both tests. It lies where the two intervals meet.
+                    // Rounding hid the zero from both tests. The zero lies where the two intervals meet.
                     return Ok(FirstCrossing::At { time: left, rising: side < 0.0 });
                 }
                 ZeroTest::NoZero { sign } => (left, side) = (right, sign),

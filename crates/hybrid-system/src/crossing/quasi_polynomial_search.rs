@@ -158,7 +158,7 @@ impl<'a> Search<'a> {
         Search { function, slope, bend }
     }
 
-    /// The tests at the head of this file. `slope` of the answer is g′(m).
+    /// The tests at the head of this file. `slope` in the result is g′(m).
     fn test(&self, left: f64, right: f64) -> ZeroTest {
         let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
         // All bounds hold for times of size up to `right`, and so on the whole interval.
@@ -195,14 +195,14 @@ impl<'a> Search<'a> {
             }
             match self.test(left, right) {
                 ZeroTest::NoZero { sign: now } if now != sign && direction.admits(sign, now) => {
-                    // Rounding hid the zero from both tests. It lies where the two intervals meet.
+                    // Rounding hid the zero from both tests. The zero lies where the two intervals meet.
                     return Ok(FirstCrossing::At { time: left, rising: sign < 0.0 });
                 }
                 ZeroTest::NoZero { sign: now } => (left, sign) = (right, now),
                 ZeroTest::Monotone { slope } => {
                     let end = self.extended(right, slope, horizon);
                     let value = self.function.value(end);
-                    // A value within rounding does not prove the other side: the next interval decides. The last
+                    // A value within rounding does not prove a change of side: the next interval decides. The last
                     // interval has no next one.
                     let clear = value.abs() > self.function.rounding(end) || right >= horizon;
                     if slope * sign < 0.0 && value * sign < 0.0 && clear {

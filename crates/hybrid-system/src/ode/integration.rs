@@ -248,8 +248,8 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
 
     /// The state at a time in the last step, by a separate step that ends there.
     ///
-    /// Unlike the interpolant, whose coefficients are large and cancel, this loses no digits. Its stages overwrite
-    /// those of the last step.
+    /// The coefficients of the interpolant are large and cancel. This separate step loses no digits. Its stages
+    /// overwrite the stages of the last step.
     pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
         let size = time - self.from;
         let mut state = self.before;

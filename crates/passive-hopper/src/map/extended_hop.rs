@@ -48,13 +48,13 @@ pub(crate) enum Start {
 pub(crate) struct ExtendedHop {
     /// `None` if the hopper is grounded.
     pub(crate) next: Option<Next>,
-    /// True if every decision is conclusive.
+    /// Î±â²Â².
     pub(crate) next_speed_squared: f64,
-    /// True if the error propagated from flight to flight changes no digit of the result.
+    /// All landings, rounded; all but the last are sudden.
     pub(crate) landings: Vec<Landing>,
-    /// Whether no decision is inconclusive.
+    /// True if every decision is conclusive.
     pub(crate) certain: bool,
-    /// Whether the error propagated from flight to flight changes no digit of the result.
+    /// True if the error propagated from flight to flight changes no digit of the result.
     pub(crate) precise: bool,
 }
 
