@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!   V < π                                     (max(V, 0), π)
-//!   V ≥ π, above this maximum                 (max(V, α*_m), (m+1)π)          m = ⌊V/π⌋
-//!   V ≥ π, behind it                          (max(V, α*_m), (m+1)π)          m = ⌊V/π⌋
+//!   V ≥ π, before the maximum of branch m     (mπ, V)
+//!   V ≥ π, after it                           (max(V, α*_m), (m+1)π)          m = ⌊V/π⌋
 //! ```
 //!
 //! The flight lands before the maximum if V < (m+½)π and (−1)^m (V cos V − Y sin V) ≥ 0; see the head of
@@ -47,8 +47,8 @@ pub(crate) struct LandingBracket {
 }
 
 impl LandingBracket {
-    /// The bracket for V < π: there is one branch only, so it is certain.
-    # The bracket for V < π. There is only one branch, so that the bracket is certain.
+    /// The bracket for V < π. There is only one branch, so that the bracket is certain.
+    #[inline(always)]
     pub(crate) fn below_pi(state: &GroundState) -> Self {
         let GroundState { excess, velocity, .. } = *state;
         LandingBracket {
