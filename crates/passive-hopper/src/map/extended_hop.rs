@@ -48,7 +48,7 @@ pub(crate) enum Start {
 pub(crate) struct ExtendedHop {
     /// `None` if the hopper is grounded.
     pub(crate) next: Option<Next>,
-    /// Î±â²Â².
+    /// α′².
     pub(crate) next_speed_squared: f64,
     /// All landings, rounded; all but the last are sudden.
     pub(crate) landings: Vec<Landing>,

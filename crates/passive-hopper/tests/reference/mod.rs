@@ -1,4 +1,4 @@
-//! The reference values of `data/`, and the unit in which errors of α′ are judged. Each test file uses a part of this.
+//! The reference values of `data/`, and the unit of the error of α′. Each test file uses a part of this.
 
 #![allow(dead_code)]
 
@@ -6,8 +6,8 @@ use passive_hopper::{LiftOffMap, MassRatio};
 use serde_json::Value;
 use std::fmt;
 
-/// Units of error that α′ may have for each flight of its hop. The worst of the 3222 reference hops has 2.4; the limit
-/// is also that of `cargo xtask check-reference`.
+/// Units of error that α′ may have for each flight of its hop. The largest error of the 3222 reference hops is 2.4.
+/// `cargo xtask check-reference` has the same limit.
 pub(crate) const UNITS_PER_FLIGHT: f64 = 4.0;
 
 /// The map at `mass_ratio`.
@@ -65,8 +65,8 @@ impl Row {
         map(self.input("mass_ratio"))
     }
 
-    /// The error of `next` as an α′, in units of what half an ulp of α, of M, of α′ and of α² cause together:
-    /// K of `data/README.md`.
+    /// The error of `next` as an α′, in units of the joint effect of half an ulp of α, of M, of α′ and of α²: K of
+    /// `data/README.md`.
     pub(crate) fn error_in_units(&self, next: f64) -> f64 {
         let (m, alpha) = (self.input("mass_ratio"), self.input("alpha"));
         let exact = self.result("alpha_next").unwrap();
