@@ -47,13 +47,13 @@ fn extreme_hops_are_right_to_four_units_a_flight() {
 /// Hops whose decisions were wrong with earlier error bounds: flights that seem to touch a maximum in 53 bits, chains
 /// at speeds of 10¹², seven thousand sudden lift-offs.
 #[test]
-fn hard_verdicts_are_right() {
+fn hard_decisions_are_right() {
     check_hops(include_str!("data/hops_hard_verdicts.jsonl"));
 }
 
 /// Decisions for which 53 bits do not suffice: α is one rounding away from a change of branch.
 #[test]
-fn verdicts_within_one_rounding_of_a_change_of_branch_are_right() {
+fn decisions_within_one_rounding_of_a_change_of_branch_are_right() {
     // At M = 1 and α = nπ, α′² is zero. The f64 nearest to π lies 1.2e-16 below π.
     let grounded = map(1.0).hop(PI).unwrap();
     assert!(grounded.next.is_none() && grounded.certain);

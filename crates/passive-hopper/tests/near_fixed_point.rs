@@ -43,7 +43,7 @@ fn hops_near_fixed_points_are_right_to_eight_ulps() {
 /// The ends of the interval (nπ, (n+1)π) in δ lie between two `f64`. Offsets two ulps inside are accepted, and offsets
 /// outside are errors.
 #[test]
-fn offsets_are_accepted_up_to_the_ends_of_the_cell() {
+fn offsets_are_accepted_up_to_the_ends_of_the_interval() {
     for n in [1u64, 1000, 100_000, 1 << 40] {
         let error = |delta: f64| map(3.0).hop_near_fixed_point(n, delta).unwrap_err();
         let Error::Offset { left, right, .. } = error(4.0) else { panic!() };
