@@ -28,7 +28,14 @@ pub struct AtomicFile {
 
 impl AtomicFile {
     /// Begins a file that will be named `path`, in a folder that exists.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be created, or if `path` is a folder, which no file can replace.
     pub fn create(path: &Path) -> Result<Self, Error> {
+        if path.is_dir() && !path.is_symlink() {
+            let reason = "this is a folder, and a file is to have this name; remove it, or give another folder";
+            return Err(Error::at(path)(std::io::Error::new(ErrorKind::IsADirectory, reason)));
+        }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         loop {
             let count = BEGUN.fetch_add(1, Ordering::Relaxed);
@@ -112,6 +119,10 @@ pub fn remove_leftovers(folder: &Path) {
         if !is_temporary(&entry.file_name().to_string_lossy()) {
             continue;
         }
+        // Opening a named pipe would wait for a reader.
+        if !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            continue;
+        }
         let path = entry.path();
         // Opened for writing, because some network file systems lock nothing else.
         let Ok(file) = OpenOptions::new().write(true).open(&path) else { continue };
@@ -173,6 +184,15 @@ mod tests {
         drop(dropped);
         assert_eq!(std::fs::read(&path).unwrap(), b"new");
         assert_eq!(names(&folder), ["a"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_folder_of_this_name_is_an_error_at_the_beginning() {
+        let folder = folder("is_folder");
+        let error = AtomicFile::create(&folder).unwrap_err().to_string();
+        assert!(error.contains("is_folder") && error.contains("this is a folder"), "{error}");
+        assert_eq!(names(&folder), [""; 0]);
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -46,6 +46,7 @@
 //! - A process that is killed or stopped never harms another one: temporary names are not shared, and a stopped
 //!   process keeps its lock.
 //! - A lock ends with its process, however that ends. A lock file that is left on disk locks nothing.
+//! - A lock file that others remove or replace is noticed by [`Lock::confirm`].
 //! - Each file is flushed before it gets its name. A loss of power can therefore lose the newest file, but cannot
 //!   leave it half written; on systems that cannot flush a folder this rests on the file system.
 //! - A damaged piece, and a piece of another job or another build, is an error that names its file.
