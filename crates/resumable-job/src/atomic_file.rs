@@ -110,6 +110,22 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     file.finish()
 }
 
+/// Makes a folder with its parents. A folder that exists stays as it is.
+///
+/// # Errors
+/// [`Error::File`] with the answer of the system; with the reason if a file, or a link that leads nowhere, has this name.
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let error = if error.kind() == ErrorKind::AlreadyExists {
+            let reason = "this is a file, or a link that leads to no folder; remove it, or give another folder";
+            std::io::Error::new(ErrorKind::NotADirectory, reason)
+        } else {
+            error
+        };
+        Error::at(folder)(error)
+    })
+}
+
 /// Removes from a folder the temporary files of [`AtomicFile`]s whose process no longer runs.
 ///
 /// Files of running or stopped processes stay, since these hold their locks. Where files cannot be locked or read,
@@ -193,6 +209,17 @@ mod tests {
         let error = AtomicFile::create(&folder).unwrap_err().to_string();
         assert!(error.contains("is_folder") && error.contains("this is a folder"), "{error}");
         assert_eq!(names(&folder), [""; 0]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_file_in_the_place_of_a_folder_is_told() {
+        let folder = folder("make");
+        make_folder(&folder.join("a/b")).unwrap();
+        make_folder(&folder.join("a")).unwrap();
+        std::fs::write(folder.join("c"), b"").unwrap();
+        let error = make_folder(&folder.join("c")).unwrap_err().to_string();
+        assert!(error.contains("this is a file") && error.contains("remove it"), "{error}");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -6,7 +6,7 @@
 //!   magic (8) │ digest of the job (16) │ number of the piece (8) │ payload │ digest of all before (16)
 //! ```
 
-use crate::atomic_file::{AtomicFile, remove_leftovers, write_atomically};
+use crate::atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
 use crate::digest::{digest, program_digest};
 use crate::error::Error;
 use std::fs::File;
@@ -38,7 +38,7 @@ impl Pieces {
     /// The running program belongs to the description: another build may compute other bytes.
     pub fn open(folder: &Path, description: &str) -> Result<Self, Error> {
         let description = format!("{description}; program {}", program_digest()?);
-        std::fs::create_dir_all(folder).map_err(Error::at(folder))?;
+        make_folder(folder)?;
         // Each killed run leaves the pieces it was writing. Many killed runs would fill the disk.
         remove_leftovers(folder);
         let mut job = [0; DIGEST];
