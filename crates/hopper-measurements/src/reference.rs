@@ -44,11 +44,16 @@ pub(crate) struct Hop {
 
 impl Hop {
     /// The unit of its error: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
+    ///
+    /// An error h = ε α²/2 of α² moves α′ by √(α′² + h) − α′, which is below h/2α′ and below √h. Near α′ = 0 only the
+    /// second bound is finite.
     pub(crate) fn unit(&self) -> f64 {
+        // √h in the scale of the result, ε/2: √(ε/2) α = (ε/2) · α √(2/ε).
+        let most = (2.0 / f64::EPSILON).sqrt();
         let scale = self.next.map_or(0.0, |next| {
             next + self.slope_alpha * self.alpha
                 + self.slope_mass_ratio * self.mass_ratio.value()
-                + self.alpha * (self.alpha / next)
+                + self.alpha * (self.alpha / next).min(most)
         });
         0.5 * f64::EPSILON * scale
     }
