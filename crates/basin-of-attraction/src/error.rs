@@ -39,18 +39,6 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// A range of columns that reaches beyond the raster.
-    #[error(
-        "columns {start} to {end} (exclusive) of a raster of {columns} columns: the end must be at most {columns}"
-    )]
-    BadColumnRange {
-        /// The first column asked for.
-        start: usize,
-        /// The column after the last one asked for.
-        end: usize,
-        /// The number of columns of the raster.
-        columns: usize,
-    },
     /// A strip whose labels are not one for each of its pixels.
     #[error(
         "a strip of {columns} columns and {rows} rows has {found} labels: it must have {rows} labels for every column"

@@ -14,7 +14,7 @@ pub const SMALLEST_LAMBDA: f64 = 3.0;
 /// `tests/against_reference.rs` compares all reference values of Δ with λ ≥ 3.
 const NEGLECTED: f64 = 6.0;
 
-/// Δ_n = λ⁻³ [1 − 3ℓ₅/λ + (9ℓ₅² − 3ℓ₆)/λ²] + O(λ⁻⁶), the length of the trapping region [α*_n, α*_n + Δ_n].
+/// Δ_n = λ⁻³ [1 − 3ℓ₅/λ + (9ℓ₅² − 3ℓ₆)/λ²] + O(λ⁻⁶), the length of the trap [α*_n, α*_n + Δ_n].
 ///
 /// Δ solves δ′ = 0. With v = δ^{1/3} and the [`RightExpansion`] this is λv (1 + ℓ₅v + ℓ₆v² + …) = 1, solved in
 /// powers of 1/λ. The neglected exponent is that of λ. The leading term is 2(1+α*²)⁴/(81 μ³ α*¹¹).

@@ -255,7 +255,7 @@ fn remainders_of_the_other_expansions_have_the_stated_exponents() {
     };
     let slope = (rest(1e-5) / rest(1e-7)).ln() / 100f64.ln();
     assert!((slope - Decay::NEGLECTED_EXPONENT).abs() < 0.06, "{slope}");
-    // Length of the trapping region: in λ, at one fixed point.
+    // Length of the trap: in λ, at one fixed point.
     let rows: Vec<Row> = rows(REFERENCE).collect();
     let point = |m: &str| {
         let row =

@@ -2,7 +2,7 @@
 //!
 //! Of guards that are crossed together, the one listed first is the event. The state after its reset decides about
 //! the others. A guard that is still at its surface, and goes on through it to the other side, is an event at the
-//! same instant. A guard that the reset turned back is none. This is statement (9) of
+//! same instant. A guard that the reset sends back to its old side is no event. This is statement (9) of
 //! [mathematics](crate::mathematics).
 
 use crate::arc::Arc;

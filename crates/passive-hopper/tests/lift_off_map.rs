@@ -8,7 +8,7 @@ use passive_hopper::{Error, FixedPointSpeed, LiftOffMap, MassRatio, alpha_star, 
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Compares every hop of a reference file: its verdicts are right and its α′ is within [`UNITS_PER_FLIGHT`] a flight.
+/// Compares every hop of a reference file: its decisions are right and its α′ is within [`UNITS_PER_FLIGHT`] a flight.
 fn check_hops(text: &str) {
     for row in rows(text) {
         let sudden = row.integer("sudden") as usize;
@@ -41,16 +41,16 @@ fn extreme_hops_are_right_to_four_units_a_flight() {
     check_hops(include_str!("data/hops_extreme.jsonl"));
 }
 
-/// Hops with verdicts that earlier error bounds got wrong: flights that seem to touch a maximum in 53 bits, chains at
+/// Hops with decisions that earlier error bounds got wrong: flights that seem to touch a maximum in 53 bits, chains at
 /// speeds of 10¹², seven thousand sudden lift-offs.
 #[test]
-fn hard_verdicts_are_right() {
+fn hard_decisions_are_right() {
     check_hops(include_str!("data/hops_hard_verdicts.jsonl"));
 }
 
-/// Verdicts that 53 bits cannot give: α is one rounding away from a change of branch.
+/// Decisions that 53 bits cannot give: α is one rounding away from a change of branch.
 #[test]
-fn verdicts_within_one_rounding_of_a_change_of_branch_are_right() {
+fn decisions_within_one_rounding_of_a_change_of_branch_are_right() {
     // At M = 1 and α = nπ, α′² is zero. The f64 nearest to π lies 1.2e-16 below π.
     let grounded = map(1.0).hop(PI).unwrap();
     assert!(grounded.next.is_none() && grounded.certain);
@@ -199,7 +199,7 @@ proptest! {
     #[test]
     fn printed_and_stable_forms_agree(alpha in 0.5..40f64, e in -1.5..0.0f64) {
         let ratio = MassRatio::new(10f64.powf(e)).unwrap();
-        // Within 1e-9 of a branch change the two may differ in their verdict.
+        // Within 1e-9 of a branch change the two may differ in their decision.
         let near = |x: f64| (alpha - x).abs() < 1e-9;
         prop_assume!((0..14).all(|n| !near(n as f64 * PI) && !near(alpha_star(n))));
         let stable = LiftOffMap::new(ratio).hop(alpha).unwrap();

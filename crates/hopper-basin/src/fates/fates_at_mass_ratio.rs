@@ -116,7 +116,7 @@ impl Fates {
     }
 }
 
-/// The map for the generic tools. A hop whose verdicts are not certain is undecided.
+/// The map for the generic tools. A hop whose decisions are not certain is undecided.
 impl ScalarMap for Fates {
     fn image(&self, alpha: f64) -> Image {
         match self.map().hop(alpha) {

@@ -87,7 +87,7 @@ impl Itinerary {
             None => {
                 self.end = GROUND;
                 // GROUND: at the first hop the orbits between start between the two, and α′² is monotone: they are
-                // grounded as well, and the verdicts of the map are certain. At later hops α′² must be negative by
+                // grounded as well, and the decisions of the map are certain. At later hops α′² must be negative by
                 // more than the errors can change it.
                 let margin = GROUND_MARGIN * alpha * propagated;
                 if error > 0.0 && !map.hop(alpha).is_ok_and(|hop| hop.next_speed_squared < -margin)

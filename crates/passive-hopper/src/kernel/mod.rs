@@ -5,10 +5,10 @@
 //! ```text
 //!   first flight    one parameter, δ = α − α*_n: tables of α − h and Γ     landing/first_flight_table.rs
 //!   later flights   two parameters, (x, V): a guess, two steps, a landing  scalar/later_flight.rs
-//!   verdicts        by a bound on the errors propagated from flight to flight
+//!   decisions        by a bound on the errors propagated from flight to flight
 //! ```
 //!
-//! Hops with an inconclusive verdict, and speeds outside the tables, are left to the careful path,
+//! Hops with an inconclusive decision, and speeds outside the tables, are left to the careful path,
 //! [`LiftOffMap::careful_image`](crate::map::lift_off_map::LiftOffMap::careful_image). The README in this folder has
 //! the idea, a picture, and the invariants I1 to I9 that the code cites.
 

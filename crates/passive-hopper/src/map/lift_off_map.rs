@@ -1,6 +1,6 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 //!
-//! A hop takes the first of these paths that decides its verdicts: the kernel; landing by landing in `f64`, with an
+//! A hop takes the first of these paths that decides its decisions: the kernel; landing by landing in `f64`, with an
 //! error bound; longer arithmetic.
 
 use crate::error::Error;
@@ -55,8 +55,8 @@ pub struct Hop {
     pub sudden: usize,
     /// Total time of flight τ.
     pub flight_time: f64,
-    /// Whether every verdict of the hop (sudden or not, on which branch a flight lands, grounded or
-    /// not) is larger than its rounding error. A hop whose verdicts are inconclusive in 53 bits is computed with 106,
+    /// Whether every decision of the hop (sudden or not, on which branch a flight lands, grounded or
+    /// not) is larger than its rounding error. A hop whose decisions are inconclusive in 53 bits is computed with 106,
     /// and then with up to 1024. False means that 1024 bits do not suffice either, or would take too long.
     pub certain: bool,
 }

@@ -8,6 +8,6 @@ pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
 
 /// Largest speed of hops in plain `f64`, 2²⁸: above it hops are computed in longer arithmetic at once.
 ///
-/// An ulp of α, and so of the phase at the landing, is 6·10⁻⁸ there. Above, plain verdicts would be inconclusive so
+/// An ulp of α, and so of the phase at the landing, is 6·10⁻⁸ there. Above, plain decisions would be inconclusive so
 /// often that the attempt costs more than it saves. Only the speed of a hop depends on this limit, not its value.
 pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;

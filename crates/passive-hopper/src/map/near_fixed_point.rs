@@ -1,7 +1,7 @@
 //! A hop in the coordinate of a fixed point: (n, δ) with α = α*_n + δ, to (n, δ′).
 //!
 //! δ′ = δ − μ Σ Γ²/(α + α′), with Γ of the first flight from `landing/local_flight.rs`. No subtraction cancels but that
-//! of the loss from δ, near the end of the trapping region of α*_n. There the hop is computed in extended arithmetic.
+//! of the loss from δ, near the end of the trap of α*_n. There the hop is computed in extended arithmetic.
 
 use crate::error::Error;
 use crate::landing::error_bound::ErrorBound;

@@ -9,7 +9,7 @@ use crate::error::Error;
 pub struct MassRatio(f64);
 
 impl MassRatio {
-    /// M = 1, at which the trapping regions of the fixed points are smallest.
+    /// M = 1, at which the traps of the fixed points are smallest.
     pub const ONE: MassRatio = MassRatio(1.0);
 
     /// A mass ratio with the value `value`.

@@ -7,7 +7,7 @@
 //!   land_from_pi     the same for V ≥ π                                    vectors
 //!   add              sums; the list of the flights that follow             one by one
 //!       ... the last three again until the list is empty
-//!   end_hops         α′ and whether its verdicts are decided               vectors
+//!   end_hops         α′ and whether its decisions are decided               vectors
 //! ```
 
 use crate::kernel::batch::hop_rows::HopRows;

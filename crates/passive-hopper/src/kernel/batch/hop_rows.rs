@@ -61,7 +61,7 @@ impl HopRows {
             let mut square = ends.closing_speed_squared[at];
             let mut error = ends.closing_speed_squared_error[at];
             if !(ends.accepted[at] > 0.0) {
-                // One step was not enough, or a verdict is inconclusive: the single flight takes more steps.
+                // One step was not enough, or a decision is inconclusive: the single flight takes more steps.
                 match later_flight(&list.state(at), list.kappa[at]) {
                     Some(end) => {
                         state = end.state;
@@ -171,7 +171,7 @@ pub(crate) fn first_flights(
     }
 }
 
-/// The verdicts and next speeds of the first `count` hops.
+/// The decisions and next speeds of the first `count` hops.
 #[inline(always)]
 pub(crate) fn end_hops(hops: &mut HopRows, count: usize) {
     let count = count.next_multiple_of(LANES).min(BLOCK); // whole vectors (I6)

@@ -1,4 +1,4 @@
-//! One hop: the first flight from its table, later flights one after the other, and the verdict on α′².
+//! One hop: the first flight from its table, later flights one after the other, and the decision on α′².
 
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::later_flight::{FlightEnd, later_flight};
@@ -32,7 +32,7 @@ pub(crate) struct FlightSums {
     pub(crate) flights: f64,
 }
 
-/// A hop whose verdicts are all larger than their error bounds (I2).
+/// A hop whose decisions are all larger than their error bounds (I2).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DecidedHop {
     pub(crate) sums: FlightSums,

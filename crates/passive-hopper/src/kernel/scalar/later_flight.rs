@@ -43,7 +43,7 @@ pub(crate) struct FlightEnd {
     pub(crate) closing_speed_squared_error: f64,
     /// h, half the time.
     pub(crate) half_time: f64,
-    /// Whether the search has ended at the landing and no verdict is inconclusive (I2). If not, nothing else of this
+    /// Whether the search has ended at the landing and no decision is inconclusive (I2). If not, nothing else of this
     /// flight means anything.
     pub(crate) accepted: bool,
 }
