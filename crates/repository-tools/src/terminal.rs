@@ -1,4 +1,4 @@
-//! What a program says on the terminal, and how it ends.
+//! The messages of a program on the terminal, and its exit status.
 
 use crate::error::Error;
 use std::fmt::Display;

@@ -2,7 +2,7 @@
 
 use basin_of_attraction::UndecidedReason;
 
-/// What becomes of a hopper.
+/// The fate of a hopper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum HopperFate {
     /// It hops for ever; its lift-off speeds converge to α*_n, n ≥ 1, at which a hop loses no energy.

@@ -1,4 +1,4 @@
-//! What becomes of a hopper that lifts off with a given speed?
+//! Which fate has a hopper that lifts off with a given speed?
 //!
 //! There are three fates: it hops for ever and converges to a fixed point, it hops ever lower, or it is grounded
 //! ([`hopper_fate`], with the labels of fates in images).

@@ -1,4 +1,4 @@
-//! What the formulas of a flight ask of the numbers they are computed with.
+//! The arithmetic operations that the formulas of a flight use.
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};

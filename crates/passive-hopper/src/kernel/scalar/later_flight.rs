@@ -96,7 +96,7 @@ pub(crate) fn land(
     let w = u - x * sin;
     let raw = 2.0 * rho * w; // Γ at h, before the correction
 
-    // What is left, V(h) − V, is corrected to first order: δh = −(V(h) − V) D/Γ and δΓ = −½ (V(h) − V)/Γ · d(Γ²)/dV.
+    // The residual V(h) − V is corrected to first order: δh = −(V(h) − V) D/Γ and δΓ = −½ (V(h) − V)/Γ · d(Γ²)/dV.
     let residual = (h - v) + (sin * rho - x * (square * inverse));
     let loss_slope = -4.0 * (h * sin * w + u * (h * sin + x * cos) + 2.0 * square * rho * w); // d(Γ²)/dV
     let per_speed = d / (2.0 * (u * w)); // 1/Γ, from u and w: it need not wait for the division in ρ
