@@ -1,5 +1,5 @@
-//! What the programs of this repository share: where its files are, how results are written, what a
-//! terminal is told.
+//! The tools that the programs of this repository share: paths of its files, writing of results, messages on a
+//! terminal.
 //!
 //! | item | role |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! What a file imports from its own crate.
+//! The imports of a file from its own crate.
 
 use super::module_tree::Module;
 
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn trees_are_taken_apart() {
+    fn a_tree_of_imports_gives_each_path() {
         let text = "use crate::{Error, map::{self, orbit::{Orbit, orbit as o}}};\nuse std::fmt;\n";
         assert_eq!(
             imported("x.rs", text),

@@ -1,4 +1,4 @@
-//! What a file and a line of code may not contain.
+//! The texts that a file or a line of code may not contain.
 
 use super::breach::Breach;
 use super::crate_classes::{Class, GENERIC, class_of};
