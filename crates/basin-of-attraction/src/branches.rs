@@ -227,8 +227,8 @@ pub fn monotone_branches(
                 }
                 if let Some((from, before)) = last.filter(|(_, before)| before * (b - a) < 0.0) {
                     let up = before.signum();
-                    let turn = highest_point(|x| value(x).map(|v| up * v), at(from), at(k + 1));
-                    cuts.push((turn, value(turn)));
+                    let extremum = highest_point(|x| value(x).map(|v| up * v), at(from), at(k + 1));
+                    cuts.push((extremum, value(extremum)));
                 }
                 if b != a {
                     last = Some((k, b - a));
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_between_equal_samples_is_found() {
+    fn an_extremum_between_equal_samples_is_found() {
         for samples in [4, 8, 9] {
             let found = branches(|x| Some(x * x), -3.0, 3.0, samples);
             assert_eq!(found.len(), 2, "{samples}: {found:?}");

@@ -39,18 +39,6 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// A range of columns that reaches beyond the raster.
-    #[error(
-        "columns {start} to {end} (exclusive) of a raster of {columns} columns: the end must be at most {columns}"
-    )]
-    BadColumnRange {
-        /// The first requested column.
-        start: usize,
-        /// The end of the range, one past the last requested column.
-        end: usize,
-        /// The number of columns of the raster.
-        columns: usize,
-    },
     /// A strip whose labels are not one for each of its pixels.
     #[error(
         "a strip of {columns} columns and {rows} rows has {found} labels: it must have {rows} labels for every column"

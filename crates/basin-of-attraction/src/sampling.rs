@@ -119,8 +119,8 @@ pub fn low_discrepancy_fractions(
         .map(|replicate| {
             let start = random.uniform(replicate as u64);
             let at = |k| {
-                let turn = start + INVERSE_GOLDEN_RATIO * k as f64;
-                window.left + window.length() * (turn - turn.floor())
+                let rotated = start + INVERSE_GOLDEN_RATIO * k as f64;
+                window.left + window.length() * (rotated - rotated.floor())
             };
             tally(&labels(count, at, &label))
         })

@@ -59,7 +59,7 @@ impl Coefficients {
         Ok(Coefficients { n, alpha_star, beta, lambda })
     }
 
-    /// Δ = λ⁻³, the leading estimate of the length of the trapping region (Eq. 20).
+    /// Δ = λ⁻³, the leading estimate of the length of the trap (Eq. 20).
     ///
     /// It is the δ at which the leading-order map gives δ′ = δ − λ δ^{4/3} = 0.
     pub fn trap_length(&self) -> f64 {

@@ -67,7 +67,7 @@ impl Decay {
 
     /// The largest offset for which the law has values: 0.1, or 10⁻³ λ⁻³ if that is less.
     ///
-    /// 10⁻³ λ⁻³ is about a thousandth of the trapping region. The error was measured up to it.
+    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error was measured up to it.
     pub fn range(&self) -> f64 {
         let lambda = 3.0 * self.rate;
         RIGHT_RANGE.min(1e-3 / (lambda * lambda * lambda))

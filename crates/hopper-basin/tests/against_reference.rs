@@ -45,7 +45,7 @@ fn crises_agree_with_thirty_digits() {
 }
 
 #[test]
-fn grounding_opens_where_theory_says() {
+fn grounding_begins_at_the_mass_ratio_of_theory() {
     let known = [
         (0, 0.327_498_113_640_356_01),
         (1, 0.626_355_616_933_350_12),
@@ -262,7 +262,7 @@ fn grounding_is_not_found_below_its_onset() {
 
 /// Each reason has a label, and fixed points beyond the labels have one too.
 #[test]
-fn labels_tell_the_reason() {
+fn every_fate_has_a_label_of_its_own() {
     use basin_of_attraction::UndecidedReason;
     let labels = [
         HopperFate::Undecided(UndecidedReason::Budget),

@@ -7,11 +7,11 @@ use journal_figures::{DataFile, Svg};
 pub struct Figure {
     /// File name without its ending.
     pub name: &'static str,
-    /// What the figure shows, as markup.
+    /// The title of the figure, as markup.
     pub title: String,
-    /// What the paper says of it, in our words.
+    /// The statement of the paper about it, in our words.
     pub paper: String,
-    /// What was chosen where the paper's details are lost, and what the figure shows.
+    /// The choices made where the paper's details are lost, and the content of the figure.
     pub notes: String,
     /// The drawing.
     pub svg: Svg,

@@ -178,7 +178,7 @@ mod tests {
 
     /// The published answers have thirty digits; here they are rounded.
     #[test]
-    fn sciml_647() {
+    fn times_and_states_are_those_of_sciml_647() {
         let start = Vector4::new(5.0, 6.0, 0.0, 0.0);
         let arcs: Vec<_> = Execution::new(&ISSUE_647, Mode::Flight, start, Limits::new(5.0, 4))
             .collect::<Result<_, _>>()

@@ -120,7 +120,7 @@ where
 /// event, not at the same time.
 ///
 /// # Errors
-/// Those of [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the event ends the
+/// The errors of [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the event ends the
 /// execution.
 pub fn event_sensitivity<T, const N: usize>(
     system: &T,
@@ -178,7 +178,7 @@ where
 /// The matrix from a small change of the start of the first of `arcs` to the change at the end of the last one.
 ///
 /// # Errors
-/// Those of [`arc_sensitivity`].
+/// The errors of [`arc_sensitivity`].
 pub fn sensitivity<T, const N: usize>(
     system: &T,
     arcs: &[Arc<T::Mode, T::Surface, N>],

@@ -217,16 +217,16 @@ fn run(seed: u64, cases: usize, form: Form) {
 }
 
 #[test]
-fn polynomials() {
+fn roots_of_polynomials_are_found_once() {
     run(1, 600_000, Form::Polynomial);
 }
 
 #[test]
-fn sums_of_sines() {
+fn roots_of_sums_of_sines_are_found_once() {
     run(2, 200_000, Form::Trigonometric);
 }
 
 #[test]
-fn enclosures() {
+fn roots_of_guards_with_enclosures_are_found_once() {
     run(3, 200_000, Form::Enclosed);
 }

@@ -52,8 +52,8 @@ pub fn graph_pieces(
     for pair in cuts.windows(2) {
         for (left, right) in valued(&value, pair[0], pair[1]) {
             let piece = (0..=count).filter_map(|k| {
-                let turn = std::f64::consts::PI * (k as f64 / count as f64);
-                let x = left + (right - left) * (0.5 - 0.5 * pxfm::f_cos(turn));
+                let angle = std::f64::consts::PI * (k as f64 / count as f64);
+                let x = left + (right - left) * (0.5 - 0.5 * pxfm::f_cos(angle));
                 value(x).map(|y| (x, y))
             });
             pieces.push(piece.collect());

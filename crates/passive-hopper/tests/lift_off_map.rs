@@ -216,7 +216,7 @@ proptest! {
 
     /// α' dα'/dα = α (1 − 4μW), against a central difference.
     #[test]
-    fn the_slope_on_the_contact_intervals(n in 1u64..8, part in 0.1..0.9f64, m in 0.05..1f64) {
+    fn the_slope_on_the_contact_intervals_agrees_with_a_central_difference(n in 1u64..8, part in 0.1..0.9f64, m in 0.05..1f64) {
         let star = alpha_star(n);
         let alpha = star + part * ((n + 1) as f64 * PI - star);
         let hop = map(m).hop(alpha).unwrap();

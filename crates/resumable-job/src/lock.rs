@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn the_second_is_refused_with_folder_and_process() {
+    fn a_second_lock_is_an_error_that_names_folder_and_process() {
         let folder = folder("second");
         let first = Lock::take(&folder, "job").unwrap();
         let error = Lock::take(&folder, "job").unwrap_err();
@@ -145,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_independent() {
+    fn the_parts_of_a_job_have_separate_locks() {
         let folder = folder("parts");
         let parts = ["part-1-of-2", "part-2-of-2"].map(|part| Lock::take(&folder, part).unwrap());
         assert!(Lock::take(&folder, "part-1-of-2").is_err());
@@ -183,7 +183,7 @@ mod tests {
 
     /// The lock file appears and disappears all the time; two threads never hold the lock at once.
     #[test]
-    fn never_two_at_once() {
+    fn two_threads_never_hold_a_lock_at_once() {
         let folder = folder("never");
         let (inside, taken) = (AtomicUsize::new(0), AtomicUsize::new(0));
         std::thread::scope(|scope| {
@@ -243,14 +243,14 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_without_locks_is_told() {
+    fn a_folder_without_locks_is_an_error_that_names_it() {
         let source = std::io::Error::from(std::io::ErrorKind::Unsupported);
         let text = Error::NoLocks { folder: "/mnt/x".into(), source }.to_string();
         assert!(text.contains("/mnt/x") && text.contains("another file system"), "{text}");
     }
 
     #[test]
-    fn a_folder_that_is_missing_is_told() {
+    fn a_missing_folder_is_an_error_that_names_it() {
         let error = Lock::take(Path::new("/nowhere/at/all"), "job").unwrap_err();
         assert!(error.to_string().contains("/nowhere/at/all"), "{error}");
     }

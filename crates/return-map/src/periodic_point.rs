@@ -233,8 +233,8 @@ mod tests {
     proptest! {
         /// A linear map about a planted point has its location and its multipliers.
         #[test]
-        fn planted_points_are_found(a in -5.0..5.0f64, b in -5.0..5.0f64, p in -0.9..0.9f64, q in 1.1..3.0f64, turn in 0.0..3.0f64) {
-            let (sin, cos) = pxfm::f_sincos(turn);
+        fn planted_points_are_found(a in -5.0..5.0f64, b in -5.0..5.0f64, p in -0.9..0.9f64, q in 1.1..3.0f64, angle in 0.0..3.0f64) {
+            let (sin, cos) = pxfm::f_sincos(angle);
             let rotation = SMatrix::<f64, 2, 2>::new(cos, -sin, sin, cos);
             let matrix = rotation * SMatrix::<f64, 2, 2>::new(p, 0.0, 0.0, q) * rotation.transpose();
             let center = Vector2::new(a, b);

@@ -3,7 +3,7 @@
 use super::breach::Breach;
 use Class::{Computing, Files, Program, TestSupport};
 
-/// What a crate may do besides computing.
+/// The actions that a crate may take besides computing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Class {
     /// No other actions: the same input gives the same result, on any machine and in a browser.

@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn trees_are_taken_apart() {
+    fn a_tree_of_imports_gives_each_path() {
         let text = "use crate::{Error, map::{self, orbit::{Orbit, orbit as o}}};\nuse std::fmt;\n";
         assert_eq!(
             imported("x.rs", text),

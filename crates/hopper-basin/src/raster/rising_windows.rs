@@ -226,9 +226,9 @@ mod tests {
         }
     }
 
-    /// Only the eight windows of the proof are given, whatever the index.
+    /// Only windows 1 to 8 have a proof.
     #[test]
-    fn other_windows_are_not_proved() {
+    fn a_window_other_than_1_to_8_has_no_proof() {
         for n in [0, 9, 10, u64::MAX] {
             assert_eq!(rising_window(n), None);
         }

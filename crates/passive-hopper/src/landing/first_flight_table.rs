@@ -111,9 +111,9 @@ impl TablePosition {
     pub(crate) fn of(alpha: f64, fixed_points: &FixedPoints) -> Self {
         /// The bits of 1.0: exponent field and zero fraction.
         const ONE: u64 = 1023 << 52;
-        let half_turns = alpha * FRAC_1_PI;
-        let (n, bits) = nearest_integer(half_turns - 0.5);
-        let part = half_turns - n;
+        let alpha_over_pi = alpha * FRAC_1_PI;
+        let (n, bits) = nearest_integer(alpha_over_pi - 0.5);
+        let part = alpha_over_pi - n;
         let interval = bits & (TABLES as u64 - 1);
         let delta = alpha - fixed_points[interval as usize]; // exact
         let bits = delta.to_bits() & (u64::MAX >> 1);
@@ -123,9 +123,9 @@ impl TablePosition {
         let sudden = delta.to_bits() >> 63;
         // In the interval n = 0 the kind of the landing does not change near α = 0: small speeds keep their piece.
         let inside = (index < PIECES as u64)
-            & (half_turns < TABLES as f64)
+            & (alpha_over_pi < TABLES as f64)
             & (part < 1.0 - NEAR_END)
-            & ((part > NEAR_END) | (half_turns < 0.5));
+            & ((part > NEAR_END) | (alpha_over_pi < 0.5));
         let piece = if inside { index + sudden * PIECES as u64 } else { NO_PIECE as u64 };
         // The remaining bits of the fraction, as the fraction of a number in [1, 2).
         let fraction = f64::from_bits((bits << 4) & (u64::MAX >> 12) | ONE);
@@ -187,13 +187,13 @@ impl FirstFlightTable {
     #[cold]
     fn new(n: u64) -> Box<Self> {
         let fixed_point = DoubleDouble::from(alpha_star(n));
-        let end = |half_turns: u64| {
-            (DoubleDouble::multiple_of_pi(half_turns as f64) - fixed_point).high.abs()
+        let end = |multiple: u64| {
+            (DoubleDouble::multiple_of_pi(multiple as f64) - fixed_point).high.abs()
         };
         let mut table = Box::new(FirstFlightTable::EMPTY);
-        for (side, sign, half_turns) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
-            // A piece that begins beyond the end of the interval contains no speed of it.
-            let reach = end(half_turns);
+        for (side, sign, multiple) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
+            // No speed of the interval lies on a piece that begins beyond its end.
+            let reach = end(multiple);
             for index in (0..PIECES).take_while(|&index| left_end(index) < reach) {
                 let (closing_speed, beyond) = piece(fixed_point, index, sign);
                 table.closing_speed[side + index] = closing_speed;
@@ -250,6 +250,10 @@ fn exact_first(alpha: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
 }
 
 /// Interpolation at the Chebyshev nodes of [−1, 1]: from values to coefficients by powers.
+///
+/// `hybrid-system` has a transform at Chebyshev nodes too, in `ode/chebyshev.rs`. The two share no code: this one has 8
+/// nodes, computes in 106 bits and gives coefficients by powers; that one has 16, computes in `f64` and gives Chebyshev
+/// coefficients.
 struct Interpolation {
     nodes: [DoubleDouble; COEFFICIENTS],
     /// Coefficient k is Σ matrix[k][j] value[j].

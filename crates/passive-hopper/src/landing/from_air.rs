@@ -110,12 +110,12 @@ impl Lattice {
 
     fn next_after(&self, time: f64) -> Option<f64> {
         let after = |phase: f64| {
-            let mut turns = ((time - phase) / TAU).floor() + 1.0;
-            // A rounded quotient may give `time` itself. The loop over pieces would then not advance.
-            while phase + turns * TAU <= time {
-                turns += 1.0;
+            let mut periods = ((time - phase) / TAU).floor() + 1.0;
+            // A rounded quotient may give `time` itself, on which the loop over pieces would not advance.
+            while phase + periods * TAU <= time {
+                periods += 1.0;
             }
-            phase + turns * TAU
+            phase + periods * TAU
         };
         self.phases.map(|[a, b]| after(a).min(after(b)))
     }

@@ -97,10 +97,13 @@ impl HalfTime<f64> {
     }
 
     /// d(Γ²)/dV = 2 D dΓ/dh, finite even at a triple root.
+    ///
+    /// Inlined into the loops of the kernel, which have sin² and w already.
+    #[inline(always)]
     pub(crate) fn loss_slope(&self, excess: f64) -> f64 {
         let HalfTime { h, sin, cos, u, rho, .. } = *self;
         let w = u - excess * sin;
-        -4.0 * (h * sin * w + u * (h * sin + excess * cos) + 2.0 * sin * sin * rho * w)
+        -4.0 * (h * sin * w + u * (h * sin + excess * cos) + 2.0 * (sin * sin) * rho * w)
     }
 }
 

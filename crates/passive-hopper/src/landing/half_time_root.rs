@@ -1,6 +1,6 @@
 //! The root h of V(h) = V in an interval on which V(h) increases, and the landing there.
 
-use crate::landing::flight_ends::{Landing, is_sudden};
+use crate::landing::flight_ends::{Landing, TakeOff, is_sudden, state_after_flight};
 use crate::landing::half_time::HalfTime;
 
 /// A root of V(h) = V: an `f64` h, and the exact root minus this h.
@@ -83,9 +83,8 @@ impl HalfTimeRoot {
             // Next to a triple root Γ is nearly zero, and the correction may be as large as Γ² itself.
             (uncorrected * uncorrected - self.residual * loss_slope).max(0.0).sqrt()
         };
-        // x' = x + 2h (V − h) on the parabola of the momentum coordinate, moved by `rest`.
-        let landed = excess + 2.0 * h * (velocity - h) + 2.0 * rest * (velocity - 2.0 * h);
-        let upper = (velocity - 2.0 * h) - 2.0 * rest + kappa * closing_speed;
+        let start = TakeOff { excess, velocity };
+        let (landed, upper) = state_after_flight(start, h, rest, kappa, closing_speed);
         let sudden = sudden.unwrap_or(is_sudden(landed, upper));
         Landing { time: 2.0 * (h + rest), closing_speed, excess: landed, velocity: upper, sudden }
     }

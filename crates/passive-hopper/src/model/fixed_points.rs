@@ -131,7 +131,7 @@ pub(crate) fn fixed_point_in<R: Extended>(n: u64) -> R {
     a
 }
 
-/// n π to 100 bits. A first flight from this speed lasts n turns of the spring and lands at stretch one.
+/// n π to 100 bits. A first flight from this speed lasts n periods of the spring and lands at stretch one.
 pub(crate) fn n_pi(n: u64) -> DoubleDouble {
     DoubleDouble::multiple_of_pi(n as f64)
 }

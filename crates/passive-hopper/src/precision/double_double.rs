@@ -72,9 +72,9 @@ impl DoubleDouble {
 
     /// sin and cos, with an absolute error of about 2⁻¹⁰⁰; near zero the relative error of sin is as small.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
-        let turns = (self.high / std::f64::consts::PI).round();
-        // π has three parts. The largest product is subtracted first, because that difference cancels without error.
-        let [a, b, c] = PI_PARTS.map(|part| Self::exact_product(part, turns));
+        let multiple = (self.high / std::f64::consts::PI).round();
+        // π has three parts. The largest product is subtracted first: that difference cancels without error.
+        let [a, b, c] = PI_PARTS.map(|part| Self::exact_product(part, multiple));
         let rest = ((self - a) - b) - c;
         let square = rest.squared();
         let (mut sin, mut cos) = (Self::ZERO, Self::ZERO);
@@ -83,7 +83,7 @@ impl DoubleDouble {
             sin = inverse[2 * k + 1] - sin * square;
             cos = inverse[2 * k] - cos * square;
         }
-        let sign = if turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let sign = if multiple % 2.0 == 0.0 { 1.0 } else { -1.0 };
         (sin * rest * sign, cos * sign)
     }
 

@@ -15,6 +15,8 @@ use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::half_angle::HalfAngle;
 use crate::kernel::scalar::landing_bracket::LandingBracket;
 use crate::landing::error_bound::LANDING_ULPS;
+use crate::landing::flight_ends::{TakeOff, state_after_flight};
+use crate::landing::half_time::HalfTime;
 use std::f64::consts::PI;
 
 /// Largest number of steps of order four. Past it the general solver computes the hop.
@@ -32,6 +34,13 @@ const LAST_STEP: f64 = 3e-5;
 
 /// Largest relative correction that is added to first order: its square, 10⁻¹⁸, is below an ulp.
 const FIRST_ORDER: f64 = 1e-9;
+
+/// The part of the size of a flight's quantities that is added to |ṡ|, the rate of the stretch at the landing.
+///
+/// ṡ can cancel, and its computed value may then be smaller than its error. The part keeps room for an error of up to
+/// 10⁻⁵ of the size. It is an estimate, not derived. A smaller part could make the bound of x′ too small; a larger one
+/// would send more hops to the careful path.
+const RATE_ERROR: f64 = 1e-5;
 
 /// The end of a flight.
 #[derive(Debug, Clone, Copy)]
@@ -93,21 +102,20 @@ pub(crate) fn land(
     let HalfAngle { h, sin, cos, d, u } = half_angle_moved(at, step);
     let (square, product) = (sin * sin, sin * cos);
     let inverse = 1.0 / d;
-    let rho = u * inverse;
+    let (rho, sigma) = (u * inverse, square * inverse);
     let w = u - x * sin;
     let raw = 2.0 * rho * w; // Γ at h, before the correction
 
     // The residual V(h) − V is corrected to first order: δh = −(V(h) − V) D/Γ and δΓ = −½ (V(h) − V)/Γ · d(Γ²)/dV.
-    let residual = (h - v) + (sin * rho - x * (square * inverse));
-    let loss_slope = -4.0 * (h * sin * w + u * (h * sin + x * cos) + 2.0 * square * rho * w); // d(Γ²)/dV
-    let per_speed = d / (2.0 * (u * w)); // 1/Γ from u and w: independent of the division in ρ, so that both run at the same time
+    let residual = (h - v) + (sin * rho - x * sigma);
+    let loss_slope = HalfTime { h, sin, cos, d, u, rho, sigma }.loss_slope(x);
+    let per_speed = d / (2.0 * (u * w)); // 1/Γ, from u and w: it need not wait for the division in ρ
     let residual_over_gamma = residual * per_speed;
     let change_of_h = -residual_over_gamma * d;
     let change_of_gamma = -0.5 * residual_over_gamma * loss_slope;
     let closing = raw + change_of_gamma;
-    // x′ = x + 2h (V − h) and V′ = V − 2h + κΓ, at h + δh.
-    let excess = (x + 2.0 * h * (v - h)) + 2.0 * change_of_h * (v - 2.0 * h);
-    let velocity = (v - 2.0 * h) - 2.0 * change_of_h + kappa * closing;
+    let take_off = TakeOff { excess: x, velocity: v };
+    let (excess, velocity) = state_after_flight(take_off, h, change_of_h, kappa, closing);
 
     // I4: the errors at the start are propagated through the flight by its linear map (`landing/flight_derivative.rs`),
     // with every term positive: 1.5 > |cos τ| + |sin τ| and 2.5 > |sin τ| + 1 − cos τ.
@@ -115,8 +123,8 @@ pub(crate) fn land(
     let rounding = LANDING_ULPS * f64::EPSILON * size;
     let before = error + 4.0 * f64::EPSILON * size; // 4: the rounding of the residual acts like an error of V
     let time_error = 2.0 * (square + d) * before * per_speed;
-    // |ṡ| = |V cos τ − Y sin τ| can cancel. The added 10⁻⁵ of the size bounds the error of ṡ itself.
-    let rate = (v * (1.0 - 2.0 * square) - 2.0 * y * product).abs() + 1e-5 * size;
+    // |ṡ| = |V cos τ − Y sin τ|.
+    let rate = (v * (1.0 - 2.0 * square) - 2.0 * y * product).abs() + RATE_ERROR * size;
     let excess_error = rounding + 1.5 * before + rate * time_error;
     let closing_error = 2.5 * before + excess.abs() * time_error;
     let velocity_error = rounding + before + time_error + kappa * closing_error;

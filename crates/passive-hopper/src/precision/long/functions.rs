@@ -13,8 +13,8 @@ impl<const W: usize> Real for Long<W> {
     /// The reduction subtracts a multiple of π of about the size of the argument, whose error is ε |self|. Therefore
     /// the error of the result is ε (1 + |self|). It is relative only if no multiple is subtracted.
     fn sin_cos(self) -> (Self, Self) {
-        let half_turns = (self.nearest() / std::f64::consts::PI).round();
-        let rest = self - Self::pi() * half_turns;
+        let multiple = (self.nearest() / std::f64::consts::PI).round();
+        let rest = self - Self::pi() * multiple;
         let minus_square = -rest.squared();
         let (mut sin, mut cos) = (rest, Self::from(1.0));
         let (mut odd, mut even) = (sin, cos);
@@ -27,7 +27,7 @@ impl<const W: usize> Real for Long<W> {
             }
         }
         // sin(r + kπ) = (−1)^k sin r, and likewise cos.
-        if half_turns % 2.0 == 0.0 { (sin, cos) } else { (-sin, -cos) }
+        if multiple % 2.0 == 0.0 { (sin, cos) } else { (-sin, -cos) }
     }
 
     fn sine_remainders(self, sin: Self, cos: Self) -> (Self, Self) {
