@@ -1,4 +1,4 @@
-//! What can stop a command.
+//! The reasons why a command stops.
 
 use std::ffi::OsString;
 use std::fmt;

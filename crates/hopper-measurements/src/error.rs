@@ -1,4 +1,4 @@
-//! What can stop a measurement.
+//! The reasons why a measurement stops.
 
 use thiserror::Error;
 
@@ -20,7 +20,7 @@ pub enum Error {
         "the reference values: {reason}; the files under crates/*/tests/data have been changed"
     )]
     Reference {
-        /// What is wrong with it.
+        /// The defect.
         reason: String,
     },
     /// A fate or a basin could not be computed.
@@ -43,13 +43,13 @@ pub enum Error {
     Render {
         /// Name of the file.
         what: String,
-        /// What is wrong.
+        /// The defect.
         reason: String,
     },
     /// The software that is compared with could not be run.
     #[error("the peers cannot be compared with: {reason}")]
     Peers {
-        /// What went wrong.
+        /// The failure.
         reason: String,
     },
     /// A comparison does not hold, or an option has no sense; the text says which.

@@ -1,4 +1,4 @@
-//! What can stop a command.
+//! The reasons why a command stops.
 
 use std::path::PathBuf;
 use thiserror::Error;
@@ -29,13 +29,13 @@ pub enum Error {
         "the reference values: {reason}; the files under crates/*/tests/data have been changed"
     )]
     Reference {
-        /// What is wrong with it.
+        /// The defect.
         reason: String,
     },
     /// A name that does not exist.
     #[error("there is no {kind} '{name}'; there are: {known}")]
     UnknownName {
-        /// What the name was taken for.
+        /// The kind of thing that the name should name.
         kind: &'static str,
         /// The name given.
         name: String,

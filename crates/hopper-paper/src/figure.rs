@@ -7,11 +7,11 @@ use journal_figures::{DataFile, Svg};
 pub struct Figure {
     /// File name without its ending.
     pub name: &'static str,
-    /// What the figure shows, as markup.
+    /// The title, as markup.
     pub title: String,
-    /// What the paper says of it, in our words.
+    /// The paper's statement about it, in our words.
     pub paper: String,
-    /// What was chosen where the paper's details are lost, and what the figure shows.
+    /// The choices where the paper's details are illegible, and a description of the figure.
     pub notes: String,
     /// The drawing.
     pub svg: Svg,

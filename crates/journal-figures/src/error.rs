@@ -1,4 +1,4 @@
-//! What can stop a figure.
+//! The reasons why a figure cannot be made.
 
 use thiserror::Error;
 

@@ -1,4 +1,4 @@
-//! What can go wrong with the repository's files.
+//! The reasons why reading or writing a file of the repository fails.
 
 use std::path::PathBuf;
 use thiserror::Error;
@@ -22,7 +22,7 @@ pub enum Error {
         path: PathBuf,
         /// The line, from one.
         line: usize,
-        /// What is wrong with it.
+        /// The defect.
         reason: String,
     },
     /// A file of reference values that holds none, or none that can be compared.

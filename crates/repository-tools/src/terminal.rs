@@ -1,4 +1,4 @@
-//! What a program says on the terminal, and how it ends.
+//! Output on the terminal, and the exit status of a program.
 
 use crate::error::Error;
 use std::fmt::Display;

@@ -160,7 +160,7 @@ mod tests {
 
     /// The lock file appears and goes all the time; never do two threads hold the lock.
     #[test]
-    fn never_two_at_once() {
+    fn two_threads_never_hold_the_lock_together() {
         let folder = folder("never");
         let (inside, taken) = (AtomicUsize::new(0), AtomicUsize::new(0));
         std::thread::scope(|scope| {
@@ -184,14 +184,14 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_without_locks_is_told() {
+    fn the_error_names_a_folder_without_locks() {
         let source = std::io::Error::from(std::io::ErrorKind::Unsupported);
         let text = Error::NoLocks { folder: "/mnt/x".into(), source }.to_string();
         assert!(text.contains("/mnt/x") && text.contains("another file system"), "{text}");
     }
 
     #[test]
-    fn a_folder_that_is_missing_is_told() {
+    fn the_error_names_a_missing_folder() {
         let error = Lock::take(Path::new("/nowhere/at/all"), "job").unwrap_err();
         assert!(error.to_string().contains("/nowhere/at/all"), "{error}");
     }

@@ -1,4 +1,4 @@
-//! What a file imports from its own crate.
+//! The imports of a file from its own crate.
 
 use super::module_tree::Module;
 

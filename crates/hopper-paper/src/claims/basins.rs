@@ -10,29 +10,29 @@ use repository_tools::Progress;
 pub(super) fn check(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let mut claims = vec![multimodal()?, above_first()?, falls_through()?];
     claims.extend(measures(progress)?);
-    claims.push(finer_scales()?);
+    claims.push(changes_of_fate_at_finer_scales()?);
     Ok(claims)
 }
 
 fn multimodal() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.2)?)?;
-    let mut turns = Vec::new();
+    let mut turning_points = Vec::new();
     for n in 1..=5 {
         let hump = branches(&fates, n, n + 1, 2001)?;
-        turns.push(
+        turning_points.push(
             hump.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count(),
         );
     }
     // An independent check: the whole window is sampled, without any theory of the humps.
     let blind = monotone_branches(&fates, first_humps(5), 40_001)?;
-    let blind_turns =
+    let blind_turning_points =
         blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
     Ok(Claim::new("Secs. I, III, Fig. 2", "multimodality")
         .paper("the map has many humps, one between any two neighbouring fixed points")
-        .ours(format!("at $M$ = 0.2 each of the first five humps has one maximum and one minimum; {blind_turns} turning points in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}]"))
+        .ours(format!("at $M$ = 0.2 each of the first five humps has one maximum and one minimum; {blind_turning_points} turning points in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}]"))
         .error("–")
         .how("critical points 4$μ$ sin $h$ (sin $h$ − $h$ cos $h$) = 1 on the contact parts, and a search at 40 001 points that knows nothing of them")
-        .holds(turns.iter().all(|&t| t == 2) && blind_turns == 10))
+        .holds(turning_points.iter().all(|&t| t == 2) && blind_turning_points == 10))
 }
 
 /// The lowest value of the map on [α*₁, α*₆], and the lowest value without the first branch, whose left end is α*₁
@@ -104,7 +104,7 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
     Ok(vec![
         claim("measure at M = 0.1, all basins", "1", total[0], 1.0, 0.0),
         claim("measure at M = 0.1, first basin", "0.953", first, 0.953, 0.0005),
-        claim("measure at M = 0.2, all basins", "0.037 (one digit is lost in our copy)", total[1], 0.037, 0.0005),
+        claim("measure at M = 0.2, all basins", "0.037 (one digit is illegible in our copy)", total[1], 0.037, 0.0005),
         Claim::new("Sec. VI B", "fall and recovery of the measure")
             .paper("the measure decreases rapidly as $M$ increases, then increases again for very large $M$")
             .ours(table.join(", "))
@@ -115,7 +115,7 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
 }
 
 /// Changes of fate along α at M = 0.175, in the windows of Figs. 6, 8 and 9.
-fn finer_scales() -> Result<Claim, Error> {
+fn changes_of_fate_at_finer_scales() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.175)?)?;
     let windows = [
         (first_humps(5).left, first_humps(5).right),

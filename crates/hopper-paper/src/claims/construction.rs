@@ -11,7 +11,7 @@ use repository_tools::Progress;
 
 pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
     let levels = levels()?;
-    Ok(vec![first_level(&levels), each_level(&levels)?, limit(&levels)?, accumulation()?])
+    Ok(vec![first_level(&levels), each_level(&levels)?, limit(&levels)?, generations_accumulate()?])
 }
 
 fn first_level(levels: &[IntervalSet]) -> Claim {
@@ -85,7 +85,7 @@ fn limit(levels: &[IntervalSet]) -> Result<Claim, Error> {
 }
 
 /// An orbit that leaves α*₂ to the left takes 3/(10λ) (δ₀^{−1/3} − δ₁^{−1/3}) hops from δ₀ to δ₁.
-fn accumulation() -> Result<Claim, Error> {
+fn generations_accumulate() -> Result<Claim, Error> {
     let ratio = MassRatio::new(0.2)?;
     let map = LiftOffMap::new(ratio);
     let star = FixedPointSpeed::new(2);

@@ -17,7 +17,7 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// A fixed sequence of random numbers. The state is made of digits of π.
 const RANDOM: SplitMix64 = SplitMix64::from_state(0x243f_6a88_85a3_08d3);
 
-struct Comparison {
+struct InversionComparison {
     sudden: bool,
     /// The difference of α′² between M and 1/M, relative to α².
     difference: f64,
@@ -28,11 +28,12 @@ struct Comparison {
 
 /// Compares the maps at a random M in [10⁻³, 10³] and at 1/M, at a random α on one of the humps 0 to 18: on its contact
 /// part (α*_n, (n+1)π), or in the sudden window ((n+1)π, α*_{n+1}).
-fn compare(k: u64, contact: bool) -> Result<Comparison, passive_hopper::Error> {
+fn compare(k: u64, contact: bool) -> Result<InversionComparison, passive_hopper::Error> {
     let ratio = MassRatio::new(pxfm::f_exp10(6.0 * RANDOM.uniform(3 * k) - 3.0))?;
     let n = (19.0 * RANDOM.uniform(3 * k + 1)) as u64;
-    let turn = (n + 1) as f64 * PI;
-    let (left, right) = if contact { (alpha_star(n), turn) } else { (turn, alpha_star(n + 1)) };
+    let contact_end = (n + 1) as f64 * PI;
+    let (left, right) =
+        if contact { (alpha_star(n), contact_end) } else { (contact_end, alpha_star(n + 1)) };
     let alpha = left + (right - left) * (1e-6 + (1.0 - 2e-6) * RANDOM.uniform(3 * k + 2));
     let here = LiftOffMap::new(ratio).hop(alpha)?;
     let there = LiftOffMap::new(ratio.inverted()).hop(alpha)?;
@@ -46,10 +47,14 @@ fn compare(k: u64, contact: bool) -> Result<Comparison, passive_hopper::Error> {
         (Some(a), Some(b)) => (a - b).abs() * a.max(b) / (alpha * alpha),
         _ => 0.0,
     };
-    Ok(Comparison { sudden, difference, image_difference, verdicts_agree })
+    Ok(InversionComparison { sudden, difference, image_difference, verdicts_agree })
 }
 
-fn sample(progress: &Progress, pairs: u64, contact: bool) -> Result<Vec<Comparison>, Error> {
+fn sample(
+    progress: &Progress,
+    pairs: u64,
+    contact: bool,
+) -> Result<Vec<InversionComparison>, Error> {
     let bar = progress.bar(if contact { "invariance" } else { "no invariance" }, 10);
     let mut comparisons = Vec::with_capacity(pairs as usize);
     for part in 0..10 {
@@ -93,10 +98,10 @@ fn sudden_windows() -> Result<Claim, Error> {
     for m in [0.01, 0.3, 1.0, 4.0, 100.0] {
         let map = LiftOffMap::new(MassRatio::new(m)?);
         for n in 1..=200u64 {
-            let (turn, star) = (n as f64 * PI, alpha_star(n));
+            let (n_pi, star) = (n as f64 * PI, alpha_star(n));
             let places = [
-                (turn * (1.0 - 1e-12), false),
-                (turn * (1.0 + 1e-12), true),
+                (n_pi * (1.0 - 1e-12), false),
+                (n_pi * (1.0 + 1e-12), true),
                 (star.next_down(), true),
                 (star.next_up(), false),
             ];

@@ -38,7 +38,7 @@ fn beta() -> Result<Claim, Error> {
     let worst = largest(errors);
     let first = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
     Ok(Claim::new("Sec. IV, Eq. 14", "β")
-        .paper("the flight near $α$^{∗} is longer by $βδ$^{1/3}, $β$ = [6(2$α$^{∗} − sin 2$α$^{∗})/$α$^{∗}]^{1/3} (the 6 is lost in our copy)")
+        .paper("the flight near $α$^{∗} is longer by $βδ$^{1/3}, $β$ = [6(2$α$^{∗} − sin 2$α$^{∗})/$α$^{∗}]^{1/3} (the 6 is illegible in our copy)")
         .ours(format!("$β$_{{1}} = {:.12}; measured flight times agree", first.beta))
         .error(format!("{worst:.1e} relative"))
         .how("flight times at $δ$ = 8·10^{−7} and 10^{−7}, extrapolated in $δ$^{1/3}, $n$ = 1, 2, 3, 10")
@@ -84,18 +84,18 @@ fn delta() -> Result<Claim, Error> {
 }
 
 fn delta_for_large_n() -> Result<Claim, Error> {
-    let share = |n: u64| -> Result<f64, Error> {
+    let scaled_length = |n: u64| -> Result<f64, Error> {
         let lambda = Coefficients::new(n, MassRatio::ONE, Form::Corrected)?.lambda;
         Ok(Trap::new(n, MassRatio::ONE)?.delta * lambda * lambda * lambda)
     };
-    let shares = [share(1)?, share(3)?, share(10)?, share(30)?];
-    let rising = shares.windows(2).all(|pair| pair[0] < pair[1]);
+    let scaled = [scaled_length(1)?, scaled_length(3)?, scaled_length(10)?, scaled_length(30)?];
+    let rising = scaled.windows(2).all(|pair| pair[0] < pair[1]);
     Ok(Claim::new("Sec. IV A, Eq. 20", "Δ = λ⁻³ as the leading order")
         .paper("the size of the interval of attraction is approximately $λ$^{−3}")
-        .ours(format!("$Δλ$^{{3}} = {:.4}, {:.4}, {:.4}, {:.4} for $n$ = 1, 3, 10, 30 at $M$ = 1: towards 1, with the corrected $λ$; with the printed one the limit is 27/64", shares[0], shares[1], shares[2], shares[3]))
-        .error(format!("{:.1e} at $n$ = 30", 1.0 - shares[3]))
+        .ours(format!("$Δλ$^{{3}} = {:.4}, {:.4}, {:.4}, {:.4} for $n$ = 1, 3, 10, 30 at $M$ = 1: towards 1, with the corrected $λ$; with the printed one the limit is 27/64", scaled[0], scaled[1], scaled[2], scaled[3]))
+        .error(format!("{:.1e} at $n$ = 30", 1.0 - scaled[3]))
         .how("exact $Δ$ against the corrected $λ$; the relative correction falls like ($μα$^{∗})^{−2}")
-        .corrected(rising && (1.0 - shares[3]).abs() < 1e-3))
+        .corrected(rising && (1.0 - scaled[3]).abs() < 1e-3))
 }
 
 /// Mass ratios from 1/9 to 9 in equal factors, and pairs that approach 1 from both sides.

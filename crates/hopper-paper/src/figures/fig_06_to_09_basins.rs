@@ -29,9 +29,9 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
         texts(
             "Basins of attraction for small mass ratios",
             "Initial speeds by the fixed point they lead to: first green, second red, third blue and so \
-         on. At $M$ = 0.1 most of the window is green; with growing $M$ the share of incessant hopping \
+         on. At $M$ = 0.1 most of the window is green; with growing $M$ the fraction of incessant hopping \
          falls rapidly.",
-            "Window $M$ ∈ [0.02, 1], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6} (the paper's lower limit of $M$ is lost). What the \
+            "Window $M$ ∈ [0.02, 1], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6} (the paper's lower limit of $M$ is illegible in our copy). What the \
          paper leaves blank is told apart: white decays (hops for ever, ever lower), grey is grounded.",
         ),
     )
@@ -73,7 +73,7 @@ pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
         texts(
             "The inset of Fig. 6",
             "The same basins at a finer scale.",
-            "Window $M$ ∈ [0.1, 0.2], $α$ from $α$^{∗}_{4} to $α$^{∗}_{6}, chosen to hold Fig. 9; the paper's limits are lost.",
+            "Window $M$ ∈ [0.1, 0.2], $α$ from $α$^{∗}_{4} to $α$^{∗}_{6}, chosen to hold Fig. 9; the paper's limits are illegible in our copy.",
         ),
     )
 }
