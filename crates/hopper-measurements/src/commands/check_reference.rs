@@ -297,8 +297,8 @@ mod tests {
     fn a_wrong_value_and_a_wrong_verdict_are_counted() {
         let good = r#"{"class": "c", "mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "35.997158341573688180303069833057"}"#;
         let off = good.replace("35.9971583415", "35.9971583416");
-        let judgement = good.replace("\"sudden\": 0", "\"sudden\": 1");
-        let lines: Vec<_> = [good, &off, &verdict]
+        let verdict_line = good.replace("\"sudden\": 0", "\"sudden\": 1");
+        let lines: Vec<_> = [good, &off, &verdict_line]
             .iter()
             .map(|text| line(&serde_json::from_str(text).unwrap()).unwrap())
             .enumerate()

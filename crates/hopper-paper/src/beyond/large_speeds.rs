@@ -15,6 +15,9 @@ use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 const M: f64 = 0.2;
 /// Humps in equal factors. On hump 10 000 an orbit takes thousands of hops, and α has an ulp of 4e-12.
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
+/// Errors ε of the start: 10⁻¹ to 10⁻⁸, one for each decade. The last one is still 2500 ulps of α on hump 10 000. A
+/// smaller one would be compared with rounding, and takes as long as the others.
+const DECADES: usize = 8;
 /// Random starts on a hump. Orbits from high humps take thousands of hops, so that fewer are affordable.
 fn starts(n: u64) -> usize {
     if n > 100 { 2_000 } else { 20_000 }
@@ -27,7 +30,6 @@ const LOOKS: [Marker; 5] =
 /// The fraction of uncertain starts against ε, hump by hump.
 pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
-    const DECADES: usize = 8;
     let scan = job.scan("large speeds", HUMPS.len() * DECADES, |k| {
         let (n, decade) = (HUMPS[k / DECADES], k % DECADES + 1);
         let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };

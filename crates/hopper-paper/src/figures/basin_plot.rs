@@ -23,7 +23,7 @@ pub(crate) struct Window {
 }
 
 /// Pixels across and up: 2.4 for each point of the frame, about what a print resolves.
-pub(super) const PIXELS: usize = 1200;
+pub(crate) const PIXELS: usize = 1200;
 
 /// Computes and draws a window.
 pub(super) fn basin_figure(
