@@ -29,7 +29,7 @@ pub fn first_humps(count: u64) -> Interval {
 pub type FigureWindow = ((f64, f64), (f64, f64));
 
 /// Fig. 8, a part of Fig. 6: the basins of M ∈ [0.1, 0.2] at a finer scale. Its limits are illegible in our copy of the
-/// paper: α runs from α*_4 to α*_6, rounded inwards to three decimals, which holds Fig. 9.
+/// paper. Here α runs from α*_4 to α*_6, cut to three decimals: this window contains that of Fig. 9.
 pub const FIG_8: FigureWindow = ((0.1, 0.2), (14.066, 20.371));
 
 /// Fig. 9, a part of Fig. 8, with the limits that the paper prints: M ∈ [0.17, 0.18], α ∈ [17.0, 17.8].
