@@ -20,6 +20,7 @@
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
 //! | [`basin_levels`], [`branches`] | one basin level by level, from the branches of the map |
 //! | [`first_humps`] | the lift-off speeds [α*_1, α*_{k+1}]; the paper's window has k = 5 |
+//! | [`FIG_8`], [`FIG_9`] | the (M, α) windows of these figures of the paper |
 //!
 //! ```
 //! use hopper_basin::basin_fractions;
@@ -54,7 +55,7 @@ pub use basins::fractions::{BasinFractions, basin_fractions};
 pub use basins::intervals::{HopperBasins, hopper_basins};
 pub use basins::levels::basin_levels;
 pub use basins::rasters::{basin_columns, basin_raster};
-pub use basins::window::first_humps;
+pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;

@@ -10,7 +10,7 @@ use std::path::Path;
 
 /// A question and its answer, from one line of a file.
 pub(crate) enum Line {
-    Hop(Hop),
+    Hop(ReferenceHop),
     Loss(Loss),
     Local { mass_ratio: MassRatio, n: u64, offset: f64, sudden: usize, next: Option<f64> },
     Fate { mass_ratio: MassRatio, alpha: f64, fate: HopperFate },
@@ -19,7 +19,7 @@ pub(crate) enum Line {
     ImmediateBasin { n: u64, mass_ratio: MassRatio, edge: Edge, delta: Option<f64> },
 }
 
-/// The edge of a trapping region, and how sure the reference is of it.
+/// The edge of a trap, and how sure the reference is of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Edge {
     /// On the contact part of the hump; proved.
@@ -33,7 +33,7 @@ pub(crate) enum Edge {
 }
 
 /// A hop, with the slopes by which its error is judged.
-pub(crate) struct Hop {
+pub(crate) struct ReferenceHop {
     pub(crate) class: String,
     pub(crate) mass_ratio: MassRatio,
     pub(crate) alpha: f64,
@@ -43,7 +43,7 @@ pub(crate) struct Hop {
     pub(crate) slope_mass_ratio: f64,
 }
 
-impl Hop {
+impl ReferenceHop {
     /// The unit of its error: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
     pub(crate) fn unit(&self) -> f64 {
         let alpha = (self.alpha, self.slope_alpha);
@@ -67,13 +67,13 @@ pub(crate) struct Loss {
 pub(crate) const WINDOW: &str = "crates/passive-hopper/tests/data/hops_window.jsonl";
 
 /// The hops of that file.
-pub(crate) fn window_hops() -> Result<Vec<Hop>, Error> {
+pub(crate) fn window_hops() -> Result<Vec<ReferenceHop>, Error> {
     let path = repository().join(WINDOW);
     let hops = parse(&path)?.into_iter().filter_map(|(_, line)| match line {
         Line::Hop(hop) => Some(hop),
         _ => None,
     });
-    let hops: Vec<Hop> = hops.collect();
+    let hops: Vec<ReferenceHop> = hops.collect();
     if hops.is_empty() { Err(RowError::NoReference { path }.into()) } else { Ok(hops) }
 }
 
@@ -108,7 +108,7 @@ pub(crate) fn line(value: &Value) -> Result<Line, String> {
     {
         return Err(
             "this is none of the known kinds: a hop, a loss, a hop near a fixed point, a fate, \
-                    a fixed point, a trapping region or a crisis"
+                    a fixed point, a trap or a crisis"
                 .into(),
         );
     }
@@ -160,7 +160,7 @@ pub(crate) fn line(value: &Value) -> Result<Line, String> {
         return Err(format!("'alpha_next' is {bad}, not positive"));
     }
     let slope = |key| if value.get(key).is_some() { number(value, key) } else { Ok(0.0) };
-    Ok(Line::Hop(Hop {
+    Ok(Line::Hop(ReferenceHop {
         class: value.get("class").and_then(Value::as_str).unwrap_or("hop").to_owned(),
         mass_ratio,
         alpha: number(value, "alpha")?,

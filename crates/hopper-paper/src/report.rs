@@ -12,8 +12,8 @@ figcaption{font-size:.93em}.paper{border-left:3px solid #bbb;padding-left:.8em;c
 th,td{border-bottom:1px solid #ccc;padding:.35em .5em;text-align:left;vertical-align:top}th{border-bottom:2px solid #333}\
 .confirmed{color:#0b6b3a;font-weight:bold}.corrected{color:#9a5b00;font-weight:bold}.fails{color:#b00020;font-weight:bold}small{color:#444}";
 
-/// Details that our copy of the paper has lost, and what was chosen for each.
-const LOST: &[&str] = &[
+/// Details that are illegible in our copy of the paper, and the choice made for each.
+const ILLEGIBLE: &[&str] = &[
     "The mass ratios of Fig. 2: 0.05, 0.1, 0.2 and 1 are shown.",
     "The mass ratio of Fig. 3: 0.8, at which all four segments exist.",
     "The scale of Fig. 5, which is a sketch in the paper: the real map at $M$ = 0.4.",
@@ -43,8 +43,10 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
     for (figure, rendered) in figures {
         drawing(&mut out, figure, rendered, "");
     }
-    out.push_str("<h2>What our copy of the paper lost, and what we chose</h2><ul>");
-    for item in LOST {
+    out.push_str(
+        "<h2>Details that are illegible in our copy of the paper, and our choices</h2><ul>",
+    );
+    for item in ILLEGIBLE {
         let _ = write!(out, "<li>{}</li>", html(item));
     }
     out.push_str("</ul></body></html>\n");

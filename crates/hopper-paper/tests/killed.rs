@@ -31,7 +31,7 @@ fn tiles(folder: &Path) -> usize {
 }
 
 #[test]
-fn killed_and_started_again() {
+fn a_killed_and_restarted_run_gives_the_same_bytes() {
     let (whole, broken) = (folder("whole"), folder("broken"));
     let begin = Instant::now();
     assert!(raster(&whole, "1").status().unwrap().success());

@@ -1,7 +1,7 @@
 //! The bifurcation diagram of a pressure relief valve, as numbers. For each flow rate it has the displacements at the
 //! turning points after a transient.
 //!
-//! Run with `cargo run --release -p return-map --example pressure_relief_valve`; `cargo xtask valve-diagram`
+//! Run with `cargo run --release -p return-map --example pressure_relief_valve`; `cargo xtask model-figures`
 //! draws it.
 
 #![allow(clippy::print_stdout)] // a program

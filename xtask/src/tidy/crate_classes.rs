@@ -1,12 +1,12 @@
 //! Which crates may print, read files or look at clocks.
 
 use super::breach::Breach;
-use Class::{Computing, Files, Program, TestSupport};
+use CrateClass::{Computing, Files, Program, TestSupport};
 
-/// The actions that a crate may take besides computing.
+/// The things that a crate may do besides computing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Class {
-    /// No other actions: the same input gives the same result, on any machine and in a browser.
+pub(super) enum CrateClass {
+    /// Nothing else: the same input gives the same result, on any machine and in a browser.
     Computing,
     /// Panic, like the tests that use it.
     TestSupport,
@@ -17,7 +17,7 @@ pub(super) enum Class {
 }
 
 /// Every crate in `crates/`, with its class and the reason for it.
-const CLASSES: [(&str, Class, &str); 13] = [
+const CLASSES: [(&str, CrateClass, &str); 13] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
     ("basin-of-attraction", Computing, "random points come from a seed argument"),
@@ -42,7 +42,7 @@ pub(super) const GENERIC: [&str; 5] =
     ["hybrid-system", "return-map", "basin-of-attraction", "journal-figures", "resumable-job"];
 
 /// The class of a crate; `None` if the table does not have it.
-pub(super) fn class_of(name: &str) -> Option<Class> {
+pub(super) fn class_of(name: &str) -> Option<CrateClass> {
     CLASSES.iter().find(|(known, ..)| *known == name).map(|&(_, class, _)| class)
 }
 

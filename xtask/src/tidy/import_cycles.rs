@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn layers_are_no_cycle() {
+    fn imports_from_one_layer_to_the_next_are_accepted() {
         let layers = [("a.rs", "use crate::b::B;\n"), ("b.rs", ""), ("lib.rs", "pub use a::A;\n")];
         assert_eq!(rules(&layers), [""; 0]);
     }

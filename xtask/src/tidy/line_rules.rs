@@ -1,7 +1,7 @@
 //! Code that files and lines may not contain.
 
 use super::breach::Breach;
-use super::crate_classes::{Class, GENERIC, class_of};
+use super::crate_classes::{CrateClass, GENERIC, class_of};
 use super::sources::Source;
 
 /// The crate and the file with calls of loops compiled for wider vectors, after a check of the processor.
@@ -45,8 +45,8 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
     if in_crate.is_some() && source.in_src().is_some() && !text.starts_with("//!") {
         breach(1, "a library file starts with what it holds: //!");
     }
-    // A crate without a class is treated like the strictest class; `crate_classes` reports it.
-    let class = in_crate.map(|name| class_of(name).unwrap_or(Class::Computing));
+    // A crate without a class is treated as the strictest one; `crate_classes` reports it.
+    let class = in_crate.map(|name| class_of(name).unwrap_or(CrateClass::Computing));
     for (at, line) in (1..).zip(text.lines()) {
         let code = line.trim_start();
         if in_crate.is_some_and(|name| GENERIC.contains(&name))
@@ -66,15 +66,15 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
         if code.starts_with("//") {
             continue;
         }
-        if class != Class::Program && has(code, &PRINTING) {
+        if class != CrateClass::Program && has(code, &PRINTING) {
             breach(at, "libraries do not print");
         }
-        if class != Class::Program && has(code, &OUTSIDE)
-            || matches!(class, Class::Computing | Class::TestSupport) && has(code, &FILES)
+        if class != CrateClass::Program && has(code, &OUTSIDE)
+            || matches!(class, CrateClass::Computing | CrateClass::TestSupport) && has(code, &FILES)
         {
             breach(at, "libraries read no files, clocks, environment or random numbers");
         }
-        if class != Class::TestSupport && has(code, &PANICS) {
+        if class != CrateClass::TestSupport && has(code, &PANICS) {
             breach(at, "libraries return errors as values");
         }
         if has(code, &["unsafe ", "unsafe{", "unsafe_code"]) && !is(source, WITH_UNSAFE_CODE) {

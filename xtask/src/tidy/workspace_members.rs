@@ -41,7 +41,7 @@ mod tests {
     }
 
     #[test]
-    fn members_are_listed() {
+    fn every_crate_must_be_listed_in_the_workspace() {
         let listed = "[workspace]\n# why\nmembers = [\n  \"crates/a\", # here\n  \"xtask\",\n]\nexclude = [\"crates/b\"]\n";
         assert_eq!(rules(listed), [""; 0]);
         let missing = rules("[workspace]\nmembers = [\"crates/a\"]\n");

@@ -1,7 +1,7 @@
 //! `check-reference`: compares the map and the fates with files of reference values.
 
 use crate::error::Error;
-use crate::reference::{Edge, Hop, Line, Loss, parse};
+use crate::reference::{Edge, Line, Loss, ReferenceHop, parse};
 use hopper_basin::{Fates, ImmediateBasinEdge, crisis, immediate_basin};
 use hopper_reference::UNITS_PER_FLIGHT;
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
@@ -15,12 +15,12 @@ pub struct Options {
     /// Allowed error in units, 0 < K ≤ 1e15. A hop is allowed K (1 + sudden lift-offs) units; its unit is the
     /// effect of half an ulp in α, M, α′ and α² together. For a hop near a fixed point, given as n and offset, K
     /// units of two ulps of the next offset are allowed for any number of lift-offs. For a loss the unit is the
-    /// effect of half an ulp in the inputs; for α*_n half an ulp; for a trapping region a quarter of its stated
+    /// effect of half an ulp in the inputs; for α*_n half an ulp; for a trap a quarter of its stated
     /// bound; for a crisis two ulps
     #[arg(long, value_name = "K", default_value_t = UNITS_PER_FLIGHT, value_parser = limit, allow_hyphen_values = true)]
     limit: f64,
     /// Files with one JSON object a line, or one array of objects: hops, losses, hops near a fixed point,
-    /// fates, fixed points, trapping regions, crises. A file without any is an error
+    /// fates, fixed points, traps, crises. A file without any is an error
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 }
@@ -131,7 +131,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                     Ok(hop) => tally.judge(
                         *at,
                         &place,
-                        Verdict {
+                        Judgement {
                             found: (hop.sudden, hop.next),
                             exact: (*sudden, *next),
                             unit: next.map_or(0.0, |next| 2.0 * f64::EPSILON * next.abs())
@@ -169,8 +169,8 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                 }
             }
             Line::ImmediateBasin { n, mass_ratio, edge, delta } => {
-                let tally = tallies.entry("trapping regions".into()).or_default();
-                judge_reach(tally, *at, (*n, *mass_ratio), (*edge, *delta), limit);
+                let tally = tallies.entry("traps".into()).or_default();
+                judge_immediate_basin(tally, *at, (*n, *mass_ratio), (*edge, *delta), limit);
             }
             Line::Fate { mass_ratio, alpha, fate } => {
                 let tally = tallies.entry("fates".into()).or_default();
@@ -186,7 +186,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
 }
 
 /// The edge must be of the right kind, and Δ within its stated bound.
-fn judge_reach(
+fn judge_immediate_basin(
     tally: &mut Tally,
     at: usize,
     (n, mass_ratio): (u64, MassRatio),
@@ -236,12 +236,15 @@ fn judge_loss(tally: &mut Tally, at: usize, line: &Loss, limit: f64) {
     };
     let place = format!("M = {}, α = {alpha}", mass_ratio.value());
     // Loss ∝ μα⁵: half an ulp in α is five halves in the loss; M and the result add half an ulp each: 7/2 ulps.
-    let verdict =
-        Verdict { found: (0, found.loss), exact: (0, Some(loss)), unit: 3.5 * f64::EPSILON * loss };
-    tally.judge(at, &place, verdict, limit);
+    let judgement = Judgement {
+        found: (0, found.loss),
+        exact: (0, Some(loss)),
+        unit: 3.5 * f64::EPSILON * loss,
+    };
+    tally.judge(at, &place, judgement, limit);
 }
 
-fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
+fn judge_hop(tally: &mut Tally, at: usize, hop: &ReferenceHop, limit: f64) {
     tally.lines += 1;
     let found = match LiftOffMap::new(hop.mass_ratio).hop(hop.alpha) {
         Ok(found) if found.certain => found,
@@ -255,16 +258,16 @@ fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
         return tally.is_wrong(at, "another image among many at once");
     }
     let place = format!("M = {}, α = {}", hop.mass_ratio.value(), hop.alpha);
-    let verdict = Verdict {
+    let judgement = Judgement {
         found: (found.sudden, found.next),
         exact: (hop.sudden, hop.next),
         unit: hop.unit(),
     };
-    tally.judge(at, &place, verdict, limit);
+    tally.judge(at, &place, judgement, limit);
 }
 
 /// A result and the exact one, each with the number of sudden lift-offs and the next speed or offset.
-struct Verdict {
+struct Judgement {
     found: (usize, Option<f64>),
     exact: (usize, Option<f64>),
     unit: f64,
@@ -274,12 +277,12 @@ impl Tally {
     /// Judges a number that comes without a count of sudden lift-offs.
     fn value(&mut self, at: usize, place: &str, found: f64, exact: f64, unit: f64, limit: f64) {
         self.lines += 1;
-        let verdict = Verdict { found: (0, Some(found)), exact: (0, Some(exact)), unit };
-        self.judge(at, place, verdict, limit);
+        let judgement = Judgement { found: (0, Some(found)), exact: (0, Some(exact)), unit };
+        self.judge(at, place, judgement, limit);
     }
 
-    fn judge(&mut self, at: usize, place: &str, verdict: Verdict, limit: f64) {
-        let Verdict { found, exact, unit } = verdict;
+    fn judge(&mut self, at: usize, place: &str, judgement: Judgement, limit: f64) {
+        let Judgement { found, exact, unit } = judgement;
         if found.0 != exact.0 || found.1.is_some() != exact.1.is_some() {
             return self
                 .is_wrong(at, &format!("{exact:?} sudden and next expected, {found:?} found"));
@@ -314,8 +317,8 @@ mod tests {
     fn a_wrong_value_and_a_wrong_verdict_are_counted() {
         let good = r#"{"class": "c", "mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "35.997158341573688180303069833057"}"#;
         let off = good.replace("35.9971583415", "35.9971583416");
-        let verdict = good.replace("\"sudden\": 0", "\"sudden\": 1");
-        let lines: Vec<_> = [good, &off, &verdict]
+        let verdict_line = good.replace("\"sudden\": 0", "\"sudden\": 1");
+        let lines: Vec<_> = [good, &off, &verdict_line]
             .iter()
             .map(|text| line(&serde_json::from_str(text).unwrap()).unwrap())
             .enumerate()

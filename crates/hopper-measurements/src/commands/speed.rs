@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_figure_a_line() {
+    fn the_table_has_one_line_for_each_figure() {
         let figure = |name, value| Measured { name, value, unit: "ms", checked: "all".into() };
         let figures = [figure("first", 1.234), figure("second", 1.234e8)];
         let text = table(&figures);

@@ -3,7 +3,7 @@
 use super::peer::Peer;
 use super::python::Python;
 use crate::error::Error;
-use crate::reference::{Hop, window_hops};
+use crate::reference::{ReferenceHop, window_hops};
 use crate::work_precision::{Case, Method};
 use repository_tools::Progress;
 use std::path::Path;
@@ -35,7 +35,7 @@ pub(crate) fn measure(
 }
 
 /// The other programs' results, measured by a script in a process of its own.
-fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Error> {
+fn theirs(python: &Python, folder: &Path, hops: &[ReferenceHop]) -> Result<Vec<Found>, Error> {
     let (input, output) = (folder.join("hops.json"), folder.join("results.json"));
     let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
     let understood = |e: serde_json::Error| Error::Peers { reason: e.to_string() };
@@ -46,7 +46,7 @@ fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Er
 }
 
 /// The results of one of our methods.
-fn ours(method: Method, hops: &[Hop]) -> Found {
+fn ours(method: Method, hops: &[ReferenceHop]) -> Found {
     let cases: Vec<Case> = hops.iter().map(Case::of).collect();
     let next = |case: &Case| method.hop(case).and_then(|answer| answer.next);
     Found {
@@ -56,7 +56,7 @@ fn ours(method: Method, hops: &[Hop]) -> Found {
     }
 }
 
-fn peer(found: Found, ours: bool, hops: &[Hop]) -> Peer {
+fn peer(found: Found, ours: bool, hops: &[ReferenceHop]) -> Peer {
     let (mut errors, mut wrong) = (Vec::new(), 0);
     for (&next, hop) in found.next.iter().zip(hops) {
         match (next, hop.next) {
@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn our_ways_are_right() {
+    fn our_methods_give_the_reference_values() {
         let hops = window_hops().unwrap();
         for method in [Method::Stable, Method::AtOnce] {
             let peer = peer(ours(method, &hops), true, &hops);

@@ -1,7 +1,7 @@
 //! Hops of the paper's window, one by one and many in one call.
 
 use crate::error::Error;
-use crate::reference::{Hop, window_hops};
+use crate::reference::{ReferenceHop, window_hops};
 use crate::timing::median_seconds;
 use hopper_basin::first_humps;
 use hopper_reference::UNITS_PER_FLIGHT;
@@ -87,7 +87,7 @@ pub(super) fn check_landings() -> Result<String, Error> {
     Ok(format!("{count} landings of the reference's hops"))
 }
 
-fn wrong(hop: &Hop, found: &impl std::fmt::Debug) -> Error {
+fn wrong(hop: &ReferenceHop, found: &impl std::fmt::Debug) -> Error {
     let (m, alpha) = (hop.mass_ratio.value(), hop.alpha);
     Error::CheckFailed(format!("M = {m}, α = {alpha}: {found:?}"))
 }

@@ -3,7 +3,7 @@
 use super::{Measured, REPEATS, median};
 use crate::error::Error;
 use basin_of_attraction::{Grid, Interval, LabelImage};
-use hopper_basin::{Fates, HopperFate, basin_raster, first_humps};
+use hopper_basin::{FIG_9, Fates, HopperFate, basin_raster, first_humps};
 use passive_hopper::MassRatio;
 use rayon::prelude::*;
 use repository_tools::Bar;
@@ -17,7 +17,7 @@ const SIDE: usize = 1024;
 fn grid(figure: u8, side: usize) -> Result<Grid, Error> {
     let (x, y) = match figure {
         6 => ((0.1, 1.0), (first_humps(5).left, first_humps(5).right)),
-        _ => ((0.17, 0.18), (17.0, 17.8)),
+        _ => FIG_9,
     };
     let (x, y) = (Interval::new(x.0, x.1)?, Interval::new(y.0, y.1)?);
     Ok(Grid { x, y, columns: side, rows: side })

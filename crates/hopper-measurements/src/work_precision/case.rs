@@ -1,6 +1,6 @@
 //! A hop to be computed with its exact result, and the result of a method.
 
-use crate::reference::Hop;
+use crate::reference::ReferenceHop;
 use passive_hopper::{FixedPointSpeed, MassRatio, index_below};
 
 /// The quantity that is compared.
@@ -29,10 +29,10 @@ pub(crate) struct Case {
 
 impl Case {
     /// The case of a reference hop.
-    pub(crate) fn of(hop: &Hop) -> Self {
+    pub(crate) fn of(hop: &ReferenceHop) -> Self {
         let (mass_ratio, alpha) = (hop.mass_ratio, hop.alpha);
         let (sudden, exact) = (Some(hop.sudden), hop.next);
-        Case { mass_ratio, alpha, local: cell(alpha), sudden, exact }
+        Case { mass_ratio, alpha, local: fixed_point_of_pi_interval(alpha), sudden, exact }
     }
 }
 
@@ -50,7 +50,7 @@ pub(crate) struct Answer {
 
 /// The n of the interval (nπ, (n+1)π) that holds `alpha`, and the offset from α*_n, which lies in it; `None`
 /// below π.
-pub(super) fn cell(alpha: f64) -> Option<(u64, f64)> {
+pub(super) fn fixed_point_of_pi_interval(alpha: f64) -> Option<(u64, f64)> {
     let below = index_below(alpha).ok()?;
     let n = if alpha > (below + 1) as f64 * std::f64::consts::PI { below + 1 } else { below };
     (n > 0).then(|| (n, FixedPointSpeed::new(n).offset_of(alpha)))

@@ -63,7 +63,7 @@ fn case(line: Line) -> Option<(String, Quantity, Case)> {
             };
             Some(("tiny_alpha".into(), Quantity::Loss, case))
         }
-        _ => None, // lines about fates, fixed points and trapping regions
+        _ => None, // lines about fates, fixed points and traps
     }
 }
 

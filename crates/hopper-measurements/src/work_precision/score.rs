@@ -92,7 +92,7 @@ fn error(quantity: Quantity, case: &Case, answer: &Answer) -> Option<Option<f64>
 
 #[cfg(test)]
 mod tests {
-    use super::super::case::cell;
+    use super::super::case::fixed_point_of_pi_interval;
     use super::*;
     use passive_hopper::MassRatio;
 
@@ -102,7 +102,13 @@ mod tests {
         let alpha = 4.55;
         let mass_ratio = MassRatio::new(0.2).unwrap();
         let exact = passive_hopper::LiftOffMap::new(mass_ratio).image(alpha).unwrap();
-        let case = Case { mass_ratio, alpha, local: cell(alpha), sudden: Some(0), exact };
+        let case = Case {
+            mass_ratio,
+            alpha,
+            local: fixed_point_of_pi_interval(alpha),
+            sudden: Some(0),
+            exact,
+        };
         for &method in METHODS {
             let answer = method.hop(&case).unwrap_or_default();
             let error = error(Quantity::Speed, &case, &answer).flatten().unwrap();
@@ -115,7 +121,7 @@ mod tests {
         let case = Case {
             mass_ratio: MassRatio::ONE,
             alpha: 5.0,
-            local: cell(5.0),
+            local: fixed_point_of_pi_interval(5.0),
             sudden: Some(0),
             exact: Some(2.0),
         };

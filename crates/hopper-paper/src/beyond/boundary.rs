@@ -108,7 +108,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
         "size of a box $ε$",
         "−d ln $N$ / d ln $ε$",
     );
-    accumulation(&mut svg, &generations)?;
+    generations_against_law(&mut svg, &generations)?;
     Ok(Finding {
         figure: Figure {
             name: "beyond_boundary",
@@ -198,7 +198,7 @@ fn single(svg: &mut Svg, frame: &Frame, generations: &[f64]) -> Result<(), Error
 }
 
 /// The generations divided by their law, (3/(10λk))³.
-fn accumulation(svg: &mut Svg, generations: &[f64]) -> Result<(), Error> {
+fn generations_against_law(svg: &mut Svg, generations: &[f64]) -> Result<(), Error> {
     let lambda = Coefficients::new(N, MassRatio::new(M)?, Form::Corrected)?.lambda;
     let ratio = |k: usize| {
         let law = 3.0 / (LEFT_FACTOR * lambda * k as f64);
@@ -226,8 +226,9 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         let epsilon = pxfm::f_exp10(-2.0 - k as f64);
         // Uncertain starts are rarer at a smaller ε: more points keep their relative error.
         let count = 50_000 << k.min(4);
-        let share = uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
-        Ok(vec![epsilon, share.value, share.lower, share.upper])
+        let fraction =
+            uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
+        Ok(vec![epsilon, fraction.value, fraction.lower, fraction.upper])
     })?;
     let sampled: Vec<(f64, FractionWithBar)> =
         rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
@@ -235,9 +236,9 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
     let exact: Vec<(f64, f64)> = (0..=16)
         .map(|k| {
             let epsilon = pxfm::f_exp10(-10.0 + 0.5 * f64::from(k));
-            let share = basins.uncertain_fraction(epsilon, RESOLUTION)?;
-            widest = widest.max(share.half_width() / share.middle());
-            Ok((epsilon, share.middle()))
+            let fraction = basins.uncertain_fraction(epsilon, RESOLUTION)?;
+            widest = widest.max(fraction.half_width() / fraction.middle());
+            Ok((epsilon, fraction.middle()))
         })
         .collect::<Result<_, Error>>()?;
     let law = power_law(&exact)?;
@@ -248,14 +249,14 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
     frame.clipped(&mut svg, |svg| {
         frame.polyline(svg, &guide, Pen::dashed("#555", 1.0, "5 3"));
         frame.curve(svg, &exact, Pen::solid("#0072b2", 1.7));
-        for (epsilon, share) in &sampled {
-            let (low, high) = (share.lower.max(frame.y.0), share.upper);
+        for (epsilon, fraction) in &sampled {
+            let (low, high) = (fraction.lower.max(frame.y.0), fraction.upper);
             svg.line(
                 frame.at((*epsilon, low)),
                 frame.at((*epsilon, high)),
                 Pen::solid("#000", 1.0),
             );
-            svg.marker(frame.at((*epsilon, share.value)), Marker::Disc, 6.0, "#000000");
+            svg.marker(frame.at((*epsilon, fraction.value)), Marker::Disc, 6.0, "#000000");
         }
     });
     svg.text(frame.at((1e-7, 1.0)).0, frame.at((1.0, 9e-7)).1, Anchor::Start, 12.0, "slope 3/4");
@@ -274,7 +275,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         &decades(frame.x, 2),
         &decades(frame.y, 2),
         "error of the start $ε$",
-        "share of uncertain starts",
+        "fraction of uncertain starts",
     );
     let mut table = Table::new(&[
         "$ε$",
@@ -282,18 +283,18 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         "near the boundary (intervals)",
         "local exponent",
     ]);
-    for (k, (epsilon, share)) in exact.iter().enumerate().step_by(2) {
+    for (k, (epsilon, fraction)) in exact.iter().enumerate().step_by(2) {
         let pairs = sampled.iter().find(|(e, _)| (e / epsilon - 1.0).abs() < 1e-9);
         let slope = law.local.get(k).map_or("–".into(), |slope| format!("{slope:.3}"));
         table.row([
             format!("{epsilon:.0e}"),
             pairs
                 .map_or("–".into(), |(_, s)| format!("{:.2e} ± {:.0e}", s.value, s.half_width())),
-            format!("{share:.3e}"),
+            format!("{fraction:.3e}"),
             slope,
         ]);
     }
-    let data = exact.iter().map(|&(epsilon, share)| vec![Some(epsilon), Some(share)]);
+    let data = exact.iter().map(|&(epsilon, fraction)| vec![Some(epsilon), Some(fraction)]);
     Ok(Finding {
         figure: Figure {
             name: "beyond_uncertainty",
@@ -306,11 +307,11 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
                  3/4 and come back to it slowly, as the box counts approach 1/4 from below. A fit over the \
                  coarse scales alone would have been a mistake. Pairs change their fate less often than starts \
                  lie near the boundary, by half at $ε$ = 10^{{−2}} and by a quarter below 10^{{−5}}: thin pieces \
-                 between them go unseen. The shares from intervals are known to {:.0e} of themselves.",
+                 between them go unseen. The fractions from intervals are known to {:.0e} of themselves.",
                 widest
             ),
             svg,
-            data: vec![csv_file("uncertainty.csv", &["epsilon", "share"], data)?],
+            data: vec![csv_file("uncertainty.csv", &["epsilon", "fraction"], data)?],
         },
         table,
     })

@@ -17,7 +17,7 @@ const BOXES: usize = 500;
 const STARTS: usize = 100;
 
 /// M, basin entropy, boundary entropy, number of mixed boxes.
-type Row = (f64, f64, f64, f64);
+type EntropyRow = (f64, f64, f64, f64);
 
 /// The mean entropy over all boxes and over the mixed boxes, and the number of mixed boxes. A box is mixed if its
 /// starts have more than one fate.
@@ -46,7 +46,7 @@ pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
         let (whole, boundary, mixed) = entropies(ratios[k])?;
         Ok(vec![whole, boundary, mixed as f64])
     })?;
-    let rows: Vec<Row> =
+    let rows: Vec<EntropyRow> =
         ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[1], row[2])).collect();
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame::linear(62.0, 20.0, 550.0, 350.0, (0.02, 50.0), (0.0, 1.0)).log_x();
@@ -59,8 +59,8 @@ pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
         11.5,
         "ln 2",
     );
-    type Column = fn(&Row) -> f64;
-    let curves: [(Column, Pen, &str); 2] = [
+    type EntropyCurve = fn(&EntropyRow) -> f64;
+    let curves: [(EntropyCurve, Pen, &str); 2] = [
         (|row| row.1, Pen::solid("#0072b2", 1.8), "basin entropy"),
         (|row| row.2, Pen::dashed("#d55e00", 1.8, "7 3"), "boundary entropy (mixed boxes only)"),
     ];

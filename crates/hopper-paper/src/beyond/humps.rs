@@ -1,4 +1,4 @@
-//! The basins on each hump: their shares repeat from hump to hump.
+//! The basins on each hump: their fractions repeat from hump to hump.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{fates, hump, is_incessant};
@@ -15,10 +15,10 @@ const M: f64 = 0.2;
 /// The last hump. The number of intervals grows with the hump, and six humps show the pattern.
 const LAST: u64 = 6;
 
-/// A share of a hump, and the same with everything undecided added.
-type Share = (f64, f64);
+/// A fraction of a hump, and the same with everything undecided added.
+type FractionBounds = (f64, f64);
 
-/// The share of each hump that each fixed point below attracts.
+/// The fraction of each hump that each fixed point below attracts.
 pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     let refinement = Refinement { undecided: 2e-4, intervals: 4_000_000, ..Refinement::default() };
@@ -34,28 +34,29 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         "all",
         "undecided",
     ]);
-    let mut shares: Vec<Vec<Share>> = Vec::new();
+    let mut fractions: Vec<Vec<FractionBounds>> = Vec::new();
     for n in 1..=LAST {
         let part = basins.within(hump(n)?);
         let length = part.window().length();
         let undecided = part.undecided() / length;
         let row: Vec<f64> =
             (1..=n as u16).map(|label| part.resolved_length(label) / length).collect();
-        let cell =
-            |share: Option<&f64>| share.map_or("–".into(), |s| format!("{:.4} %", 100.0 * s));
+        let cell = |fraction: Option<&f64>| {
+            fraction.map_or("–".into(), |s| format!("{:.4} %", 100.0 * s))
+        };
         let all = part.resolved_length_of(is_incessant) / length;
         let mut cells = vec![format!("{n}"), cell(Some(&(fates.trap(n)?.delta / length)))];
         cells.extend((0..4).map(|k| cell(row.get(k))));
         cells.extend([cell(row.last()), cell(Some(&all)), cell(Some(&undecided))]);
         table.row(cells);
-        shares.push(row.into_iter().map(|share| (share, share + undecided)).collect());
+        fractions.push(row.into_iter().map(|fraction| (fraction, fraction + undecided)).collect());
     }
     let mut svg = Svg::new(560.0, 430.0);
     let frame =
         Frame::linear(70.0, 20.0, 440.0, 350.0, (0.8, LAST as f64 + 0.2), (1e-4, 0.1)).log_y();
     // Five curves: one for each colour. The sixth fixed point is in the data.
     for m in 1..=5u16 {
-        let at = |n: u64| shares[n as usize - 1][usize::from(m) - 1];
+        let at = |n: u64| fractions[n as usize - 1][usize::from(m) - 1];
         let points: Vec<_> = (u64::from(m)..=LAST).map(|n| (n as f64, at(n).0)).collect();
         let color = fate_colors::css(m);
         frame.polyline(&mut svg, &points, Pen::solid(color, 1.5));
@@ -70,10 +71,10 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         svg.text(120.0, y + 4.0, Anchor::Start, 11.5, &fate_colors::name(m));
     }
     let n_ticks: Vec<_> = (1..=LAST).map(|n| (n as f64, format!("{n}"))).collect();
-    frame.axes(&mut svg, &n_ticks, &decades(frame.y, 1), "hump $n$", "share of hump $n$");
-    let data = shares.iter().zip(1u64..).flat_map(|(row, n)| {
-        row.iter().zip(1u64..).map(move |(share, m)| {
-            vec![Some(n as f64), Some(m as f64), Some(share.0), Some(share.1)]
+    frame.axes(&mut svg, &n_ticks, &decades(frame.y, 1), "hump $n$", "fraction of hump $n$");
+    let data = fractions.iter().zip(1u64..).flat_map(|(row, n)| {
+        row.iter().zip(1u64..).map(move |(fraction, m)| {
+            vec![Some(n as f64), Some(m as f64), Some(fraction.0), Some(fraction.1)]
         })
     });
     Ok(Finding {
@@ -81,14 +82,14 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
             name: "beyond_humps",
             title: "Nested basins: every hump holds copies of the basins below, $M$ = 0.2".into(),
             paper: "The structure repeats and becomes finer upwards (Fig. 6); basins are nested.".into(),
-            notes: "Share of each hump ($α$^{∗}_{n}, $α$^{∗}_{n+1}) that goes to $α$^{∗}_{m}, by intervals; bars up to \
+            notes: "Fraction of each hump ($α$^{∗}_{n}, $α$^{∗}_{n+1}) that goes to $α$^{∗}_{m}, by intervals; bars up to \
                     what it would be with all that is undecided. From its second hump on the basin of one fixed \
-                    point takes a share of every hump above that changes slowly: they fall through the humps \
-                    below in similar ways. The share of a hump's own fixed point falls with its trap, like \
+                    point takes a fraction of every hump above that changes slowly: they fall through the humps \
+                    below in similar ways. The fraction of a hump's own fixed point falls with its trap, like \
                     $n$^{−3}."
                 .into(),
             svg,
-            data: vec![csv_file("humps.csv", &["hump", "fixed_point", "share_lower", "share_upper"], data)?],
+            data: vec![csv_file("humps.csv", &["hump", "fixed_point", "fraction_lower", "fraction_upper"], data)?],
         },
         table,
     })

@@ -1,4 +1,4 @@
-//! Starts on the humps of the paper's window, their fates, and shares as text.
+//! Starts on the humps of the paper's window, their fates, and fractions as text.
 
 use crate::error::Error;
 use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
@@ -66,15 +66,15 @@ pub(super) fn estimate(three: &[f64]) -> FractionWithBar {
     FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
 }
 
-/// A share with the half width of its interval, in per cent. Small intervals get two digits more.
-pub(super) fn percent(share: &FractionWithBar) -> String {
-    let digits = if share.half_width() > 5e-4 { 2 } else { 4 };
-    format!("{:.digits$} ± {:.digits$} %", 100.0 * share.value, 100.0 * share.half_width())
+/// A fraction with the half width of its interval, in per cent. Small intervals get two digits more.
+pub(super) fn percent(fraction: &FractionWithBar) -> String {
+    let digits = if fraction.half_width() > 5e-4 { 2 } else { 4 };
+    format!("{:.digits$} ± {:.digits$} %", 100.0 * fraction.value, 100.0 * fraction.half_width())
 }
 
-/// A share between bounds, in per cent.
-pub(super) fn bounds(share: &FractionWithBar) -> String {
-    format!("{:.5} … {:.5} %", 100.0 * share.lower, 100.0 * share.upper)
+/// A fraction between bounds, in per cent.
+pub(super) fn bounds(fraction: &FractionWithBar) -> String {
+    format!("{:.5} … {:.5} %", 100.0 * fraction.lower, 100.0 * fraction.upper)
 }
 
 /// `count` values from `first` to `last` in equal factors.

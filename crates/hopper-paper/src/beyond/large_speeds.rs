@@ -15,6 +15,9 @@ use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 const M: f64 = 0.2;
 /// Humps in equal factors. On hump 10 000 an orbit takes thousands of hops, and α has an ulp of 4e-12.
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
+/// Errors ε of the start: 10⁻¹ to 10⁻⁸, one for each decade. The last one is still 2500 ulps of α on hump 10 000. A
+/// smaller one would be compared with rounding, and takes as long as the others.
+const DECADES: usize = 8;
 /// Random starts on a hump. Orbits from high humps take thousands of hops, so that fewer are affordable.
 fn starts(n: u64) -> usize {
     if n > 100 { 2_000 } else { 20_000 }
@@ -24,16 +27,15 @@ fn starts(n: u64) -> usize {
 const LOOKS: [Marker; 5] =
     [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge];
 
-/// The share of uncertain starts against ε, hump by hump.
+/// The fraction of uncertain starts against ε, hump by hump.
 pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
-    const DECADES: usize = 8;
     let scan = job.scan("large speeds", HUMPS.len() * DECADES, |k| {
         let (n, decade) = (HUMPS[k / DECADES], k % DECADES + 1);
         let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };
         let epsilon = pxfm::f_exp10(-(decade as f64));
-        let share = uncertain_fraction(hump(n)?, epsilon, starts(n), n, at)?;
-        Ok(vec![epsilon, share.value, share.lower, share.upper])
+        let fraction = uncertain_fraction(hump(n)?, epsilon, starts(n), n, at)?;
+        Ok(vec![epsilon, fraction.value, fraction.lower, fraction.upper])
     })?;
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame::linear(70.0, 20.0, 440.0, 350.0, (1e-9, 1e-1), (1e-5, 1.0)).log_x().log_y();
@@ -58,12 +60,12 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         let color = fate_colors::css(k as u16 + 1);
         let seen: Vec<_> = points
             .iter()
-            .filter(|(_, share)| share.value > 0.0)
-            .map(|(epsilon, share)| (*epsilon, share.value))
+            .filter(|(_, fraction)| fraction.value > 0.0)
+            .map(|(epsilon, fraction)| (*epsilon, fraction.value))
             .collect();
         frame.clipped(&mut svg, |svg| frame.polyline(svg, &seen, Pen::solid(color, 1.2)));
-        for (epsilon, share) in &points {
-            let (low, high) = (share.lower.max(frame.y.0), share.upper.max(frame.y.0));
+        for (epsilon, fraction) in &points {
+            let (low, high) = (fraction.lower.max(frame.y.0), fraction.upper.max(frame.y.0));
             svg.line(frame.at((*epsilon, low)), frame.at((*epsilon, high)), Pen::solid(color, 0.8));
         }
         for &point in &seen {
@@ -75,13 +77,13 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         let incessant =
             random_fractions(window, starts(n), n, |x| u16::from(is_incessant(label(&fates, x))))?;
         let cell = |decade: usize| {
-            let share = points[decade - 1].1;
-            format!("{:.2} ± {:.2} %", 100.0 * share.value, 100.0 * share.half_width())
+            let fraction = points[decade - 1].1;
+            format!("{:.2} ± {:.2} %", 100.0 * fraction.value, 100.0 * fraction.half_width())
         };
         table.row([
             format!("{n}"),
             format!("{:.1}", window.left),
-            incessant.get(&1).map_or("0".into(), |&share| percent(&share.into())),
+            incessant.get(&1).map_or("0".into(), |&fraction| percent(&fraction.into())),
             cell(2),
             cell(4),
             cell(6),
@@ -93,7 +95,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         &decades(frame.x, 2),
         &decades(frame.y, 1),
         "error of the start $ε$",
-        "share of uncertain starts",
+        "fraction of uncertain starts",
     );
     Ok(Finding {
         figure: Figure {
@@ -110,7 +112,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
                     and the curves must fall where $ε$ is smaller than most of them."
                 .into(),
             svg,
-            data: vec![csv_file("large_speeds.csv", &["hump", "epsilon", "share", "lower", "upper"], data)?],
+            data: vec![csv_file("large_speeds.csv", &["hump", "epsilon", "fraction", "lower", "upper"], data)?],
         },
         table,
     })

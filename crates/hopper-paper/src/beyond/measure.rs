@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 const RATIOS: (f64, f64, usize) = (0.02, 50.0, 121);
 
 /// Largest mass ratio at which basins are computed as intervals. Up to it a hop has at most one sudden lift-off, so
-/// that its branches are known; beyond it shares are estimated from points.
+/// that its branches are known; beyond it fractions are estimated from points.
 const BY_INTERVALS: f64 = 0.905;
 /// Shortest interval whose preimages are computed. What is shorter widens the bounds of the measure.
 const SHORTEST: f64 = 1e-7;
@@ -33,13 +33,13 @@ const REPLICATES: usize = 16;
 const SEED: u64 = 2002;
 
 /// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000 or among the
-/// last four of `u16`: this one lies between and is no fate.
+/// last five of `u16`: this one lies between and is no fate.
 const ALL: u16 = HopperFate::UNDECIDED - 10;
 
 /// Labels in the order of the columns of the data.
 const LABELS: [u16; 8] = [1, 2, 3, 4, 5, ALL, 0, HopperFate::GROUNDED];
 
-type BasinFractions = BTreeMap<u16, FractionWithBar>;
+type FractionsWithBars = BTreeMap<u16, FractionWithBar>;
 
 /// The window as an interval in which each hump has length one.
 fn window() -> Result<Interval, Error> {
@@ -47,40 +47,40 @@ fn window() -> Result<Interval, Error> {
 }
 
 /// Basin fractions of all labels, and of all incessant fates together.
-fn basin_fractions(mass_ratio: f64) -> Result<BasinFractions, Error> {
+fn fractions_with_bars(mass_ratio: f64) -> Result<FractionsWithBars, Error> {
     let fates = fates(mass_ratio)?;
     if mass_ratio <= BY_INTERVALS {
-        return interval_shares(&fates, SHORTEST);
+        return fractions_by_intervals(&fates, SHORTEST);
     }
     let at = |place: f64| label(&fates, by_humps(place));
-    let mut shares = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, at)?;
+    let mut fractions = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, at)?;
     let together = |place: f64| if is_incessant(at(place)) { ALL } else { 0 };
     let all = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, together)?;
-    shares.extend(all.get(&ALL).map(|&share| (ALL, share)));
-    let mut shares: BasinFractions =
-        shares.into_iter().map(|(label, share)| (label, share.into())).collect();
-    // A label that no point has may still have a share: its interval is that of 0 hits.
+    fractions.extend(all.get(&ALL).map(|&fraction| (ALL, fraction)));
+    let mut fractions: FractionsWithBars =
+        fractions.into_iter().map(|(label, fraction)| (label, fraction.into())).collect();
+    // A label that no point has may still have a fraction: its interval is that of 0 hits.
     let unseen = wilson_interval(0, POINTS * REPLICATES)?;
     LABELS.into_iter().for_each(|label| {
-        shares.entry(label).or_insert(unseen.into());
+        fractions.entry(label).or_insert(unseen.into());
     });
-    Ok(shares)
+    Ok(fractions)
 }
 
-/// The same shares with bounds, from basins as intervals: means over the humps.
-fn interval_shares(fates: &Fates, shortest: f64) -> Result<BasinFractions, Error> {
+/// The same fractions with bounds, from basins as intervals: means over the humps.
+fn fractions_by_intervals(fates: &Fates, shortest: f64) -> Result<FractionsWithBars, Error> {
     let refinement = Refinement { shortest, ..Refinement::default() };
     let found = hopper_basins(fates, FROM, TO, 400, refinement)?.basins;
-    let mut shares = BasinFractions::new();
+    let mut fractions = FractionsWithBars::new();
     for n in FROM..TO {
         let part = found.within(hump(n)?);
         let scale = 1.0 / (part.window().length() * (TO - FROM) as f64);
         let mut add = |label: u16, resolved: f64, length: Bounds| {
             let none = FractionWithBar { value: 0.0, lower: 0.0, upper: 0.0 };
-            let share = shares.entry(label).or_insert(none);
-            share.value += scale * resolved;
-            share.lower += scale * length.lower;
-            share.upper += scale * length.upper;
+            let fraction = fractions.entry(label).or_insert(none);
+            fraction.value += scale * resolved;
+            fraction.lower += scale * length.lower;
+            fraction.upper += scale * length.upper;
         };
         for label in LABELS.into_iter().filter(|&label| label != ALL) {
             add(label, part.resolved_length(label), part.basin_length(label));
@@ -88,21 +88,22 @@ fn interval_shares(fates: &Fates, shortest: f64) -> Result<BasinFractions, Error
         let all = (part.resolved_length_of(is_incessant), part.basin_length_of(is_incessant));
         add(ALL, all.0, all.1);
     }
-    Ok(shares)
+    Ok(fractions)
 }
 
 /// Measures from M = 0.02 to 50.
 pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(RATIOS.0, RATIOS.1, RATIOS.2);
     let scan = job.scan("measures", ratios.len(), |k| {
-        let shares = basin_fractions(ratios[k])?;
+        let fractions = fractions_with_bars(ratios[k])?;
         let numbers =
-            |label: u16| shares.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
+            |label: u16| fractions.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
         Ok(LABELS.into_iter().flat_map(numbers).collect())
     })?;
-    let shares_of = |row: &Vec<f64>| LABELS.into_iter().zip(row.chunks(3).map(estimate)).collect();
-    let all: Vec<(f64, BasinFractions)> =
-        ratios.iter().zip(&scan).map(|(&m, row)| (m, shares_of(row))).collect();
+    let fractions_of =
+        |row: &Vec<f64>| LABELS.into_iter().zip(row.chunks(3).map(estimate)).collect();
+    let all: Vec<(f64, FractionsWithBars)> =
+        ratios.iter().zip(&scan).map(|(&m, row)| (m, fractions_of(row))).collect();
     let mut svg = Svg::new(700.0, 470.0);
     let frame =
         Frame::linear(70.0, 20.0, 600.0, 380.0, (RATIOS.0, RATIOS.1), (1e-5, 1.5)).log_x().log_y();
@@ -124,13 +125,13 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
         &ratio_ticks(),
         &decades(frame.y, 1),
         "mass ratio $M$ = $m$_{2}/$m$_{1}",
-        "share of the window",
+        "fraction of the window",
     );
     legend(&mut svg);
-    let rows = all.iter().map(|(m, shares)| {
+    let rows = all.iter().map(|(m, fractions)| {
         let cells = |label: u16| {
-            let share = shares.get(&label);
-            [share.map(|s| s.value), share.map(|s| s.lower), share.map(|s| s.upper)]
+            let fraction = fractions.get(&label);
+            [fraction.map(|s| s.value), fraction.map(|s| s.lower), fraction.map(|s| s.upper)]
         };
         std::iter::once(Some(*m)).chain(LABELS.into_iter().flat_map(cells)).collect()
     });
@@ -168,21 +169,21 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
 fn curve(
     svg: &mut Svg,
     frame: &Frame,
-    all: &[(f64, BasinFractions)],
+    all: &[(f64, FractionsWithBars)],
     label: u16,
     color: &'static str,
     width: f64,
 ) {
     let found: Vec<(f64, FractionWithBar)> = all
         .iter()
-        .filter_map(|(m, shares)| Some((*m, *shares.get(&label)?)))
-        .filter(|(_, share)| share.value > frame.y.0)
+        .filter_map(|(m, fractions)| Some((*m, *fractions.get(&label)?)))
+        .filter(|(_, fraction)| fraction.value > frame.y.0)
         .collect();
     frame.clipped(svg, |svg| {
-        let line: Vec<_> = found.iter().map(|(m, share)| (*m, share.value)).collect();
+        let line: Vec<_> = found.iter().map(|(m, fraction)| (*m, fraction.value)).collect();
         frame.polyline(svg, &line, Pen::solid(color, width));
-        for (m, share) in &found {
-            let ends = [share.lower.max(frame.y.0), share.upper].map(|y| frame.at((*m, y)));
+        for (m, fraction) in &found {
+            let ends = [fraction.lower.max(frame.y.0), fraction.upper].map(|y| frame.at((*m, y)));
             svg.line(ends[0], ends[1], Pen::solid(color, 0.8));
         }
     });
@@ -217,28 +218,28 @@ fn three_ways() -> Result<Table, Error> {
         "random, 50 000",
         "low discrepancy, 16 × 3125",
     ]);
-    fn share_of<F: Copy + Into<FractionWithBar>>(shares: &BTreeMap<u16, F>) -> String {
-        shares.get(&ALL).map_or("0".into(), |&share| percent(&share.into()))
+    fn percent_of_all<F: Copy + Into<FractionWithBar>>(fractions: &BTreeMap<u16, F>) -> String {
+        fractions.get(&ALL).map_or("0".into(), |&fraction| percent(&fraction.into()))
     }
     for m in [0.1, 0.15, 0.2, 0.3, 0.5, 0.8] {
         let fates = fates(m)?;
         let together = |place: f64| {
             if is_incessant(label(&fates, by_humps(place))) { ALL } else { 0 }
         };
-        let certain = interval_shares(&fates, 1e-7)?;
+        let certain = fractions_by_intervals(&fates, 1e-7)?;
         table.row([
             format!("{m}"),
             certain.get(&ALL).map_or("0".into(), bounds),
-            share_of(&equally_spaced_fractions(window()?, 50_000, together)?),
-            share_of(&random_fractions(window()?, 50_000, SEED, together)?),
-            share_of(&low_discrepancy_fractions(window()?, 3125, 16, SEED, together)?),
+            percent_of_all(&equally_spaced_fractions(window()?, 50_000, together)?),
+            percent_of_all(&random_fractions(window()?, 50_000, SEED, together)?),
+            percent_of_all(&low_discrepancy_fractions(window()?, 3125, 16, SEED, together)?),
         ]);
     }
     Ok(table)
 }
 
-/// M, the share of incessant starts at M and at 1/M, and the share of starts whose fates differ.
-type Row = (f64, f64, f64, f64);
+/// M, the fraction of incessant starts at M and at 1/M, and the fraction of starts whose fates differ.
+type AsymmetryRow = (f64, f64, f64, f64);
 
 /// The basins at M against those at 1/M.
 pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
@@ -254,21 +255,25 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         };
         let counts = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, compare)?;
         let sum = |bit: u16| -> f64 {
-            counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.value).sum()
+            counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, fraction)| fraction.value).sum()
         };
         // Several counted kinds have the bit: the sum of their half widths bounds the half width of the sum.
         let width = |bit: u16| -> f64 {
-            counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.half_width()).sum()
+            counts
+                .iter()
+                .filter(|(k, _)| *k & bit != 0)
+                .map(|(_, fraction)| fraction.half_width())
+                .sum()
         };
         Ok([1, 2, 4].into_iter().flat_map(|bit| [sum(bit) + 0.0, width(bit) + 0.0]).collect())
     })?;
-    let rows: Vec<Row> =
+    let rows: Vec<AsymmetryRow> =
         ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[2], row[4])).collect();
     let mut svg = Svg::new(640.0, 430.0);
     let frame =
         Frame::linear(70.0, 20.0, 540.0, 350.0, (RATIOS.0, 1.0), (1e-3, 1.5)).log_x().log_y();
-    type Column = fn(&Row) -> f64;
-    let curves: [(Column, Pen, &str); 3] = [
+    type AsymmetryCurve = fn(&AsymmetryRow) -> f64;
+    let curves: [(AsymmetryCurve, Pen, &str); 3] = [
         (|row| row.1, Pen::solid("#0072b2", 1.8), "incessant at $M$"),
         (|row| row.2, Pen::dashed("#d55e00", 1.8, "7 3"), "incessant at 1/$M$"),
         (|row| row.3, Pen::dashed("#444444", 1.4, "1.6 2.6"), "fate at $M$ and at 1/$M$ differ"),
@@ -286,7 +291,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         &ticks,
         &decades(frame.y, 1),
         "$M$, or its inverse",
-        "share of the window",
+        "fraction of the window",
     );
     let mut table = Table::new(&["$M$", "incessant at $M$", "at 1/$M$", "fates differ"]);
     for (m, row) in ratios.iter().zip(&scan).step_by(6) {

@@ -1,4 +1,4 @@
-//! Needles at large M: the edge of a trapping region depends on the spacing of the scan.
+//! Needles at large M: the edge of an immediate basin depends on the spacing of the scan.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::fates;
@@ -19,11 +19,11 @@ const RATIOS: [f64; 7] = [10.0, 11.0, 12.0, 14.0, 16.0, 20.0, 30.0];
 /// Marker of each hump.
 const LOOKS: [Marker; 3] = [Marker::Disc, Marker::Square, Marker::Triangle];
 
-/// The right end of the trapping region of α*₁, and the mass ratios from which three humps hold no fall, for each
+/// The length of the immediate basin of α*₁, and the mass ratios from which three humps hold no fall, for each
 /// spacing.
 pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
     let humps = 3;
-    let recoveries = job.scan("recoveries", humps * WIDTHS.len(), |k| {
+    let brackets = job.scan("crisis brackets", humps * WIDTHS.len(), |k| {
         let (below, above) =
             upper_crisis_bracket((k / WIDTHS.len()) as u64 + 1, WIDTHS[k % WIDTHS.len()], LARGEST)?;
         Ok(vec![below, above])
@@ -59,7 +59,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
         );
         let mut points = Vec::new();
         for (k, width) in WIDTHS.into_iter().enumerate() {
-            let found = &recoveries[(n as usize - 1) * WIDTHS.len() + k];
+            let found = &brackets[(n as usize - 1) * WIDTHS.len() + k];
             let (below, above) = (found[0], found[1]);
             points.push((width, 0.5 * (below + above)));
             data.push(vec![Some(n as f64), Some(width), Some(below), Some(above)]);

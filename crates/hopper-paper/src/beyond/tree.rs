@@ -13,8 +13,10 @@ use passive_hopper::alpha_star;
 /// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
 
-/// Levels that are drawn, and levels whose intervals are all kept: their number grows too fast for more.
+/// Last level that is drawn. Level 19 has a length of 3·10⁻⁸ and no interval over [`SHORTEST`]: later levels would be
+/// below the axis.
 const DRAWN: usize = 20;
+/// Levels whose intervals are all kept, long or short. Their number grows too fast for more.
 const GROWN: usize = 10;
 /// Shortest interval that is followed on the drawn levels; what is shorter is missing from their lengths.
 const SHORTEST: f64 = 1e-8;

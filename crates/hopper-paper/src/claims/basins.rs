@@ -3,36 +3,38 @@
 use super::claim::Claim;
 use crate::error::Error;
 use basin_of_attraction::monotone_branches;
-use hopper_basin::{BasinFractions, Fates, basin_fractions, branches, crisis, first_humps};
+use hopper_basin::{
+    BasinFractions, FIG_8, FIG_9, Fates, basin_fractions, branches, crisis, first_humps,
+};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 
 pub(super) fn check(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let mut claims = vec![multimodal()?, above_first()?, falls_through()?];
     claims.extend(measures(progress)?);
-    claims.push(finer_scales()?);
+    claims.push(changes_of_fate_at_finer_scales()?);
     Ok(claims)
 }
 
 fn multimodal() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.2)?)?;
-    let mut turns = Vec::new();
+    let mut turning_points = Vec::new();
     for n in 1..=5 {
         let hump = branches(&fates, n, n + 1, 2001)?;
-        turns.push(
+        turning_points.push(
             hump.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count(),
         );
     }
     // An independent check: the whole window is sampled, without any theory of the humps.
     let blind = monotone_branches(&fates, first_humps(5), 40_001)?;
-    let blind_turns =
+    let blind_turning_points =
         blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
     Ok(Claim::new("Secs. I, III, Fig. 2", "multimodality")
         .paper("the map has many humps, one between any two neighbouring fixed points")
-        .ours(format!("at $M$ = 0.2 each of the first five humps has one maximum and one minimum; {blind_turns} turning points in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}]"))
+        .ours(format!("at $M$ = 0.2 each of the first five humps has one maximum and one minimum; {blind_turning_points} turning points in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}]"))
         .error("–")
         .how("critical points 4$μ$ sin $h$ (sin $h$ − $h$ cos $h$) = 1 on the contact parts, and a search at 40 001 points that knows nothing of them")
-        .holds(turns.iter().all(|&t| t == 2) && blind_turns == 10))
+        .holds(turning_points.iter().all(|&t| t == 2) && blind_turning_points == 10))
 }
 
 /// The lowest value of the map on [α*₁, α*₆], and the lowest value without the first branch, whose left end is α*₁
@@ -47,6 +49,9 @@ fn lowest(mass_ratio: f64) -> Result<(f64, f64), Error> {
     Ok((least(0), least(1)))
 }
 
+/// Allowance below α*_1 for the lowest value of the map, which is α*_1 itself: one ulp of it, 8.9·10⁻¹⁶.
+const BELOW_FIRST: f64 = 1e-15;
+
 fn above_first() -> Result<Claim, Error> {
     let star = alpha_star(1);
     let (light, heavy) = (lowest(0.05)?, lowest(0.1)?);
@@ -55,16 +60,22 @@ fn above_first() -> Result<Claim, Error> {
         .ours(format!("on [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}] the map is at least $α$^{{∗}}_{{1}} + {:.4} at $M$ = 0.05 and + {:.4} at $M$ = 0.1, but for the fixed point itself", light.1 - star, heavy.1 - star))
         .error("–")
         .how("least value over the ends of all monotone branches")
-        .holds([light.0, heavy.0].iter().all(|&v| v >= star - 1e-15)))
+        .holds([light.0, heavy.0].iter().all(|&v| v >= star - BELOW_FIRST)))
 }
 
 /// M_c(1), computed with mpmath to 34 digits, without this code.
 const CRISIS: f64 = 0.103_457_755_336_137_07;
 
+/// Largest relative error of M_c(1): one unit of the last of the 14 decimals in the claim, 10⁻¹⁴, relative to 0.1.
+const CRISIS_ERROR: f64 = 1e-13;
+/// Relative distance from M_c(1) of the mass ratios on either side. The lowest value of the map differs from α*_1 there
+/// by 6·10⁻⁷, far more than its rounding.
+const BESIDE_CRISIS: f64 = 1e-6;
+
 fn falls_through() -> Result<Claim, Error> {
     let found = crisis(1)?;
-    let step = 1e-6;
-    let around = [found.mass_ratio * (1.0 - step), found.mass_ratio * (1.0 + step)];
+    let around =
+        [found.mass_ratio * (1.0 - BESIDE_CRISIS), found.mass_ratio * (1.0 + BESIDE_CRISIS)];
     let mut signs = Vec::new();
     for m in around {
         let image = LiftOffMap::new(MassRatio::new(m)?).image(found.alpha)?;
@@ -75,8 +86,13 @@ fn falls_through() -> Result<Claim, Error> {
         .ours(format!("hump 1 touches $α$^{{∗}}_{{1}} at $M$_{{c}} = {:.14} (and 1/$M$_{{c}}), at $α$ = {:.9}", found.mass_ratio, found.alpha))
         .error(format!("{:.1e} from the 34-digit value, which was computed without this code", (found.mass_ratio / CRISIS - 1.0).abs()))
         .how("$Γ$^{2} = 4$W$($A$^{2} − $α$^{∗2}), one root; the map at that $α$ is above for $M$_{c}(1 − 10^{−6}) and below for $M$_{c}(1 + 10^{−6})")
-        .holds(signs == [true, false] && (found.mass_ratio / CRISIS - 1.0).abs() < 1e-13 && found.mass_ratio > 0.1 && found.mass_ratio < 0.2))
+        .holds(signs == [true, false] && (found.mass_ratio / CRISIS - 1.0).abs() < CRISIS_ERROR && found.mass_ratio > 0.1 && found.mass_ratio < 0.2))
 }
+
+/// The paper prints its measures with three decimals: half a unit of the last one.
+const THIRD_DECIMAL: f64 = 0.0005;
+/// The measure 1 means that every point is attracted. A mean of fractions that are all 1 has no rounding.
+const EXACTLY: f64 = 0.0;
 
 fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
     const POINTS: usize = 10_000;
@@ -91,20 +107,20 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let total: Vec<f64> = results.iter().map(BasinFractions::incessant).collect();
     let first = results[0].of(1);
     let how = "10 000 equally spaced points, the middles of equal parts, on each of the five intervals [$α$^{∗}_{i}, $α$^{∗}_{i+1}], fractions averaged; fates by traps. (The paper does not say whether it takes the ends: the double nearest to $α$^{∗}_{i} may lie on its left, which is another basin.)";
-    let claim = |name: &str, paper: &str, value: f64, printed: f64, digit: f64| {
+    let claim = |name: &str, paper: &str, value: f64, printed: f64, allowed: f64| {
         Claim::new("Sec. VI B", name)
             .paper(paper)
             .ours(format!("{value:.5}"))
             .error(format!("{:+.1e}", value - printed))
             .how(how)
-            .holds((value - printed).abs() <= digit)
+            .holds((value - printed).abs() <= allowed)
     };
     let table: Vec<String> =
         ratios.iter().zip(&total).map(|(m, t)| format!("{t:.4} at {m}")).collect();
     Ok(vec![
-        claim("measure at M = 0.1, all basins", "1", total[0], 1.0, 0.0),
-        claim("measure at M = 0.1, first basin", "0.953", first, 0.953, 0.0005),
-        claim("measure at M = 0.2, all basins", "0.037 (one digit is lost in our copy)", total[1], 0.037, 0.0005),
+        claim("measure at M = 0.1, all basins", "1", total[0], 1.0, EXACTLY),
+        claim("measure at M = 0.1, first basin", "0.953", first, 0.953, THIRD_DECIMAL),
+        claim("measure at M = 0.2, all basins", "0.037 (one digit is illegible in our copy)", total[1], 0.037, THIRD_DECIMAL),
         Claim::new("Sec. VI B", "fall and recovery of the measure")
             .paper("the measure decreases rapidly as $M$ increases, then increases again for very large $M$")
             .ours(table.join(", "))
@@ -114,15 +130,14 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
     ])
 }
 
+/// Fewest changes of fate in a window that shows structure. Chosen: a plot shows 20 stripes as structure, and the four
+/// windows have 171 to 902.
+const FEWEST_CHANGES: usize = 20;
+
 /// Changes of fate along α at M = 0.175, in the windows of Figs. 6, 8 and 9.
-fn finer_scales() -> Result<Claim, Error> {
+fn changes_of_fate_at_finer_scales() -> Result<Claim, Error> {
     let fates = Fates::new(MassRatio::new(0.175)?)?;
-    let windows = [
-        (first_humps(5).left, first_humps(5).right),
-        (14.066, 20.371),
-        (17.0, 17.8),
-        (17.25, 17.33),
-    ];
+    let windows = [(first_humps(5).left, first_humps(5).right), FIG_8.1, FIG_9.1, (17.25, 17.33)];
     let mut changes = Vec::new();
     for (left, right) in windows {
         let labels: Result<Vec<u16>, _> = (0..10_000)
@@ -138,5 +153,5 @@ fn finer_scales() -> Result<Claim, Error> {
         .ours(format!("{} changes of fate along $M$ = 0.175 in the windows of Figs. 6, 8 and 9 and in [17.25, 17.33]", counts.join(", ")))
         .error("–")
         .how("10 000 equally spaced points a window; down to the scales one can plot it looks so, though the boundary is countable (see the construction)")
-        .holds(changes.iter().all(|&count| count >= 20)))
+        .holds(changes.iter().all(|&count| count >= FEWEST_CHANGES)))
 }

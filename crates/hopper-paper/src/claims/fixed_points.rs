@@ -14,6 +14,35 @@ const RATIOS: [f64; 7] = [0.02, 0.1, 0.5, 1.0, 2.0, 10.0, 50.0];
 /// Indices n of the checked fixed points.
 const INDICES: [u64; 4] = [1, 2, 3, 10];
 
+/// Largest relative error of f(α*) = α*. The exact loss at the double nearest to α*_n, n ≤ 30, is under a hundredth of
+/// an ulp. The roundings of α², of α′² and of its root add up to at most ε = `f64::EPSILON` of α′; the bound is twice
+/// that.
+const FIXED: f64 = 2.0 * f64::EPSILON;
+/// Largest distance between α*_n and the fixed point found from the map alone. Where λ|δ|^{4/3} is under an ulp of α,
+/// at |δ| of some 10⁻¹², f − α is only rounding, and the search cannot see more. The bound has a factor of 30 of room.
+const FOUND: f64 = 1e-10;
+
+/// The largest distance at which stability is probed, as a part of λ⁻³, the leading order of Δ. Beyond the end of the
+/// trap images lie on the other side of α*_n; the exact Δ is at least 0.75 λ⁻³ wherever this part is used.
+const PART_OF_TRAP: f64 = 0.3;
+/// The largest distance at which stability is probed, where 0.3 λ⁻³ is larger. Nearer than this the leading power
+/// decides.
+const FARTHEST: f64 = 1e-3;
+
+/// The largest of the four distances δ, δ/2, δ/4, δ/8 of the exponent. The last two give it. Nearer distances would
+/// have a smaller remainder, and a loss with a larger relative error from the rounding of α.
+const EXPONENT_DISTANCE: f64 = 1e-7;
+/// Largest error of the exponent 4/3. The loss is c|δ|^{4/3} (1 + ℓ₅|δ|^{1/3} + …) with ℓ₅ = β/α* ≤ 0.5: at the two
+/// distances used, |δ|^{1/3} ≤ 0.003, and the second term shifts the exponent by ℓ₅|δ|^{1/3}/3 ≤ 5·10⁻⁴. The bound is
+/// four times that.
+const EXPONENT: f64 = 2e-3;
+/// Largest relative error of the factor 10. The extrapolation leaves a term of order |δ| = 10⁻⁶; the bound leaves room
+/// for its coefficient, and still tells 10 from 9.9 and 10.1.
+const FACTOR: f64 = 1e-3;
+/// The largest of the three distances δ, δ/8, δ/64 from which the factor of |δ|^{4/3} is extrapolated. The smallest,
+/// 1.6·10⁻⁸, is 10⁶ ulps of α*_10 and more, so that the rounding of α shifts the factor by less than 10⁻⁶.
+const FACTOR_DISTANCE: f64 = 1e-6;
+
 pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
     Ok(vec![printed_digits(), all_are_fixed()?, found_from_the_map()?, stability()?, exponents()?])
 }
@@ -55,7 +84,7 @@ fn all_are_fixed() -> Result<Claim, Error> {
         .ours("$f$($α$^{∗}_{n}) = $α$^{∗}_{n} for $n$ ≤ 30 and seven mass ratios from 0.02 to 50")
         .error(format!("{worst:.1e} relative"))
         .how("the map at the double nearest to $α$^{∗}_{n}; bound: two ulps")
-        .holds(worst <= 2.0 * f64::EPSILON))
+        .holds(worst <= FIXED))
 }
 
 fn found_from_the_map() -> Result<Claim, Error> {
@@ -70,7 +99,7 @@ fn found_from_the_map() -> Result<Claim, Error> {
         .ours(format!("{} fixed points on [$α$^{{∗}}_{{1}} − 1, $α$^{{∗}}_{{5}} + 1] at $M$ = 0.2, all touching", found.len()))
         .error(format!("largest distance from $α$^{{∗}}_{{n}}: {worst:.1e}"))
         .how("searched from the map alone, at 4001 points and by golden section; $f$ − $α$ falls like the 4/3 power, so that rounding hides 10^{−11}")
-        .holds(found.len() == 5 && touching && worst < 1e-10))
+        .holds(found.len() == 5 && touching && worst < FOUND))
 }
 
 /// The map near α*_n as a map of the distance |δ|, from the loss, which has digits of its own.
@@ -104,7 +133,7 @@ fn stability() -> Result<Claim, Error> {
         for n in INDICES {
             let ratio = MassRatio::new(m)?;
             let local = Coefficients::new(n, ratio, Form::Corrected)?;
-            let largest = (0.3 * local.trap_length()).min(1e-3);
+            let largest = (PART_OF_TRAP * local.trap_length()).min(FARTHEST);
             let right = probe(n, ratio, Side::Right, largest, 20);
             let left = probe(n, ratio, Side::Left, largest, 20);
             wrong += usize::from(right.stability != Stability::Attracting);
@@ -127,7 +156,7 @@ pub(super) fn coefficient(n: u64, ratio: MassRatio, side: Side) -> f64 {
     };
     // (δ − δ′)/|δ|^{4/3} = c (1 + a δ^{1/3} + b δ^{2/3} + …). At δ, δ/8 and δ/64 the factors of a are 1, ½, ¼ and those
     // of b are 1, ¼, 1/16: with the weights 1, −6, 8 both vanish, and the weights add up to 3.
-    (at(1e-6) - 6.0 * at(1e-6 / 8.0) + 8.0 * at(1e-6 / 64.0)) / 3.0
+    (at(FACTOR_DISTANCE) - 6.0 * at(FACTOR_DISTANCE / 8.0) + 8.0 * at(FACTOR_DISTANCE / 64.0)) / 3.0
 }
 
 fn exponents() -> Result<Claim, Error> {
@@ -136,7 +165,7 @@ fn exponents() -> Result<Claim, Error> {
         for n in INDICES {
             let ratio = MassRatio::new(m)?;
             for side in [Side::Right, Side::Left] {
-                let law = probe(n, ratio, side, 1e-7, 4).power_law();
+                let law = probe(n, ratio, side, EXPONENT_DISTANCE, 4).power_law();
                 exponents.push(law.map_or(f64::NAN, |(exponent, _)| (exponent - 4.0 / 3.0).abs()));
             }
             let [right, left] = [Side::Right, Side::Left].map(|side| coefficient(n, ratio, side));
@@ -149,5 +178,5 @@ fn exponents() -> Result<Claim, Error> {
         .ours("4/3 on both sides; the left loses 10 times as much: its second landing is three times as fast, 1 + 3^{2} = 10")
         .error(format!("exponent {exponent:.1e}; factor 10 (1 ± {factor:.1e})"))
         .how("exponents from the map at |$δ$| = 2.5·10^{−8} and 1.25·10^{−8}; the factor from ($δ$ − $δ$′)/|$δ$|^{4/3} at 10^{−6}, /8 and /64 on each side, extrapolated in |$δ$|^{1/3}; $n$ = 1, 2, 3, 10, seven mass ratios")
-        .holds(exponent < 2e-3 && factor < 1e-3))
+        .holds(exponent < EXPONENT && factor < FACTOR))
 }

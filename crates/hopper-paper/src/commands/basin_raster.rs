@@ -4,7 +4,7 @@
 //! the tiles, compared with them, and only then are the tiles removed.
 
 use crate::error::Error;
-use crate::figures::basin_plot::{Window, draw_basins};
+use crate::figures::basin_plot::{PIXELS, Window, draw_basins};
 use basin_of_attraction::{Grid, Interval, LabelImage};
 use hopper_basin::{HopperFate, basin_columns, first_humps};
 use journal_figures::render;
@@ -42,9 +42,10 @@ const TILE: usize = 16;
 /// are in use while it is computed.
 const MOST_ALONG: usize = 1 << 20;
 
-/// The largest number of pixels of the picture along each axis. The picture of a larger raster shows some of its
-/// columns and rows only; the array has them all.
-const PICTURE: usize = 1200;
+/// The largest number of pixels of the picture along each axis: as many as the paper's basin figures have, since both
+/// are drawn in the same frame. The picture of a larger raster shows some of its columns and rows only; the array has
+/// them all.
+const PICTURE: usize = PIXELS;
 
 /// The names of the results.
 const ARRAY: &str = "basin.npy";

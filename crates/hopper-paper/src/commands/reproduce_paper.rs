@@ -32,16 +32,16 @@ pub struct Options {
 }
 
 /// The figures of the README, each with its file format.
-const COMMITTED: &[(&str, Form)] = &[
-    ("fig_02_map", Form::Svg),
-    ("fig_03_segments", Form::Svg),
-    ("fig_06_basin", Form::Png),
-    ("invariance", Form::Svg),
-    ("printed_against_stable", Form::Svg),
+const COMMITTED: &[(&str, FileFormat)] = &[
+    ("fig_02_map", FileFormat::Svg),
+    ("fig_03_segments", FileFormat::Svg),
+    ("fig_06_basin", FileFormat::Png),
+    ("invariance", FileFormat::Svg),
+    ("printed_against_stable", FileFormat::Svg),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
+enum FileFormat {
     Svg,
     Png,
 }
@@ -110,12 +110,13 @@ fn digests(made: &[(Figure, Rendered)]) -> BTreeMap<String, String> {
 
 /// The committed files of a figure: name and contents.
 fn committed<'a>(figure: &Figure, rendered: &'a Rendered) -> Vec<(String, &'a [u8])> {
-    let forms = COMMITTED.iter().filter(|(name, _)| *name == figure.name).map(|(_, form)| form);
-    let file = |form: &Form| match form {
-        Form::Svg => (format!("{}.svg", figure.name), rendered.svg.as_bytes()),
-        Form::Png => (format!("{}.png", figure.name), rendered.png.as_slice()),
+    let formats =
+        COMMITTED.iter().filter(|(name, _)| *name == figure.name).map(|(_, format)| format);
+    let file = |format: &FileFormat| match format {
+        FileFormat::Svg => (format!("{}.svg", figure.name), rendered.svg.as_bytes()),
+        FileFormat::Png => (format!("{}.png", figure.name), rendered.png.as_slice()),
     };
-    forms.map(file).collect()
+    formats.map(file).collect()
 }
 
 fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
@@ -132,14 +133,14 @@ fn bless(made: &[(Figure, Rendered)]) -> Result<(), Error> {
 }
 
 /// The files that were compared with docs/figures.
-struct Comparison {
+struct FileComparison {
     compared: usize,
     differing: Vec<String>,
 }
 
 /// Compares the digests of the data with the committed digests, and the figures of the README with the figures drawn
 /// now. If `all` figures are made, a committed digest without data counts as a difference.
-fn compare(made: &[(Figure, Rendered)], all: bool) -> Result<Comparison, Error> {
+fn compare(made: &[(Figure, Rendered)], all: bool) -> Result<FileComparison, Error> {
     let folder = repository().join("docs/figures");
     let path = folder.join(DIGESTS);
     let known: BTreeMap<String, String> = serde_json::from_str(&read(&path)?)
@@ -157,5 +158,5 @@ fn compare(made: &[(Figure, Rendered)], all: bool) -> Result<Comparison, Error> 
             }
         }
     }
-    Ok(Comparison { compared, differing })
+    Ok(FileComparison { compared, differing })
 }

@@ -23,7 +23,7 @@ pub(crate) struct Window {
 }
 
 /// Pixels across and up: 2.4 for each point of the frame, about what a print resolves.
-pub(super) const PIXELS: usize = 1200;
+pub(crate) const PIXELS: usize = 1200;
 
 /// Computes and draws a window.
 pub(super) fn basin_figure(
@@ -108,15 +108,15 @@ fn legend(svg: &mut Svg, left: f64, image: &LabelImage) {
     }
 }
 
-/// The share of every label, in words.
+/// The fraction of every label, in words.
 fn basin_fractions(image: &LabelImage) -> String {
     let pixels = image.labels.len() as f64;
-    let share = |(label, count): (u16, usize)| {
+    let fraction = |(label, count): (u16, usize)| {
         format!("{} {:.2} %", fate_colors::name(label), 100.0 * count as f64 / pixels)
     };
     format!(
         "Basin fractions: {}.",
-        image.counts().into_iter().map(share).collect::<Vec<_>>().join(", ")
+        image.counts().into_iter().map(fraction).collect::<Vec<_>>().join(", ")
     )
 }
 

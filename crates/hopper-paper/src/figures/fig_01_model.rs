@@ -77,13 +77,13 @@ fn block(svg: &mut Svg, x: f64, bottom: f64, label: &str) {
 }
 
 fn spring(svg: &mut Svg, x: f64, bottom: f64, top: f64) {
-    let turns = 12;
-    let step = (bottom - top) / (turns as f64 + 2.0);
-    let coils = (0..turns).map(|k| {
+    let coils = 12;
+    let step = (bottom - top) / (coils as f64 + 2.0);
+    let zigzag = (0..coils).map(|k| {
         let side = if k % 2 == 0 { 9.0 } else { -9.0 };
         (x + side, bottom - step * (k as f64 + 1.5))
     });
-    let points = [(x, bottom), (x, bottom - step)].into_iter().chain(coils);
+    let points = [(x, bottom), (x, bottom - step)].into_iter().chain(zigzag);
     let points = points.chain([(x, top + step), (x, top)]);
     svg.path(Path::polyline(points), SPRING);
 }

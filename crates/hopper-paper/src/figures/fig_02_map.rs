@@ -8,7 +8,7 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 use std::f64::consts::PI;
 
-/// Mass ratios with their pens. The paper's mass ratios are lost; these show the range of shapes.
+/// Mass ratios with their pens. The paper's mass ratios are illegible in our copy; these show the range of shapes.
 const CURVES: [(f64, Pen); 4] = [
     (0.05, Pen::solid("#8a8a8a", 1.5)),
     (0.1, Pen::dashed("#009e73", 1.7, "6 2.5")),
@@ -74,7 +74,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 the fifth of them."
                 .into(),
         notes: format!(
-            "The mass ratios of the paper's curves are lost; chosen: $M$ = 0.05, 0.1, 0.2 and 1, \
+            "The mass ratios of the paper's curves are illegible in our copy; chosen: $M$ = 0.05, 0.1, 0.2 and 1, \
              up to $α$^{{∗}}_{{5}} = {top:.3}. At $M$ = 1 gaps open in which the hopper is grounded; \
              between $nπ$ and $α$^{{∗}}_{{n}} the first landing is sudden."
         ),

@@ -10,14 +10,14 @@ use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase, alpha_st
 use repository_tools::Progress;
 use std::f64::consts::PI;
 
-/// The paper's mass ratio is lost; at this one all four segments exist.
+/// The paper's mass ratio is illegible in our copy; at this one all four segments exist.
 const M: f64 = 0.8;
 const UPPER: Pen = Pen::solid("#10386e", 1.2);
 const LOWER: Pen = Pen::solid("#d55e00", 1.4);
 /// Time that is drawn, in units of 1/ω: a few hops of every segment.
 const DURATION: f64 = 42.0;
 
-struct Segment {
+struct MapSegment {
     name: &'static str,
     says: &'static str,
     alpha: f64,
@@ -30,10 +30,10 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let trap = Trap::new(1, ratio)?;
     let star = alpha_star(1);
     let segments = [
-        Segment { name: "$α$_{L}", says: "sudden lift-off", alpha: 3.8 },
-        Segment { name: "$α$_{S}", says: "incessant hopping", alpha: star + 0.6 * trap.delta },
-        Segment { name: "$α$_{R}", says: "a few hops, then rest", alpha: 5.1 },
-        Segment { name: "$α$_{G}", says: "no further hop", alpha: 5.95 },
+        MapSegment { name: "$α$_{L}", says: "sudden lift-off", alpha: 3.8 },
+        MapSegment { name: "$α$_{S}", says: "incessant hopping", alpha: star + 0.6 * trap.delta },
+        MapSegment { name: "$α$_{R}", says: "a few hops, then rest", alpha: 5.1 },
+        MapSegment { name: "$α$_{G}", says: "no further hop", alpha: 5.95 },
     ];
     let mut svg = Svg::new(760.0, 430.0);
     let frame = Frame::linear(58.0, 18.0, 300.0, 350.0, (3.0, 6.45), (0.0, 5.2));
@@ -188,7 +188,7 @@ fn motion(ratio: MassRatio, alpha: f64) -> Result<Vec<Motion>, Error> {
     Ok(pieces)
 }
 
-fn draw_motion(svg: &mut Svg, panel: &Frame, segment: &Segment, motion: &[Motion]) {
+fn draw_motion(svg: &mut Svg, panel: &Frame, segment: &MapSegment, motion: &[Motion]) {
     panel.polyline(svg, &[(0.0, 0.0), (DURATION, 0.0)], Pen::solid("#999", 0.6));
     panel.clipped(svg, |svg| {
         for piece in motion {

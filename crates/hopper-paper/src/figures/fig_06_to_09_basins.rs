@@ -3,12 +3,8 @@
 use super::basin_plot::{Window, basin_figure};
 use crate::error::Error;
 use crate::figure::Figure;
-use hopper_basin::first_humps;
+use hopper_basin::{FIG_8, FIG_9, first_humps};
 use repository_tools::Progress;
-
-/// (M, α) windows of Figs. 8 and 9. The limits of Fig. 8 are lost in our copy of the paper: [α*₄, α*₆] holds Fig. 9.
-const FIGURE_8: ((f64, f64), (f64, f64)) = ((0.1, 0.2), (14.066, 20.371));
-const FIGURE_9: ((f64, f64), (f64, f64)) = ((0.17, 0.18), (17.0, 17.8));
 
 fn texts(title: &str, paper: &str, notes: &str) -> (String, String, String) {
     (title.into(), paper.into(), notes.into())
@@ -20,7 +16,7 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
         name: "fig_06_basin",
         mass_ratio: (0.02, 1.0),
         alpha: (first_humps(5).left, first_humps(5).right),
-        inset: Some((FIGURE_8.0, FIGURE_8.1, "Fig. 8")),
+        inset: Some((FIG_8.0, FIG_8.1, "Fig. 8")),
         tick_counts: (6, 8),
     };
     basin_figure(
@@ -29,9 +25,9 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
         texts(
             "Basins of attraction for small mass ratios",
             "Initial speeds by the fixed point they lead to: first green, second red, third blue and so \
-         on. At $M$ = 0.1 most of the window is green; with growing $M$ the share of incessant hopping \
+         on. At $M$ = 0.1 most of the window is green; with growing $M$ the fraction of incessant hopping \
          falls rapidly.",
-            "Window $M$ ∈ [0.02, 1], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6} (the paper's lower limit of $M$ is lost). What the \
+            "Window $M$ ∈ [0.02, 1], $α$ from $α$^{∗}_{1} to $α$^{∗}_{6} (the paper's lower limit of $M$ is illegible in our copy). What the \
          paper leaves blank is told apart: white decays (hops for ever, ever lower), grey is grounded.",
         ),
     )
@@ -62,9 +58,9 @@ pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
 pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_08_basin_inset",
-        mass_ratio: FIGURE_8.0,
-        alpha: FIGURE_8.1,
-        inset: Some((FIGURE_9.0, FIGURE_9.1, "Fig. 9")),
+        mass_ratio: FIG_8.0,
+        alpha: FIG_8.1,
+        inset: Some((FIG_9.0, FIG_9.1, "Fig. 9")),
         tick_counts: (5, 7),
     };
     basin_figure(
@@ -73,7 +69,7 @@ pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
         texts(
             "The inset of Fig. 6",
             "The same basins at a finer scale.",
-            "Window $M$ ∈ [0.1, 0.2], $α$ from $α$^{∗}_{4} to $α$^{∗}_{6}, chosen to hold Fig. 9; the paper's limits are lost.",
+            "Window $M$ ∈ [0.1, 0.2], $α$ from $α$^{∗}_{4} to $α$^{∗}_{6}, chosen to hold Fig. 9; the paper's limits are illegible in our copy.",
         ),
     )
 }
@@ -82,8 +78,8 @@ pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
 pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_09_basin_inset",
-        mass_ratio: FIGURE_9.0,
-        alpha: FIGURE_9.1,
+        mass_ratio: FIG_9.0,
+        alpha: FIG_9.1,
         inset: None,
         tick_counts: (10, 8),
     };

@@ -26,14 +26,14 @@ const FORMS: [(&str, Marker, &str, &str); 6] = [
 ];
 
 /// An offset with the relative error of each form; `None` where the form has no value.
-struct Row {
+struct ErrorRow {
     offset: f64,
     errors: [Option<f64>; 6],
 }
 
 /// Draws the errors on both sides of α*₁.
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
-    let rows: Vec<Row> =
+    let rows: Vec<ErrorRow> =
         parse_rows(&repository().join(VALUES))?.iter().map(row).collect::<Result<_, _>>()?;
     let mut svg = Svg::new(800.0, 430.0);
     for (k, (sign, name)) in
@@ -83,7 +83,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     })
 }
 
-fn side<'a>(svg: &mut Svg, frame: &Frame, rows: impl Iterator<Item = &'a Row>) {
+fn side<'a>(svg: &mut Svg, frame: &Frame, rows: impl Iterator<Item = &'a ErrorRow>) {
     let points: Vec<_> = rows.collect();
     for (form, (_, marker, color, _)) in FORMS.into_iter().enumerate() {
         for row in &points {
@@ -94,7 +94,7 @@ fn side<'a>(svg: &mut Svg, frame: &Frame, rows: impl Iterator<Item = &'a Row>) {
     }
 }
 
-fn row(row: &Value) -> Result<Row, Error> {
+fn row(row: &Value) -> Result<ErrorRow, Error> {
     let field = |key| number(row, key).map_err(|reason| Error::Reference { reason });
     let (offset, alpha) = (field("offset")?, field("alpha")?);
     let exact = field("offset_loss")?;
@@ -126,5 +126,5 @@ fn row(row: &Value) -> Result<Row, Error> {
             errors[place] = Some(off(leading, exact));
         }
     }
-    Ok(Row { offset, errors })
+    Ok(ErrorRow { offset, errors })
 }

@@ -10,45 +10,46 @@ const CURVE: Pen = Pen::solid("#10386e", 1.8);
 const BAND: &str = "#ececea";
 
 /// A panel: its texts, the guard, the horizon of the search and the range that is drawn.
-struct Case {
+struct GuardPanel {
     title: &'static str,
     says: &'static str,
-    signal: QuasiPolynomial,
+    quasi_polynomial: QuasiPolynomial,
     horizon: f64,
     range: (f64, f64),
 }
 
-fn cases() -> Vec<Case> {
+fn panels() -> Vec<GuardPanel> {
     // 3 (t − 0.84)(t − 1.16)(3 − t): it is negative for 0.32 only, and samples at 0.8 and 1.2 miss that.
     let narrow = QuasiPolynomial::polynomial(&[-0.84, 1.0])
         * QuasiPolynomial::polynomial(&[-1.16, 1.0])
         * QuasiPolynomial::polynomial(&[9.0, -3.0]);
     vec![
-        Case {
+        GuardPanel {
             title: "a crossing",
             says: "the first change of sign",
-            signal: QuasiPolynomial::cosine(1.0, 1.4) + QuasiPolynomial::polynomial(&[0.15]),
+            quasi_polynomial: QuasiPolynomial::cosine(1.0, 1.4)
+                + QuasiPolynomial::polynomial(&[0.15]),
             horizon: 3.2,
             range: (-1.1, 1.3),
         },
-        Case {
+        GuardPanel {
             title: "a narrow dip",
             says: "bounds find it, samples (dots) do not",
-            signal: narrow,
+            quasi_polynomial: narrow,
             horizon: 2.4,
             range: (-0.5, 1.3),
         },
-        Case {
+        GuardPanel {
             title: "a touch",
             says: "an error: grazing at this time",
-            signal: QuasiPolynomial::polynomial(&[1.0, -1.6, 0.64]),
+            quasi_polynomial: QuasiPolynomial::polynomial(&[1.0, -1.6, 0.64]),
             horizon: 3.0,
             range: (-0.5, 1.3),
         },
-        Case {
+        GuardPanel {
             title: "a start at zero",
             says: "left upwards, like $t$^{3}; then back",
-            signal: QuasiPolynomial::polynomial(&[0.0, 0.0, 0.0, 1.0, -0.5]),
+            quasi_polynomial: QuasiPolynomial::polynomial(&[0.0, 0.0, 0.0, 1.0, -0.5]),
             horizon: 2.6,
             range: (-1.4, 1.3),
         },
@@ -58,39 +59,40 @@ fn cases() -> Vec<Case> {
 /// Four panels, each with a marker at the result of the search.
 pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let mut svg = Svg::new(680.0, 430.0);
-    for (k, case) in cases().into_iter().enumerate() {
+    for (k, panel) in panels().into_iter().enumerate() {
         let (x, y) = (44.0 + 330.0 * (k % 2) as f64, 34.0 + 206.0 * (k / 2) as f64);
-        let frame = Frame::linear(x, y, 290.0, 136.0, (0.0, case.horizon), case.range);
+        let frame = Frame::linear(x, y, 290.0, 136.0, (0.0, panel.horizon), panel.range);
         let zero = frame.at((0.0, 0.0)).1;
         svg.fill_rect(frame.left, zero, frame.width, frame.top + frame.height - zero, BAND);
-        frame.polyline(&mut svg, &[(0.0, 0.0), (case.horizon, 0.0)], Pen::solid("#777", 0.8));
+        frame.polyline(&mut svg, &[(0.0, 0.0), (panel.horizon, 0.0)], Pen::solid("#777", 0.8));
         let points: Vec<_> = (0..=300)
-            .map(|k| case.horizon * f64::from(k) / 300.0)
-            .map(|t| (t, case.signal.value(t)))
+            .map(|k| panel.horizon * f64::from(k) / 300.0)
+            .map(|t| (t, panel.quasi_polynomial.value(t)))
             .collect();
         frame.clipped(&mut svg, |svg| frame.curve(svg, &points, CURVE));
         if k == 1 {
             for sample in 0..=6 {
                 let t = 0.4 * f64::from(sample);
-                svg.dot(frame.at((t, case.signal.value(t))).0, zero, 2.6, "#a3260f");
+                svg.dot(frame.at((t, panel.quasi_polynomial.value(t))).0, zero, 2.6, "#a3260f");
             }
         }
-        let found = match case.signal.first_crossing(Direction::Falling, case.horizon)? {
-            FirstCrossing::At { time, .. } => Some((time, Marker::Disc)),
-            FirstCrossing::Grazing { time, .. } => Some((time, Marker::Diamond)),
-            FirstCrossing::Never => None,
-        };
+        let found =
+            match panel.quasi_polynomial.first_crossing(Direction::Falling, panel.horizon)? {
+                FirstCrossing::At { time, .. } => Some((time, Marker::Disc)),
+                FirstCrossing::Grazing { time, .. } => Some((time, Marker::Diamond)),
+                FirstCrossing::Never => None,
+            };
         if let Some((time, marker)) = found {
             svg.marker(frame.at((time, 0.0)), marker, 9.0, "#000");
         }
         frame.axes(&mut svg, &[], &[], "time $t$", "guard $g$");
-        svg.text(x, y - 10.0, Anchor::Start, 12.5, &format!("{}: {}", case.title, case.says));
+        svg.text(x, y - 10.0, Anchor::Start, 12.5, &format!("{}: {}", panel.title, panel.says));
     }
     Ok(Figure {
         name: "guards",
         title: "How a guard along a flow can meet zero".into(),
         paper: "Not in the paper.".into(),
-        notes: "Falling guards as signals; what the search returns is marked.".into(),
+        notes: "Falling guards as quasi-polynomials; what the search returns is marked.".into(),
         svg,
         data: Vec::new(),
     })
