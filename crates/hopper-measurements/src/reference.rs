@@ -18,20 +18,20 @@ pub(crate) enum Line {
     ImmediateBasin { n: u64, mass_ratio: MassRatio, edge: Edge, delta: Option<f64> },
 }
 
-/// The edge of a trapping region, and how sure the reference is of it.
+/// The edge of a trap, and how certain the reference is of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Edge {
     /// On the contact part of the hump; proved.
     Contact,
     /// In the sudden window; found on scans.
     Sudden,
-    /// The region has no edge before the next fixed point.
+    /// The trap has no edge before the next fixed point.
     None,
     /// Not decided, because the needles are narrower than any scan.
     Unknown,
 }
 
-/// A hop, with the slopes by which its error is judged.
+/// A hop, with the slopes for the unit of its error.
 pub(crate) struct Hop {
     pub(crate) class: String,
     pub(crate) mass_ratio: MassRatio,
@@ -43,7 +43,7 @@ pub(crate) struct Hop {
 }
 
 impl Hop {
-    /// The unit of its error: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
+    /// The unit of its error: the sum of the effects on α′ of half an ulp in each of α, M, α′ and α².
     pub(crate) fn unit(&self) -> f64 {
         let scale = self.next.map_or(0.0, |next| {
             next + self.slope_alpha * self.alpha
@@ -59,8 +59,8 @@ impl Hop {
     }
 }
 
-/// Units of error that are allowed for each landing, by default. Chosen by measurement: the stable form stays within
-/// it on all classes of docs/accuracy.md. A larger limit would hide the loss of a digit.
+/// Units of error that are allowed for each landing, by default. The value was chosen by measurement: on all classes of
+/// docs/accuracy.md the error of the stable form is within it. A larger limit would hide the loss of a digit.
 pub(crate) const LIMIT: f64 = 4.0;
 
 /// A hop so small that α′ rounds to α, and the loss α − α′ is compared instead.
@@ -87,8 +87,8 @@ pub(crate) fn window_hops() -> Result<Vec<Hop>, Error> {
 /// All lines of a file, each with its number from one.
 ///
 /// # Errors
-/// [`Error::ReferenceLine`] for a line of no known kind; [`Error::NoReference`] if there is no line whose answer can
-/// be compared, so that no check passes on an empty file.
+/// [`Error::ReferenceLine`] for a line of no known kind; [`Error::NoReference`] if no line has an answer that can be
+/// compared. Therefore no check passes on an empty file.
 pub(crate) fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
     let rows = numbered_rows(path)?;
     let bad = |at: usize, reason| {
@@ -110,7 +110,7 @@ pub(crate) fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
 
 /// The question and the answer of one JSON object.
 pub(crate) fn line(value: &Value) -> Result<Line, String> {
-    // One of these fields is in every known kind.
+    // Every known kind has one of these fields.
     if ["alpha_star", "mu_c", "edge", "offset", "alpha"].iter().all(|key| value.get(key).is_none())
     {
         return Err(

@@ -11,25 +11,25 @@ use std::path::PathBuf;
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Options {
-    /// Allowed error in units, 0 < K ≤ 1e15. A hop is allowed K (1 + sudden lift-offs) units; its unit is the
-    /// effect of half an ulp in α, M, α′ and α² together. For a hop near a fixed point, given as n and offset, K
-    /// units of two ulps of the next offset are allowed for any number of lift-offs. For a loss the unit is the
-    /// effect of half an ulp in the inputs; for α*_n half an ulp; for a trapping region a quarter of its stated
-    /// bound; for a crisis two ulps
+    /// Allowed error in units, 0 < K ≤ 1e15. For a hop K (1 + sudden lift-offs) units are allowed; its unit is the
+    /// joint effect of half an ulp in α, M, α′ and α². For a hop near a fixed point, given as n and offset, K units of
+    /// two ulps of the next offset are allowed for any number of lift-offs. For a loss the unit is the effect of half
+    /// an ulp in the inputs; for α*_n half an ulp; for a trap a quarter of its stated error bound; for a crisis two
+    /// ulps
     #[arg(long, value_name = "K", default_value_t = LIMIT, value_parser = limit, allow_hyphen_values = true)]
     limit: f64,
-    /// Files with one JSON object a line, or one array of objects: hops, losses, hops near a fixed point,
-    /// fates, fixed points, trapping regions, crises. A file without any is an error
+    /// Files with one JSON object a line, or one array of objects: hops, losses, hops near a fixed point, fates, fixed
+    /// points, traps, crises. A file without any of these is an error
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 }
 
-/// The largest accepted limit. The unit of K is about 10⁻¹⁶ of the value compared: past 10¹⁵ an error of a tenth of
-/// the value would pass, and the check would check no digit.
+/// The largest accepted limit. The unit of K is about 10⁻¹⁶ of the compared value: past 10¹⁵ an error of a tenth of the
+/// value would pass, and the check would not check any digit.
 const LARGEST_LIMIT: f64 = 1e15;
 
-/// Copies of a hop that are computed together. `LiftOffMap::images` computes fewer than 16 one by one; with more it
-/// takes its vector loops, which are compared here with the loop for one hop.
+/// Number of copies of a hop that are computed together. `LiftOffMap::images` computes fewer than 16 one by one. With
+/// more it uses its vector loops, which are compared here with the loop for one hop.
 const AT_ONCE: usize = 24;
 
 /// Reads the value of `--limit`.
@@ -40,11 +40,11 @@ fn limit(text: &str) -> Result<f64, String> {
         .ok_or_else(|| format!("K must be a number with 0 < K ≤ {LARGEST_LIMIT:e}"))
 }
 
-/// The tally of a class.
+/// The counts of a class.
 #[derive(Default)]
 struct Tally {
     lines: usize,
-    /// Lines whose reference is itself not decided: there was nothing to compare with.
+    /// Number of lines with an undecided reference, which cannot be compared.
     skipped: usize,
     worst: f64,
     worst_place: String,
@@ -55,7 +55,7 @@ struct Tally {
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
-    // A line that cannot be read is found before the computation starts.
+    // All lines are read before the computation starts, so that a malformed line is reported at once.
     let mut parsed = Vec::new();
     for path in &options.files {
         parsed.push((path, parse(path)?));
@@ -77,7 +77,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
                 write!(out, "worst K = {:.2} ({}), ", tally.worst, tally.worst_place)
                     .map_err(write)?;
             }
-            write!(out, "{} over the limit, {} wrong verdicts", tally.over, tally.wrong)
+            write!(out, "{} over the limit, {} wrong decisions", tally.over, tally.wrong)
                 .map_err(write)?;
             if tally.wrong > 0 {
                 write!(out, " (first: {})", tally.first_wrong).map_err(write)?;
@@ -90,7 +90,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
     if over + wrong > 0 {
         return Err(Error::CheckFailed(format!(
-            "{over} errors over K = {} (1 + sudden), {wrong} wrong verdicts",
+            "{over} errors over K = {} (1 + sudden), {wrong} wrong decisions",
             options.limit
         )));
     }
@@ -135,8 +135,8 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                 let tally = tallies.entry("crises".into()).or_default();
                 match crisis(*n) {
                     Err(error) => tally.is_wrong(*at, &error.to_string()),
-                    // The map has a minimum at this α. An error of one ulp in the value of the map moves the
-                    // minimum by √ulp ≈ 10⁻⁸, which is 10⁸ ulps.
+                    // The map has a minimum at this α. An error of one ulp in the value of the map moves the minimum by
+                    // √ulp ≈ 10⁻⁸, which is 10⁸ ulps.
                     Ok(found) => {
                         for (what, found, exact, ulps) in [
                             ("μ", found.mu, *mu, 2.0),
@@ -167,7 +167,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
     tallies
 }
 
-/// The edge must be of the right kind, and Δ within its stated bound.
+/// The edge must be of the right kind, and the error of Δ within its stated bound.
 fn judge_reach(
     tally: &mut Tally,
     at: usize,
@@ -175,8 +175,8 @@ fn judge_reach(
     (edge, delta): (Edge, Option<f64>),
     limit: f64,
 ) {
-    // Spacing of the scan for needles in a sudden window. The reference does not state its own. Needles narrower
-    // than this are not seen; a smaller spacing costs time in proportion.
+    // Spacing of the scan for needles in a sudden window. The reference does not state its own spacing. Needles
+    // narrower than this are missed; the time is inversely proportional to the spacing.
     const WIDTH: f64 = 1e-3;
     let found =
         match Fates::new(mass_ratio).and_then(|fates| immediate_basin(fates.map(), n, WIDTH)) {
@@ -217,7 +217,7 @@ fn judge_loss(tally: &mut Tally, at: usize, line: &Loss, limit: f64) {
         Err(error) => return tally.is_wrong(at, &error.to_string()),
     };
     let place = format!("M = {}, α = {alpha}", mass_ratio.value());
-    // Loss ∝ μα⁵: half an ulp in α is five halves in the loss; M and the result add half an ulp each: 7/2 ulps.
+    // Loss ∝ μα⁵: half an ulp in α makes five halves in the loss. M and the result add half an ulp each: 7/2 ulps.
     let verdict =
         Verdict { found: (0, found.loss), exact: (0, Some(loss)), unit: 3.5 * f64::EPSILON * loss };
     tally.judge(at, &place, verdict, limit);
@@ -245,7 +245,7 @@ fn judge_hop(tally: &mut Tally, at: usize, hop: &Hop, limit: f64) {
     tally.judge(at, &place, verdict, limit);
 }
 
-/// A result and the exact one, each with the number of sudden lift-offs and the next speed or offset.
+/// A result and the exact result, each with the number of sudden lift-offs and the next speed or offset.
 struct Verdict {
     found: (usize, Option<f64>),
     exact: (usize, Option<f64>),
@@ -253,7 +253,7 @@ struct Verdict {
 }
 
 impl Tally {
-    /// Judges a number that comes without a count of sudden lift-offs.
+    /// Compares a number that has no count of sudden lift-offs.
     fn value(&mut self, at: usize, place: &str, found: f64, exact: f64, unit: f64, limit: f64) {
         self.lines += 1;
         let verdict = Verdict { found: (0, Some(found)), exact: (0, Some(exact)), unit };
@@ -290,7 +290,7 @@ mod tests {
     use crate::reference::line;
 
     #[test]
-    fn a_wrong_value_and_a_wrong_verdict_are_counted() {
+    fn a_wrong_value_and_a_wrong_decision_are_counted() {
         let good = r#"{"class": "c", "mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "35.997158341573688180303069833057"}"#;
         let off = good.replace("35.9971583415", "35.9971583416");
         let verdict = good.replace("\"sudden\": 0", "\"sudden\": 1");

@@ -34,7 +34,7 @@ pub(crate) fn measure(
     Ok(peers)
 }
 
-/// The other programs' results, measured by a script in a process of its own.
+/// The other programs' results, measured by a script in a separate process.
 fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Error> {
     let (input, output) = (folder.join("hops.json"), folder.join("results.json"));
     let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_and_wrong_verdicts_are_told_apart() {
+    fn errors_and_wrong_decisions_are_counted_separately() {
         let hops = window_hops().unwrap();
         let mut next: Vec<_> = hops.iter().map(|hop| hop.next).collect();
         let grounded = hops.iter().position(|hop| hop.next.is_none()).unwrap();

@@ -48,8 +48,7 @@ pub(crate) struct Answer {
     pub(crate) sudden: Option<usize>,
 }
 
-/// The n of the interval (nπ, (n+1)π) that holds `alpha`, and the offset from α*_n, which lies in it; `None`
-/// below π.
+/// The n of the interval (nπ, (n+1)π) that contains `alpha`, and the offset from α*_n in this interval; `None` below π.
 pub(super) fn cell(alpha: f64) -> Option<(u64, f64)> {
     let below = index_below(alpha).ok()?;
     let n = if alpha > (below + 1) as f64 * std::f64::consts::PI { below + 1 } else { below };

@@ -9,7 +9,7 @@ use journal_figures::{DataFile, csv_text};
 use std::fmt::Write;
 use std::time::Duration;
 
-/// Whether a method is in the tables: of the tolerances every third is, 1e-3, 1e-6, 1e-9 and 1e-12.
+/// Whether a method is in the tables. Of the tolerances every third is: 1e-3, 1e-6, 1e-9 and 1e-12.
 fn shown(method: Method) -> bool {
     !matches!(method, Method::Integrated(k) if k % 3 != 0)
 }
@@ -73,7 +73,7 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
         );
     }
     out.push_str(
-        "\nThe hard classes: worst error, time a hop; then, if any, wrong verdicts and refused inputs.\n\n",
+        "\nThe hard classes: worst error, time a hop; then, if any, wrong decisions and refused inputs.\n\n",
     );
     let mut classes: Vec<&str> = Vec::new();
     for score in scores.iter().filter(|s| s.class != "window") {
@@ -122,7 +122,7 @@ mod tests {
     use super::*;
     use crate::text::replace_block;
 
-    /// The document has the blocks that the command fills, and names every method of the tables.
+    /// The document has the blocks that the command fills, and contains every method of the tables.
     #[test]
     fn the_document_is_filled() {
         let path = repository_tools::repository().join("docs/accuracy.md");

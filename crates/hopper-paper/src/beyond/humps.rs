@@ -1,4 +1,4 @@
-//! The basins on each hump: their shares repeat from hump to hump.
+//! The basins on each hump: their fractions repeat from hump to hump.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{fates, hump, is_incessant};
@@ -15,10 +15,10 @@ const M: f64 = 0.2;
 /// The last hump. The number of intervals grows with the hump, and six humps show the pattern.
 const LAST: u64 = 6;
 
-/// A share of a hump, and the same with everything undecided added.
+/// A fraction of a hump, and the same fraction plus all undecided parts.
 type Share = (f64, f64);
 
-/// The share of each hump that each fixed point below attracts.
+/// The fraction of each hump that each fixed point below attracts.
 pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     let refinement = Refinement { undecided: 2e-4, intervals: 4_000_000, ..Refinement::default() };

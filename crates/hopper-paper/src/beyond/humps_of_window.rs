@@ -1,4 +1,4 @@
-//! Starts on the humps of the paper's window, their fates, and shares as text.
+//! Starts on the humps of the paper's window, their fates, and fractions as text.
 
 use crate::error::Error;
 use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
@@ -35,7 +35,7 @@ pub(super) fn by_humps(place: f64) -> f64 {
     left + (right - left) * (place - whole as f64)
 }
 
-/// A fraction as it is drawn and printed: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
+/// A fraction for drawing and printing: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FractionWithBar {
     pub(super) value: f64,
@@ -66,18 +66,18 @@ pub(super) fn estimate(three: &[f64]) -> FractionWithBar {
     FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
 }
 
-/// A share with the half width of its interval, in per cent. Small intervals get two digits more.
+/// A fraction with the half width of its interval, in per cent. Small intervals get two digits more.
 pub(super) fn percent(share: &FractionWithBar) -> String {
     let digits = if share.half_width() > 5e-4 { 2 } else { 4 };
     format!("{:.digits$} ± {:.digits$} %", 100.0 * share.value, 100.0 * share.half_width())
 }
 
-/// A share between bounds, in per cent.
+/// A fraction between bounds, in per cent.
 pub(super) fn bounds(share: &FractionWithBar) -> String {
     format!("{:.5} … {:.5} %", 100.0 * share.lower, 100.0 * share.upper)
 }
 
-/// `count` values from `first` to `last` in equal factors.
+/// `count` values from `first` to `last`, equally spaced on a logarithmic scale.
 pub(super) fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
     let power = |k: usize| k as f64 / (count - 1) as f64;
     (0..count).map(|k| first * pxfm::f_pow(last / first, power(k))).collect()

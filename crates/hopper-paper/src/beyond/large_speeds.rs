@@ -13,9 +13,11 @@ use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
-/// Humps in equal factors. On hump 10 000 an orbit takes thousands of hops, and α has an ulp of 4e-12.
+/// The humps, each ten times the one before. On hump 10 000 an orbit takes thousands of hops, and α has an ulp of
+/// 4e-12.
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
-/// Random starts on a hump. Orbits from high humps take thousands of hops, so that fewer are affordable.
+/// Number of random starts on a hump. Orbits from high humps take thousands of hops, so that fewer starts are used
+/// there.
 fn starts(n: u64) -> usize {
     if n > 100 { 2_000 } else { 20_000 }
 }
@@ -24,7 +26,7 @@ fn starts(n: u64) -> usize {
 const LOOKS: [Marker; 5] =
     [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge];
 
-/// The share of uncertain starts against ε, hump by hump.
+/// The fraction of uncertain starts against ε, hump by hump.
 pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     const DECADES: usize = 8;

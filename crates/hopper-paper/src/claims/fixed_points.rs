@@ -25,7 +25,7 @@ fn printed_digits() -> Claim {
     for (n, (digits, decimals)) in (1u64..).zip(printed) {
         let star = alpha_star(n);
         let ulp = 10f64.powi(-decimals);
-        // The paper rounds some values and cuts others: both lie within one unit of the last digit.
+        // The paper rounds some values and truncates others: both are within one unit of the last digit.
         right &= digits.parse::<f64>().is_ok_and(|value| (value - star).abs() < ulp);
         ours.push(format!("{star:.12}"));
     }
@@ -73,7 +73,7 @@ fn found_from_the_map() -> Result<Claim, Error> {
         .holds(found.len() == 5 && touching && worst < 1e-10))
 }
 
-/// The map near α*_n as a map of the distance |δ|, from the loss, which has digits of its own.
+/// The map near α*_n as a map of the distance |δ|, computed from the loss, which does not cancel.
 pub(super) fn probe(
     n: u64,
     mass_ratio: MassRatio,
@@ -91,8 +91,8 @@ pub(super) fn probe(
         let alpha = star.value() + sign * distance;
         let exact = sign * star.offset_of(alpha);
         let loss = map.hop(alpha).ok()?.loss?;
-        // The map is evaluated at the nearest f64, at the distance `exact`. Its loss is scaled to the distance asked
-        // for; the loss grows like the power 4/3, so that the error of this is a third of the relative difference.
+        // The map is evaluated at the nearest f64, at the distance `exact`. Its loss is scaled to the given distance.
+        // The loss grows like the power 4/3, so that the error of this scaling is a third of the relative difference.
         Some(distance - sign * loss * (distance / exact))
     };
     one_sided_stability(displacement, side, largest, count)
@@ -125,8 +125,8 @@ pub(super) fn coefficient(n: u64, ratio: MassRatio, side: Side) -> f64 {
         let probe = probe(n, ratio, side, distance, 1);
         probe.approach.first().map_or(f64::NAN, |&(d, step)| step.abs() / (d * pxfm::f_cbrt(d)))
     };
-    // (δ − δ′)/|δ|^{4/3} = c (1 + a δ^{1/3} + b δ^{2/3} + …). At δ, δ/8 and δ/64 the factors of a are 1, ½, ¼ and those
-    // of b are 1, ¼, 1/16: with the weights 1, −6, 8 both vanish, and the weights add up to 3.
+    // (δ − δ′)/|δ|^{4/3} = c (1 + a δ^{1/3} + b δ^{2/3} + …). At δ, δ/8 and δ/64 the factors of a are 1, ½, ¼ and the
+    // factors of b are 1, ¼, 1/16. With the weights 1, −6, 8 both terms vanish, and the sum of the weights is 3.
     (at(1e-6) - 6.0 * at(1e-6 / 8.0) + 8.0 * at(1e-6 / 64.0)) / 3.0
 }
 

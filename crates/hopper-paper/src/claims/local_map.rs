@@ -1,4 +1,4 @@
-//! Claims about β, λ and Δ: the approximate map, its erratum, and the trapping region.
+//! Claims about β, λ and Δ: the approximate map, its erratum, and the trap.
 
 use super::claim::{Claim, largest};
 use super::fixed_points::coefficient;
@@ -31,7 +31,8 @@ fn beta() -> Result<Claim, Error> {
             let time = first.map_or(f64::NAN, |landing| landing.time);
             Ok((time - 2.0 * star.value()) / local.flight_time_shift(star.offset_of(alpha)))
         };
-        // The ratio is 1 + w/(4α*) + … with w = βδ^{1/3}. An eighth of δ halves w: twice the one minus the other is 1.
+        // The ratio is 1 + w/(4α*) + … with w = βδ^{1/3}. An eighth of δ halves w: twice the second ratio minus the
+        // first one tends to 1.
         let limit = 2.0 * ratio(1e-7)? - ratio(8e-7)?;
         errors.push((limit - 1.0).abs());
     }
@@ -115,7 +116,8 @@ fn smallest_at_one() -> Result<Claim, Error> {
         let at_one = Trap::new(n, MassRatio::ONE)?.delta;
         for m in comb().filter(|&m| m != 1.0) {
             let delta = Trap::new(n, MassRatio::new(m)?)?.delta;
-            // Δ has a minimum at M = 1 and rises by (M − 1)² there: closer than 10⁻⁴ that is less than its rounding.
+            // Δ has a minimum at M = 1 and grows like (M − 1)² there. Closer than 10⁻⁴ this growth is less than its
+            // rounding.
             let distinct = (m - 1.0).abs() > 1e-4;
             smallest &= if distinct { delta > at_one } else { delta >= at_one - 2e-15 };
             if distinct {

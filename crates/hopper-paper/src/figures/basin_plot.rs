@@ -108,7 +108,7 @@ fn legend(svg: &mut Svg, left: f64, image: &LabelImage) {
     }
 }
 
-/// The share of every label, in words.
+/// The fraction of every label, in words.
 fn basin_fractions(image: &LabelImage) -> String {
     let pixels = image.labels.len() as f64;
     let share = |(label, count): (u16, usize)| {

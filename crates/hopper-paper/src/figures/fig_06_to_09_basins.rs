@@ -6,7 +6,7 @@ use crate::figure::Figure;
 use hopper_basin::first_humps;
 use repository_tools::Progress;
 
-/// (M, α) windows of Figs. 8 and 9. The limits of Fig. 8 are lost in our copy of the paper: [α*₄, α*₆] holds Fig. 9.
+/// (M, α) windows of Figs. 8 and 9. The limits of Fig. 8 are lost in our copy of the paper: [α*₄, α*₆] contains Fig. 9.
 const FIGURE_8: ((f64, f64), (f64, f64)) = ((0.1, 0.2), (14.066, 20.371));
 const FIGURE_9: ((f64, f64), (f64, f64)) = ((0.17, 0.18), (17.0, 17.8));
 

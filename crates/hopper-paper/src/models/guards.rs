@@ -19,7 +19,7 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    // 3 (t − 0.84)(t − 1.16)(3 − t): it is negative for 0.32 only, and samples at 0.8 and 1.2 miss that.
+    // 3 (t − 0.84)(t − 1.16)(3 − t): it is negative only for a time of 0.32, and samples at 0.8 and 1.2 miss this dip.
     let narrow = QuasiPolynomial::polynomial(&[-0.84, 1.0])
         * QuasiPolynomial::polynomial(&[-1.16, 1.0])
         * QuasiPolynomial::polynomial(&[9.0, -3.0]);
