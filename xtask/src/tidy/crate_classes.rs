@@ -1,16 +1,16 @@
-//! Which crates may print, read files or look at clocks.
+//! Which crates may print, read files or use clocks.
 
 use super::breach::Breach;
 use Class::{Computing, Files, Program};
 
-/// What a crate may do besides computing.
+/// The actions that a crate may take besides computing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Class {
     /// No other actions: the same input gives the same result, on any machine and in a browser.
     Computing,
     /// Read and write files, without printing: its callers decide what a user sees.
     Files,
-    /// Print, read, write, look at clocks and start processes.
+    /// Print, read, write, use clocks and start processes.
     Program,
 }
 

@@ -197,7 +197,7 @@ fn judge_reach(
     }
     let place = format!("n = {n}, M = {}", mass_ratio.value());
     match delta.filter(|_| edge != Edge::Unknown) {
-        // M is read from a decimal number: its rounding by half an ulp shifts Δ too.
+        // M is read from a decimal number: its rounding by half an ulp also shifts Δ.
         Some(exact) => {
             let unit = 0.25 * found.error + f64::EPSILON * exact;
             tally.value(at, &place, found.delta, exact, unit, limit);

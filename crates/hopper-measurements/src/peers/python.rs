@@ -1,4 +1,4 @@
-//! A Python interpreter with the compared packages, in a virtual environment of its own.
+//! A Python interpreter with the compared packages, in a separate virtual environment.
 
 use crate::error::Error;
 use std::io::Write;

@@ -51,7 +51,7 @@ fn score(class: &Class, method: Method) -> Score {
         match error(class.quantity, case, &answer) {
             None => wrong += 1,
             Some(Some(error)) => errors.push(error),
-            Some(None) => {} // grounded, as it should be: there is no error to count
+            Some(None) => {} // correctly grounded: there is no error to count
         }
     }
     errors.sort_by(f64::total_cmp);
