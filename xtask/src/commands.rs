@@ -10,7 +10,7 @@ use std::process::{Command, ExitCode};
 /// A command.
 struct Task {
     name: &'static str,
-    /// The effect of the command, in one line.
+    /// The purpose of the command, in one line.
     about: &'static str,
     /// The package whose program runs the command; `None` for a command of this program.
     package: Option<&'static str>,
@@ -28,22 +28,22 @@ const TASKS: [Task; 10] = [
     },
     Task {
         name: "verify-invariance",
-        about: "Check the invariance under M → 1/M alone, with its figure",
+        about: "Check only the invariance under M → 1/M, with its figure",
         package: PAPER,
     },
     Task {
         name: "basin-raster",
-        about: "Compute the basins over any window, in tiles that survive a kill",
+        about: "Compute the basins over any window, in tiles; a killed run can be continued",
         package: PAPER,
     },
     Task {
         name: "beyond-paper",
-        about: "Compute what the paper could not say of the basins, with a report",
+        about: "Compute results about the basins that the paper does not have, with a report",
         package: PAPER,
     },
     Task {
         name: "model-figures",
-        about: "Draw what the generic crates do: how guards are met, and a valve's bifurcations",
+        about: "Draw figures of the generic crates: how guards are met, and a valve's bifurcations",
         package: PAPER,
     },
     Task {
@@ -58,7 +58,7 @@ const TASKS: [Task; 10] = [
     },
     Task {
         name: "speed",
-        about: "Measure how fast hops and rasters are, each after its output was checked",
+        about: "Measure how fast hops and rasters are; the output of each is checked first",
         package: MEASUREMENTS,
     },
     Task {

@@ -118,8 +118,8 @@ pub fn interval_basins(
 
 /// The parts from left to right, made disjoint.
 ///
-/// Preimages of neighbouring intervals share an ulp or two where the map takes equal values at neighbouring
-/// points. The left one of two parts keeps the overlap.
+/// Preimages of neighbouring intervals overlap by an ulp or two where the map takes equal values at neighbouring
+/// points. The overlap is given to the left one of two parts.
 fn disjoint(mut parts: Vec<LabelledInterval>) -> Vec<LabelledInterval> {
     parts.sort_by(|a, b| a.interval.left.total_cmp(&b.interval.left));
     let mut end = f64::NEG_INFINITY;

@@ -6,7 +6,7 @@ use clap::{Parser, Subcommand};
 
 /// Error and speed of the hopper's computations, measured.
 #[derive(Debug, Parser)]
-// Usage lines name what one types: `cargo xtask` starts this program.
+// The usage lines show the command that the user types: `cargo xtask` starts this program.
 #[command(name = "hopper-measurements", bin_name = "cargo xtask", version, about)]
 struct Cli {
     #[command(subcommand)]
@@ -19,7 +19,7 @@ enum Command {
     CheckReference(commands::check_reference::Options),
     /// Measure time against error of every way to compute a hop
     WorkPrecision(commands::work_precision::Options),
-    /// Measure how fast hops and rasters are, each after its output was checked
+    /// Measure how fast hops and rasters are; the output of each is checked first
     Speed(commands::speed::Options),
     /// Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index
     ComparePeers(commands::compare_peers::Options),

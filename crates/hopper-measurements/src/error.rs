@@ -1,4 +1,4 @@
-//! The reasons why a measurement stops.
+//! Errors of a measurement.
 
 use thiserror::Error;
 
@@ -20,7 +20,7 @@ pub enum Error {
         "the reference values: {reason}; the files under crates/*/tests/data have been changed"
     )]
     Reference {
-        /// The defect.
+        /// The reason.
         reason: String,
     },
     /// A fate or a basin could not be computed.
@@ -38,21 +38,21 @@ pub enum Error {
     /// An execution of a hybrid system failed.
     #[error(transparent)]
     Execution(#[from] hybrid_system::Error),
-    /// A result could not be encoded, or has no place in its document.
+    /// A result could not be encoded, or its document has no place for it.
     #[error("cannot write {what}: {reason}")]
     Render {
         /// Name of the file.
         what: String,
-        /// The defect.
+        /// The reason.
         reason: String,
     },
     /// The software that is compared with could not be run.
     #[error("the peers cannot be compared with: {reason}")]
     Peers {
-        /// The failure.
+        /// The reason.
         reason: String,
     },
-    /// A comparison does not hold, or an option has no sense; the text says which.
+    /// A comparison does not hold, or an option makes no sense; the text states which.
     #[error("{0}")]
     CheckFailed(String),
 }

@@ -1,12 +1,12 @@
-//! Measurements of the hopper's computations: their error against reference values of 40 digits, their
-//! speed, and both beside other people's software.
+//! Measurements of the hopper's computations: their error against reference values of 40 digits, their speed, and both
+//! compared with other people's software.
 //!
 //! The program `hopper-measurements` runs the commands; `cargo xtask COMMAND` starts it.
 //!
 //! | module | question |
 //! |---|---|
 //! | [`commands`] | the commands, one file each |
-//! | `reference` | what does a line of a reference file ask and answer? |
+//! | `reference` | which question and which answer does a line of a reference file contain? |
 //! | `work_precision` | how much time and error does each way to compute a hop have? |
 //! | `speed` | how fast are hops and rasters, with their output checked first? |
 //! | `peers` | how do heyoka, SciPy and numba compare on the same hops? |

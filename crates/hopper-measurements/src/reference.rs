@@ -19,14 +19,14 @@ pub(crate) enum Line {
     ImmediateBasin { n: u64, mass_ratio: MassRatio, edge: Edge, delta: Option<f64> },
 }
 
-/// The edge of a trap, and how sure the reference is of it.
+/// The edge of a trap, and how certain the reference is of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Edge {
     /// On the contact part of the hump; proved.
     Contact,
     /// In the sudden window; found on scans.
     Sudden,
-    /// The region has no edge before the next fixed point.
+    /// The trap has no edge before the next fixed point.
     None,
     /// Not decided, because the needles are narrower than any scan.
     Unknown,
@@ -80,8 +80,8 @@ pub(crate) fn window_hops() -> Result<Vec<ReferenceHop>, Error> {
 /// All lines of a file, each with its number from one.
 ///
 /// # Errors
-/// [`Error::ReferenceLine`] for a line of no known kind; [`Error::NoReference`] if there is no line whose answer can
-/// be compared, so that no check passes on an empty file.
+/// [`Error::ReferenceLine`] for a line of no known kind; [`Error::NoReference`] if no line has an answer that can be
+/// compared. Therefore no check passes on an empty file.
 pub(crate) fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
     let rows = numbered_rows(path)?;
     let bad = |at: usize, reason| {
@@ -103,7 +103,7 @@ pub(crate) fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
 
 /// The question and the answer of one JSON object.
 pub(crate) fn line(value: &Value) -> Result<Line, String> {
-    // One of these fields is in every known kind.
+    // Every known kind has one of these fields.
     if ["alpha_star", "mu_c", "edge", "offset", "alpha"].iter().all(|key| value.get(key).is_none())
     {
         return Err(

@@ -3,11 +3,11 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// Repeats of which the median counts: three of them may be disturbed by other processes.
+/// Number of repeats; the median is used. Other processes may disturb three of them.
 const REPEATS: usize = 7;
 
-/// A repeat makes as many passes as take this long, at least one. A call to the clock takes tens of nanoseconds, too
-/// little to matter.
+/// The least duration of a repeat. A repeat has as many passes as needed for it, at least one. A call to the clock
+/// takes tens of nanoseconds, which is negligible.
 const LEAST: Duration = Duration::from_millis(4);
 
 /// The time of one call of `call`, over the inputs 0, …, `count` − 1.
@@ -15,15 +15,15 @@ pub(crate) fn median_time<T>(count: usize, call: impl Fn(usize) -> T) -> Duratio
     Duration::from_secs_f64(median_seconds(count, call))
 }
 
-/// The time of one call in seconds. A `Duration` would round it to nanoseconds, and a hop takes twenty.
+/// The time of one call in seconds. A `Duration` would round it to nanoseconds, and a hop takes only twenty.
 pub(crate) fn median_seconds<T>(count: usize, call: impl Fn(usize) -> T) -> f64 {
     let pass = || (0..count).for_each(|k| drop(black_box(call(black_box(k)))));
     let begin = Instant::now();
     pass();
     let once = begin.elapsed();
-    // 1e-9: a pass that the clock cannot resolve would divide by zero.
+    // 1e-9 avoids a division by zero if the clock cannot resolve a pass.
     let passes = (LEAST.as_secs_f64() / once.as_secs_f64().max(1e-9)).ceil().max(1.0) as u32;
-    // A pass of 0.2 s or more is long enough to be timed once; seven would take minutes over all methods.
+    // A pass of 0.2 s or more is timed only once: seven repeats would take minutes over all methods.
     let repeats = if once > 50 * LEAST { 1 } else { REPEATS };
     let mut times: Vec<Duration> = (0..repeats)
         .map(|_| {

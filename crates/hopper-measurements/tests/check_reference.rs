@@ -1,4 +1,4 @@
-//! `check-reference` as a program: a check that compares nothing, or allows everything, is an error.
+//! `check-reference` as a program: a check that compares no value, or allows every error, is an error.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
@@ -34,7 +34,7 @@ fn a_file_without_reference_values_is_an_error_that_names_it() {
         ("undecided", r#"{"n": 1, "mass_ratio": 1, "edge": "not decided", "delta_exact": null}"#),
     ] {
         let path = file(name, text);
-        // Beside a good file too, in both orders.
+        // The file is also tested beside a good file, in both orders.
         for files in [vec![&*path], vec![&*good, &*path], vec![&*path, &*good]] {
             let output = check(&[], &files);
             let error = errors(&output);

@@ -1,11 +1,11 @@
-//! Entries of a table chosen by name, as `--only` does.
+//! Entries of a table chosen by name, for `--only`.
 
 use crate::error::Error;
 
 /// The entries with these names, in the order of the names; all of them if none is named.
 ///
 /// # Errors
-/// [`Error::UnknownName`] with all names that exist; `kind` says what they name.
+/// [`Error::UnknownName`] with all names that exist; `kind` is the kind of the names.
 pub(crate) fn named<T: Copy>(
     kind: &'static str,
     all: &[(&'static str, T)],

@@ -6,7 +6,7 @@ use clap::{Parser, Subcommand};
 
 /// The paper recomputed: figures, claims, and results beyond it.
 #[derive(Debug, Parser)]
-// Usage lines name what one types: `cargo xtask` starts this program.
+// The usage lines show the command that the user types: `cargo xtask` starts this program.
 #[command(name = "hopper-paper", bin_name = "cargo xtask", version, about)]
 struct Cli {
     #[command(subcommand)]
@@ -17,13 +17,13 @@ struct Cli {
 enum Command {
     /// Compute every figure and number of the paper, check every claim, write a report
     ReproducePaper(commands::reproduce_paper::Options),
-    /// Check the invariance under M → 1/M alone, with its figure
+    /// Check only the invariance under M → 1/M, with its figure
     VerifyInvariance(commands::verify_invariance::Options),
-    /// Compute the basins over any window, in tiles that survive a kill
+    /// Compute the basins over any window, in tiles; a killed run can be continued
     BasinRaster(commands::basin_raster::Options),
-    /// Compute what the paper could not say of the basins, with a report
+    /// Compute results about the basins that the paper does not have, with a report
     BeyondPaper(commands::beyond_paper::Options),
-    /// Draw what the generic crates do: how guards are met, and a valve's bifurcations
+    /// Draw figures of the generic crates: how guards are met, and a valve's bifurcations
     ModelFigures(commands::model_figures::Options),
 }
 

@@ -1,4 +1,4 @@
-//! The reasons why a command stops.
+//! Errors of the commands.
 
 use std::path::PathBuf;
 use thiserror::Error;
@@ -29,15 +29,15 @@ pub enum Error {
         "the reference values: {reason}; the files under crates/*/tests/data have been changed"
     )]
     Reference {
-        /// The defect.
+        /// The reason.
         reason: String,
     },
     /// A name that does not exist.
     #[error("there is no {kind} '{name}'; there are: {known}")]
     UnknownName {
-        /// The kind of thing that the name was taken for.
+        /// The kind of the name.
         kind: &'static str,
-        /// The name given.
+        /// The given name.
         name: String,
         /// The names that exist.
         known: String,
@@ -65,10 +65,10 @@ pub enum Error {
     Render {
         /// Name of the file.
         what: String,
-        /// Message of the library that refused.
+        /// The message of the library.
         reason: String,
     },
-    /// A claim or a comparison does not hold, or an option has no sense; the text says which.
+    /// A claim or a comparison does not hold, or an option makes no sense; the text states which.
     #[error("{0}")]
     CheckFailed(String),
 }

@@ -2,16 +2,16 @@
 
 use journal_figures::{DataFile, Svg};
 
-/// A figure with everything the report says of it.
+/// A figure with all its texts for the report.
 #[derive(Debug, Clone)]
 pub struct Figure {
     /// File name without its ending.
     pub name: &'static str,
-    /// The title of the figure, as markup.
+    /// The content of the figure, as markup.
     pub title: String,
-    /// The statement of the paper about it, in our words.
+    /// The paper's statement about it, in our words.
     pub paper: String,
-    /// The choices made where the paper's details are lost, and the content of the figure.
+    /// The choices where details of the paper are lost, and remarks on the figure.
     pub notes: String,
     /// The drawing.
     pub svg: Svg,

@@ -1,11 +1,11 @@
-//! Long computations whose finished rows are kept on disk.
+//! Long computations whose finished rows are stored on disk.
 
 use crate::error::Error;
 use repository_tools::Progress;
 use resumable_job::{Lock, Pieces, program_digest};
 use std::path::{Path, PathBuf};
 
-/// A run, and the folder that keeps the finished rows of its scans until all its results are written.
+/// A run, and the folder that stores the finished rows of its scans until all its results are written.
 #[derive(Debug)]
 pub struct Job {
     scans: PathBuf,
@@ -14,8 +14,8 @@ pub struct Job {
 }
 
 impl Job {
-    /// A run that keeps its scans in a folder beside its results, which exists. Each build of the program has a
-    /// folder of its own. While the run lasts, another one with the same results folder is an error.
+    /// A run that stores its scans in a folder beside its results, which exists. Each build of the program has its own
+    /// folder. While the run lasts, another run with the same results folder is an error.
     pub fn new(results: &Path) -> Result<Self, Error> {
         let lock = Lock::take(results, "scans")?;
         Ok(Job { scans: results.join("scans").join(program_digest()?), lock })
@@ -50,7 +50,7 @@ impl Job {
         Ok(rows)
     }
 
-    /// Removes the finished rows. To be called when all results are written.
+    /// Removes the finished rows. Call it when all results are written.
     pub fn done(self) -> Result<(), Error> {
         self.lock.confirm()?;
         match std::fs::remove_dir_all(&self.scans) {
@@ -59,7 +59,7 @@ impl Job {
             }
             _ => {}
         }
-        // The folder of another build may stand beside: then the parent is not empty and stays.
+        // The folder of another build may be there too. Then the parent folder is not empty and stays.
         let _ = self.scans.parent().map(std::fs::remove_dir);
         Ok(())
     }

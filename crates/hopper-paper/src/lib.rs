@@ -10,7 +10,7 @@
 //! | [`models`] | figures of the generic crates |
 //! | [`report`] | `report.html` |
 //! | [`commands`] | the commands, one file each |
-//! | [`job`] | finished pieces of long computations, kept on disk |
+//! | [`job`] | finished pieces of long computations, stored on disk |
 
 pub mod beyond;
 mod choice;
@@ -28,8 +28,8 @@ pub mod report;
 pub use error::Error;
 pub use figure::Figure;
 
-/// Where everything of the paper is: equations, figures and numbers, with functions, tests and
-/// figure files. Compiled, so that a rename breaks the build of the docs.
+/// The place of every part of the paper in this repository: equations, figures and numbers, with functions, tests and
+/// figure files. The page is compiled, so that a rename breaks the build of the documentation.
 #[doc = include_str!("../../../docs/paper-map.md")]
 pub mod paper_map {}
 

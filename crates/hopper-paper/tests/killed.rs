@@ -36,8 +36,8 @@ fn a_killed_and_restarted_run_gives_the_same_bytes() {
     let begin = Instant::now();
     assert!(raster(&whole, "1").status().unwrap().success());
     let longest = begin.elapsed();
-    // Each run is killed after a pseudo-random part of that time, until one ends before. The multiplier and the
-    // increment are those of Knuth's linear congruential generator.
+    // Each run is killed after a pseudo-random part of that time, until one run ends before it is killed. The
+    // multiplier and the increment are those of Knuth's linear congruential generator.
     let (mut state, mut kept, mut removing) = (1u64, Vec::new(), 0);
     for round in 0..100 {
         let threads = if round % 2 == 0 { "1" } else { "3" };
@@ -45,7 +45,7 @@ fn a_killed_and_restarted_run_gives_the_same_bytes() {
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let share = (state >> 40) as f64 / (1u64 << 24) as f64;
-        // The first six runs are killed early, so that several are needed.
+        // The first six runs are killed early, so that several runs are needed.
         std::thread::sleep(longest.mul_f64(if round < 6 {
             0.05 + 0.25 * share
         } else {
@@ -57,18 +57,18 @@ fn a_killed_and_restarted_run_gives_the_same_bytes() {
         }
         child.kill().unwrap();
         child.wait().unwrap();
-        // The legend is the last result. A run that is killed later is removing its tiles.
+        // The legend is the last result. A run that is killed after it is removing its tiles.
         if broken.join("legend.json").exists() {
             removing += 1;
         } else {
             kept.push(tiles(&broken));
         }
     }
-    // No run came to its end: one more, undisturbed.
+    // If no run reached its end, one more run is not disturbed.
     if broken.join("tiles").exists() {
         assert!(raster(&broken, "2").status().unwrap().success());
     }
-    // At least two killed runs left finished tiles, and no later run lost any.
+    // At least two killed runs left finished tiles, and no later run lost a tile.
     let partly = kept.iter().filter(|&&tiles| tiles > 0).count();
     assert!(partly > 1, "tiles after each kill: {kept:?}, {removing} while removing");
     assert!(kept.windows(2).all(|pair| pair[0] <= pair[1]), "{kept:?}");

@@ -1,5 +1,5 @@
-//! Two runs of `basin-raster` with one folder: one of them works, the other says so, and the result has the bytes of
-//! an undisturbed run, whichever is stopped or killed.
+//! Two runs of `basin-raster` with one folder: one of them works, and the other one returns an error. The result has
+//! the bytes of an undisturbed run, even if either run is stopped or killed.
 
 #![cfg(unix)]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-/// No wait of a test lasts longer, however slow the machine is.
+/// No wait of a test is longer, even on a slow machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// An empty folder, removed when the test passes.
@@ -91,7 +91,8 @@ fn of_two_runs_at_once_one_wins_and_the_other_names_it() {
         let runs = [(); 4].map(|()| raster(&folder.0).spawn().unwrap());
         let ids = runs.each_ref().map(Child::id);
         let outputs = runs.map(|run| run.wait_with_output().unwrap());
-        // A run that starts after the end of another one is no second run: it computes the result again.
+        // A run that starts after the end of another run is not a second run at the same time: it computes the result
+        // again.
         let winners: Vec<u32> = ids
             .iter()
             .zip(&outputs)
@@ -117,9 +118,9 @@ fn a_stopped_run_keeps_its_folder_and_ends_well() {
     signal(&first, "-STOP");
     let before = folder.names();
     assert_is_refused(&raster(&folder.0).output().unwrap(), &folder.0, first.id());
-    // The refused run left no file and took none.
+    // The refused run left no file and removed none.
     assert_eq!(folder.names(), before);
-    // A second run that is killed at any time does as little harm.
+    // A second run that is killed at any time also does no harm.
     for milliseconds in [0, 1, 2, 5, 10, 20] {
         let mut second = raster(&folder.0).spawn().unwrap();
         std::thread::sleep(Duration::from_millis(milliseconds));
@@ -205,7 +206,7 @@ fn pairs_that_are_killed_at_random_never_leave_a_wrong_result() {
     let longest = begin.elapsed();
     let mut state = 7u64;
     let mut share = || {
-        // Knuth's linear congruential generator; the high bits are the random ones.
+        // Knuth's linear congruential generator; only its high bits are random.
         state =
             state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (state >> 40) as f64 / (1u64 << 24) as f64
@@ -228,7 +229,7 @@ fn pairs_that_are_killed_at_random_never_leave_a_wrong_result() {
                 other => assert_eq!(other, None, "{text}"), // killed
             }
         }
-        // An array under its name is complete, whatever became of the runs.
+        // An array under its name is complete, however the runs ended.
         if let Ok(array) = std::fs::read(folder.0.join("basin.npy")) {
             assert!(array == whole[0]);
         }

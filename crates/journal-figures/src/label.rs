@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 /// Size of scripts, in units of the font size, as TeX has 7-point scripts for 10-point text.
 const SCRIPT: f64 = 0.7;
-/// Distance by which subscripts are lowered, in units of the font size. TeX has 0.247 beneath a superscript; one value
-/// for all subscripts keeps those of a label on one line.
+/// Distance by which subscripts are lowered, in units of the font size. TeX has 0.247 beneath a superscript. With one
+/// value for all subscripts those of a label are on one line.
 const DOWN: f64 = 0.25;
 /// Distance by which superscripts are raised, in units of the font size. TeX has 0.413.
 const UP: f64 = 0.4;

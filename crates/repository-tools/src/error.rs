@@ -25,7 +25,7 @@ pub enum Error {
         /// The reason.
         reason: String,
     },
-    /// A file without a reference value, or without one that can be compared.
+    /// A file without reference values, or without values that can be compared.
     #[error("{path}: this file holds no reference value; a check of it would check nothing")]
     NoReference {
         /// The file.

@@ -1,8 +1,9 @@
 //! Files that appear under their name complete or not at all.
 //!
-//! The bytes go to a temporary file beside the final one, are flushed to the disk, and the temporary file is renamed.
-//! The temporary name holds the number of the process and a counter, and is created anew each time, so no two
-//! writers ever share it. The writer locks its temporary file: a temporary file without a lock has lost its writer.
+//! The bytes go to a temporary file beside the final one. They are flushed to the disk, and the temporary file is
+//! renamed. The temporary name contains the number of the process and a counter, and is created new each time.
+//! Therefore no two writers share it. The writer locks its temporary file: a temporary file without a lock belongs to a
+//! writer that has ended.
 
 use crate::error::Error;
 use crate::open_file::is_named;
@@ -53,7 +54,7 @@ impl AtomicFile {
                 Ok(()) => is_named(&file, &temporary).map_err(Error::at(&temporary))?,
                 // `remove_leftovers` of another process found the file before it was locked, and removes it.
                 Err(TryLockError::WouldBlock) => false,
-                // Without locks on this file system, `remove_leftovers` removes nothing either.
+                // Without locks on this file system, `remove_leftovers` removes no file either.
                 Err(TryLockError::Error(_)) => true,
             };
             if ours {

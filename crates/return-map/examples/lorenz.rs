@@ -1,5 +1,5 @@
 //! The Lorenz system and its Poincaré section z = 27, crossed downwards. A plain flow is a hybrid system with one
-//! guard, whose reset changes nothing.
+//! guard, whose reset does not change the state.
 //!
 //! The flow is symmetric under (x, y, z) → (−x, −y, z). The shortest periodic orbit returns to the section after
 //! half of its period, with the signs of x and y changed. Newton's method finds it with its multipliers.

@@ -59,7 +59,7 @@
 //! system. [`fixed_points`] finds only fixed points that its samples reveal.
 //!
 //! # Poincaré sections of plain flows
-//! A plain flow is a hybrid system with one mode, and a guard whose reset changes nothing. The example `lorenz`
+//! A plain flow is a hybrid system with one mode, and a guard whose reset keeps the state. The example `lorenz`
 //! shows it for the Lorenz system, with the derivative.
 //!
 //! # Not here

@@ -1,9 +1,9 @@
-//! Which crates may print, read files or look at clocks.
+//! Which crates may print, read files or use clocks.
 
 use super::breach::Breach;
 use CrateClass::{Computing, Files, Program, TestSupport};
 
-/// The things that a crate may do besides computing.
+/// The actions that a crate may take besides computing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CrateClass {
     /// Nothing else: the same input gives the same result, on any machine and in a browser.
@@ -12,7 +12,7 @@ pub(super) enum CrateClass {
     TestSupport,
     /// Read and write files, without printing: its callers decide what a user sees.
     Files,
-    /// Print, read, write, look at clocks and start processes.
+    /// Print, read, write, use clocks and start processes.
     Program,
 }
 

@@ -1,4 +1,4 @@
-//! Inside a crate nothing is imported through `lib.rs`.
+//! Inside a crate no name is imported through `lib.rs`.
 //!
 //! `lib.rs` collects names for users of the crate. If a file of the crate imports from there, its dependencies, and
 //! with them the layers, are hidden.

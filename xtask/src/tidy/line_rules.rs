@@ -59,7 +59,7 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
             breach(at, "unfinished: finish it, or file an issue");
         }
     }
-    // Tests may do what the code of a library may not.
+    // Tests may contain code that a library may not contain.
     let Some(class) = class.filter(|_| source.in_src().is_some()) else { return };
     for (at, line) in source.lines_before_tests() {
         let code = line.trim_start();

@@ -2,7 +2,7 @@
 //!
 //! | rule | file |
 //! |---|---|
-//! | which crates may print, read files or look at clocks | `crate_classes.rs` |
+//! | which crates may print, read files or use clocks | `crate_classes.rs` |
 //! | code that a line may not contain | `line_rules.rs` |
 //! | the workspace lists its members | `workspace_members.rs` |
 //! | no import cycles between files | `import_cycles.rs` |

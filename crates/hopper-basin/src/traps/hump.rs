@@ -24,7 +24,7 @@ use std::sync::OnceLock;
 /// The index of the last hump that lies below the largest lift-off speed.
 pub(crate) const LARGEST_HUMP: u64 = (LARGEST_LIFT_OFF_SPEED / PI) as u64 - 1;
 
-/// Steps of Newton's method before a bracketed search takes over.
+/// Steps of Newton's method before the search in brackets is used instead.
 ///
 /// The starts below have a digit or more, so that some five steps suffice. Next to a double root (μ just above
 /// μ_c or 1/(4 max W)) convergence is slow: there the search takes over, which is slower and always succeeds.

@@ -29,8 +29,8 @@ pub struct Options {
 /// the value would pass, and the check would check no digit.
 const LARGEST_UNITS_PER_FLIGHT: f64 = 1e15;
 
-/// Copies of a hop that are computed together. `LiftOffMap::images` computes fewer than 16 one by one; with more it
-/// takes its vector loops, which are compared here with the loop for one hop.
+/// Number of copies of a hop that are computed together. `LiftOffMap::images` computes fewer than 16 one by one. With
+/// more it uses its vector loops, which are compared here with the loop for one hop.
 const AT_ONCE: usize = 24;
 
 /// Reads the value of `--limit`.
@@ -41,11 +41,11 @@ fn limit(text: &str) -> Result<f64, String> {
         .ok_or_else(|| format!("K must be a number with 0 < K ≤ {LARGEST_UNITS_PER_FLIGHT:e}"))
 }
 
-/// The tally of a class.
+/// The counts of a class.
 #[derive(Default)]
 struct Tally {
     lines: usize,
-    /// Lines whose reference is itself not decided: there was nothing to compare with.
+    /// Number of lines with an undecided reference, which cannot be compared.
     skipped: usize,
     /// Lines whose allowed error is as large as the value: a verdict was compared, and no digit.
     verdicts: usize,
@@ -58,7 +58,7 @@ struct Tally {
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
-    // A line that cannot be read is found before the computation starts.
+    // All lines are read before the computation starts, so that a malformed line is reported at once.
     let mut parsed = Vec::new();
     for path in &options.files {
         parsed.push((path, parse(path)?));
@@ -85,7 +85,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
                 write!(out, "worst K = {:.2} ({}), ", tally.worst, tally.worst_place)
                     .map_err(write)?;
             }
-            write!(out, "{} over the limit, {} wrong verdicts", tally.over, tally.wrong)
+            write!(out, "{} over the limit, {} wrong decisions", tally.over, tally.wrong)
                 .map_err(write)?;
             if tally.wrong > 0 {
                 write!(out, " (first: {})", tally.first_wrong).map_err(write)?;
@@ -101,7 +101,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
     if over + wrong > 0 {
         return Err(Error::CheckFailed(format!(
-            "{over} errors over K = {} (1 + sudden), {wrong} wrong verdicts",
+            "{over} errors over K = {} (1 + sudden), {wrong} wrong decisions",
             options.limit
         )));
     }
@@ -153,8 +153,8 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                 let tally = tallies.entry("crises".into()).or_default();
                 match crisis(*n) {
                     Err(error) => tally.is_wrong(*at, &error.to_string()),
-                    // The map has a minimum at this α. An error of one ulp in the value of the map moves the
-                    // minimum by √ulp ≈ 10⁻⁸, which is 10⁸ ulps.
+                    // The map has a minimum at this α. An error of one ulp in the value of the map moves the minimum by
+                    // √ulp ≈ 10⁻⁸, which is 10⁸ ulps.
                     Ok(found) => {
                         for (what, found, exact, ulps) in [
                             ("μ", found.mu, *mu, 2.0),
@@ -193,8 +193,8 @@ fn judge_immediate_basin(
     (edge, delta): (Edge, Option<f64>),
     limit: f64,
 ) {
-    // Spacing of the scan for needles in a sudden window. The reference does not state its own. Needles narrower
-    // than this are not seen; a smaller spacing costs time in proportion.
+    // Spacing of the scan for needles in a sudden window. The reference does not state its own spacing. Needles
+    // narrower than this are missed; the time is inversely proportional to the spacing.
     const WIDTH: f64 = 1e-3;
     let found =
         match Fates::new(mass_ratio).and_then(|fates| immediate_basin(fates.map(), n, WIDTH)) {
@@ -215,7 +215,7 @@ fn judge_immediate_basin(
     }
     let place = format!("n = {n}, M = {}", mass_ratio.value());
     match delta.filter(|_| edge != Edge::Unknown) {
-        // M is read from a decimal number: its rounding by half an ulp shifts Δ too.
+        // M is read from a decimal number: its rounding by half an ulp also shifts Δ.
         Some(exact) => {
             let unit = 0.25 * found.error + f64::EPSILON * exact;
             tally.value(at, &place, found.delta, exact, unit, limit);
@@ -274,7 +274,7 @@ struct Judgement {
 }
 
 impl Tally {
-    /// Judges a number that comes without a count of sudden lift-offs.
+    /// Compares a number that has no count of sudden lift-offs.
     fn value(&mut self, at: usize, place: &str, found: f64, exact: f64, unit: f64, limit: f64) {
         self.lines += 1;
         let judgement = Judgement { found: (0, Some(found)), exact: (0, Some(exact)), unit };
@@ -314,7 +314,7 @@ mod tests {
     use crate::reference::line;
 
     #[test]
-    fn a_wrong_value_and_a_wrong_verdict_are_counted() {
+    fn a_wrong_value_and_a_wrong_decision_are_counted() {
         let good = r#"{"class": "c", "mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "35.997158341573688180303069833057"}"#;
         let off = good.replace("35.9971583415", "35.9971583416");
         let verdict_line = good.replace("\"sudden\": 0", "\"sudden\": 1");

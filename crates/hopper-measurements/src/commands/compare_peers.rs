@@ -17,7 +17,7 @@ pub struct Options {
     /// Folder for the environment and the results [default: target/peers in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Renew the table and the figure of docs/performance.md with what is measured
+    /// Renew the table and the figure of docs/performance.md with the measured values
     #[arg(long)]
     bless: bool,
 }

@@ -14,7 +14,7 @@ pub struct Options {
     /// Folder for the results [default: target/work-precision in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Renew the tables, the CSV file and the figure of docs/accuracy.md from this run
+    /// Renew the tables and the figure of docs/accuracy.md with the measured values
     #[arg(long)]
     bless: bool,
 }
@@ -24,7 +24,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "work-precision")?;
     let before = sin_cos_time();
     let scores = measure(&Progress)?;
-    // A processor runs slower just after it was idle: the smaller of two times counts.
+    // A processor is slower just after an idle time. Therefore the smaller of two times is used.
     let unit = before.min(sin_cos_time());
     let scenes = scenes(&scores)?;
     let svg = work_precision_figure(&scores, unit);

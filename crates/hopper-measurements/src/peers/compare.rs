@@ -76,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_and_wrong_verdicts_are_told_apart() {
+    fn errors_and_wrong_decisions_are_counted_separately() {
         let hops = window_hops().unwrap();
         let mut next: Vec<_> = hops.iter().map(|hop| hop.next).collect();
         let grounded = hops.iter().position(|hop| hop.next.is_none()).unwrap();

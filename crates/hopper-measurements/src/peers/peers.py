@@ -103,7 +103,7 @@ def heyoka_batch():
     job = {}
 
     def landed(integrator, _, lane):
-        """Books the landing; the lane goes on with the next flight, or the next hop."""
+        """Records the landing; the lane continues with the next flight, or the next hop."""
         if job["hop"][lane] is None:
             return True
         number, ratio, alpha = job["hop"][lane]
@@ -152,8 +152,8 @@ def heyoka_batch():
 
 
 def heyoka_flights():
-    """The first flight of every hop alone, each lane to the end of its bracket: no Python but a note of the
-    landing's time."""
+    """Only the first flight of every hop, each lane to the end of its bracket. Python only records the time of the
+    landing."""
     flow, height = equations()
     lanes = heyoka.recommended_simd_size()
     found = []
@@ -188,7 +188,7 @@ def numba_hop(ratio, alpha):
     kappa = ratio / (1.0 + ratio)
     while True:
         y = 1.0 + x
-        # Scan for the change of sign, then halve.
+        # Scan for the change of sign, then bisect.
         step = 0.05
         left = 0.1 if x <= 0.0 else 1e-6
         right = left + step

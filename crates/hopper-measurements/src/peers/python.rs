@@ -1,4 +1,4 @@
-//! A Python interpreter with the compared packages, in a virtual environment of its own.
+//! A Python interpreter with the compared packages, in a separate virtual environment.
 
 use crate::error::Error;
 use std::io::Write;
@@ -15,8 +15,8 @@ pub(crate) struct Python(PathBuf);
 impl Python {
     /// The environment in `folder`.
     ///
-    /// The interpreter `python` makes it, unless an earlier run has made it with the same packages: a note in the
-    /// environment names the packages and is written last, so that a broken installation has none.
+    /// The interpreter `python` makes the environment, unless an earlier run has made it with the same packages. A note
+    /// in the environment lists the packages. The note is written last, so that a broken installation has none.
     pub(crate) fn with_packages(python: &str, folder: &Path) -> Result<Self, Error> {
         let environment = folder.join("venv");
         let inside =
@@ -26,7 +26,7 @@ impl Python {
         if std::fs::read_to_string(&note).is_ok_and(|text| text == wanted) {
             return Ok(Python(inside));
         }
-        // The packages are about 700 MB; without this line the program would be silent for minutes.
+        // The packages are about 700 MB. Without this line the program would be silent for minutes.
         let _ = writeln!(std::io::stderr(), "installing {wanted} in {}", environment.display());
         let make = ["-m", "venv", "--clear", &environment.to_string_lossy()].map(str::to_owned);
         call(
@@ -65,7 +65,7 @@ fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
     let silent = output.stderr.trim_ascii().is_empty();
     let complaint = if silent { &output.stdout } else { &output.stderr };
     let complaint = String::from_utf8_lossy(complaint.trim_ascii());
-    // The cause comes last; three lines hold it without filling the screen.
+    // The cause comes last: three lines contain it without filling the screen.
     let last: Vec<_> = complaint.lines().rev().take(3).collect();
     let last = last.into_iter().rev().collect::<Vec<_>>().join(" / ");
     Err(reason(format!("{}: {}, {last}", program.display(), output.status)))

@@ -8,7 +8,7 @@ use hopper_reference::UNITS_PER_FLIGHT;
 use passive_hopper::{LiftOffMap, MassRatio};
 
 /// Numbers of mass ratios and of speeds for each in the timed set: 65 536 different hops, too many for a branch
-/// predictor to learn by heart.
+/// predictor to learn.
 const MAPS: usize = 64;
 const SPEEDS: usize = 1024;
 
@@ -29,7 +29,7 @@ fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
         .collect()
 }
 
-/// Compares single hops with the reference, and hops in one call with single ones.
+/// Compares single hops with the reference, and hops in one call with single hops.
 pub(super) fn check() -> Result<String, Error> {
     let hops = window_hops()?;
     for hop in &hops {
@@ -95,7 +95,7 @@ fn wrong(hop: &ReferenceHop, found: &impl std::fmt::Debug) -> Error {
 /// Seconds for a hop by `LiftOffMap::image`.
 pub(super) fn scalar_time() -> f64 {
     let maps = window_maps();
-    // Neighbouring calls have different M and α, so that a branch predictor cannot use the call before.
+    // Neighbouring calls have different M and α, so that a branch predictor cannot use the previous call.
     median_seconds(MAPS * SPEEDS, |k| {
         let (map, speeds) = &maps[k % MAPS];
         map.image(speeds[k / MAPS])

@@ -14,11 +14,11 @@ pub(crate) struct Measured {
     pub(crate) name: &'static str,
     pub(crate) value: f64,
     pub(crate) unit: &'static str,
-    /// The reference that its output was compared with.
+    /// The reference with which its output was compared.
     pub(crate) checked: String,
 }
 
-/// Repeats of a raster, of which the median counts. A raster takes some 60 ms, so that fifteen take a second; the
+/// Number of repeats of a raster; the median is used. A raster takes some 60 ms, so that fifteen take a second. The
 /// median then ignores up to seven repeats that another process disturbed.
 const REPEATS: usize = 15;
 
@@ -27,8 +27,8 @@ pub(crate) fn measure(progress: &Progress) -> Result<Vec<Measured>, Error> {
     let bar = progress.bar("speed", 4);
     let (checked, landings) = (hops::check()?, hops::check_landings()?);
     bar.set(1);
-    // A processor runs slower just after it was idle. The unit is therefore measured before and after the hops, and
-    // the smaller time counts.
+    // A processor is slower just after an idle time. The unit is therefore measured before and after the hops, and the
+    // smaller time is used.
     let before = sin_cos_seconds();
     let (scalar, bulk, landing) = (hops::scalar_time(), hops::bulk_time(), hops::landing_time());
     let unit = before.min(sin_cos_seconds());

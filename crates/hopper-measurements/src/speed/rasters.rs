@@ -10,7 +10,7 @@ use repository_tools::Bar;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-/// Pixels along each side: a megapixel, the size that the documents speak of.
+/// Pixels along each side: a megapixel, the size in the documents.
 const SIDE: usize = 1024;
 
 /// The window of Fig. 6 from M = 0.1 on, or the window of Fig. 9.

@@ -6,7 +6,7 @@ use crate::reference::{Line, parse};
 use passive_hopper::alpha_star;
 use repository_tools::repository;
 
-/// Where the files of hops lie in the repository.
+/// The folder with the files of hops in the repository.
 const HOPS: &str = "crates/passive-hopper/tests/data";
 
 /// Inputs of one kind.
@@ -36,7 +36,7 @@ pub(super) fn classes() -> Result<Vec<Class>, Error> {
 
 fn case(line: Line) -> Option<(String, Quantity, Case)> {
     match line {
-        // Here α′ rounds to α, and every method would look exact. The losses of the same hops are compared instead.
+        // Here α′ rounds to α, and every method would seem exact. The losses of the same hops are compared instead.
         Line::Hop(hop) if hop.class == "tiny_alpha" => None,
         Line::Hop(hop) => {
             let case = Case::of(&hop);

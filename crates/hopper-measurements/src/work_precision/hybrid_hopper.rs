@@ -8,11 +8,11 @@ use return_map::{Error, ReturnMap, Section};
 
 /// Interval at which the search samples a guard.
 ///
-/// Fifty samples a radian of the spring's motion. A smaller interval costs time in proportion; a larger one steps over
-/// a guard that is negative for less than it.
+/// The value gives fifty samples a radian of the spring's motion. A smaller interval takes more time in proportion.
+/// With a larger one a guard that is negative for a shorter time is missed.
 const INTERVAL: f64 = 0.02;
 
-/// A search over more samples is refused, so that the largest α do not hold up all others.
+/// A search over more samples is refused, so that the largest α do not delay all others.
 const MOST_SAMPLES: f64 = 1e5;
 
 /// Largest number of events in a hop; past it the hop is refused. The reference hops have up to 7831.
@@ -41,9 +41,9 @@ pub(super) fn exact_landings(case: &Case) -> Option<Answer> {
 
 /// The hop by sampled guards along the flows.
 pub(super) fn searched_landings(case: &Case) -> Option<Answer> {
-    // A flight from α takes about 2α; ten times α + 10 holds all but the longest chains of sudden lift-offs. The
-    // contact phase has the period 2π/√κ. The search has no theory that excludes a later lift-off: one that has
-    // not come by then counts as grounded.
+    // A flight from α takes about 2α; ten times α + 10 is enough for all but the longest chains of sudden lift-offs.
+    // The contact phase has the period 2π/√κ. The search has no theory that excludes a later lift-off: a hopper without
+    // a lift-off until then counts as grounded.
     let contact = std::f64::consts::TAU / case.mass_ratio.kappa().sqrt();
     let horizon = 10.0 * (case.alpha + 10.0) + contact;
     if horizon > MOST_SAMPLES * INTERVAL {
@@ -59,7 +59,8 @@ where
 {
     let returns = ReturnMap::new(hopper, &GradualLiftOff, limits);
     match returns.next(&SVector::<f64, 1>::new(case.alpha)) {
-        // The events are the landings and the gradual lift-off. All landings but the last are sudden lift-offs.
+        // The events are the landings and the gradual lift-off. Each landing except the last is followed by a sudden
+        // lift-off.
         Ok(back) => Some(Answer {
             next: Some(back.coordinates[0]),
             sudden: back.events.checked_sub(2),

@@ -23,9 +23,9 @@ pub(crate) enum Method {
     Asymptotics,
     /// `printed_image`: the equations as the paper prints them.
     Printed,
-    /// The hybrid system, whose landings the model solves.
+    /// The hybrid system, with landings that the model solves for.
     HybridExact,
-    /// The hybrid system, whose landings and lift-offs are searched for by sampling the guards.
+    /// The hybrid system, with landings and lift-offs found by sampling the guards.
     HybridSearched,
     /// The differential equations, integrated at a tolerance of 10^−k.
     Integrated(u8),
@@ -67,7 +67,7 @@ impl Method {
         }
     }
 
-    /// The hop; `None` where the method refuses the input.
+    /// The hop; `None` if the method refuses the input.
     pub(crate) fn hop(self, case: &Case) -> Option<Answer> {
         let map = LiftOffMap::new(case.mass_ratio);
         match self {
@@ -77,7 +77,7 @@ impl Method {
                 Some(Answer { next, loss, offset: None, sudden })
             }
             Method::AtOnce => {
-                // From 16 hops on the map computes them together; 32 fill whole vectors on any processor.
+                // From 16 hops on the map computes hops together; 32 fill whole vectors on any processor.
                 let mut hops = [(&map, Some(case.alpha)); 32];
                 LiftOffMap::images_of_pairs(&mut hops).ok()?;
                 Some(Answer { next: hops[0].1, ..Answer::default() })
@@ -117,8 +117,8 @@ impl Method {
 
     /// A bound on the relative error for a hop without a sudden lift-off and far from every fixed point.
     ///
-    /// Chosen by measurement on the hop of the test that uses it. An integration may err by a hundred times its
-    /// tolerance, which holds for one step.
+    /// The values were chosen by measurement on the hop of the test that uses them. An integration may have an error of
+    /// a hundred times its tolerance, because the tolerance is for one step.
     #[cfg(test)]
     pub(crate) fn expected_error(self) -> f64 {
         match self {
@@ -138,7 +138,7 @@ fn asymptotics(case: &Case) -> Option<Answer> {
         return Some(Answer { next: Some(alpha - loss), loss: Some(loss), ..Answer::default() });
     }
     let (n, delta) = case.local?;
-    // Outside the ranges the method refuses before it computes any coefficient, so that refusing takes no time.
+    // Outside the ranges the method refuses before it computes any coefficient, so that a refusal takes no time.
     if !(-LEFT_RANGE..=RIGHT_RANGE).contains(&delta) {
         return None;
     }

@@ -1,4 +1,4 @@
-//! The hopper by an integrator that knows the equations of motion, the guards and the resets only.
+//! The hopper by an integrator that uses only the equations of motion, the guards and the resets.
 
 use super::case::{Answer, Case};
 use hybrid_system::{Integration, State, Tolerances, bracketed_root};
@@ -6,12 +6,12 @@ use nalgebra::{Vector2, Vector4};
 
 /// Points inside a step at which a guard is evaluated.
 ///
-/// A step is about one radian. Eight points see every dip of a guard that is longer than an eighth of that; a
-/// shorter one is missed, and the hop counts as wrong.
+/// A step is about one radian. With eight points every dip of a guard that is longer than an eighth of a step is found.
+/// A shorter dip is missed, and the hop counts as wrong.
 const LOOKS: u32 = 8;
 
-/// Largest numbers of steps in a phase and of flights in a hop. Beyond them the method refuses: a single hop would
-/// take seconds.
+/// Largest numbers of steps in a phase and of flights in a hop. Beyond them the method refuses the input: a single hop
+/// would take seconds.
 const STEPS: usize = 20_000;
 const FLIGHTS: usize = 100;
 
@@ -63,13 +63,13 @@ where
                 _ => {}
             }
         }
-        // An interpolant holds on its own step only: the next bracket starts where the next step does.
+        // An interpolant is valid on its own step only: the next bracket starts where the next step starts.
         last_positive = last_positive.map(|_| to);
     }
 }
 
-/// The speed at which the upper mass rises through 1. The inner `None` is a grounded hopper: the mass turns before 1.
-/// The outer `None` is a failed step.
+/// The speed at which the upper mass rises through 1. The inner `None` is a grounded hopper: the mass turns before it
+/// reaches 1. The outer `None` is a failed step.
 fn lift_off<F>(mut motion: Integration<F, 2>) -> Option<Option<f64>>
 where
     F: Fn(f64, &State<2>) -> State<2>,
@@ -86,7 +86,7 @@ where
                 return root(&mut motion, (before, time), |x| x[0] - 1.0).map(|x| Some(x[1]));
             }
             if last.1[1] > 0.0 && state[1] <= 0.0 {
-                // The mass turns between two points and is below 1 at both. Its peak may lie above 1: without this
+                // The mass turns between two points and is below 1 at both. Its peak may lie above 1. Without this
                 // branch a hop of tiny α′ would count as grounded.
                 let peak = time_of(&mut motion, (before, time), |x| x[1])?;
                 if motion.at(peak).ok()?[0] < 1.0 {

@@ -28,7 +28,7 @@ pub(crate) struct Scene {
     pub(crate) error: String,
 }
 
-/// All scenes. Those about single hops take their numbers from the scores.
+/// All scenes. The scenes about single hops take their numbers from the scores.
 pub(crate) fn scenes(scores: &[Score]) -> Result<Vec<Scene>, Error> {
     Ok([
         single_hops(scores),
@@ -254,7 +254,8 @@ fn fate() -> Result<Scene, Error> {
 }
 
 fn raster() -> Result<Scene, Error> {
-    /// Pixels along each side: enough for the cost a pixel of a picture, while a raster stays at some milliseconds.
+    /// Pixels along each side. The number is large enough for the typical cost of a pixel, and a raster takes only some
+    /// milliseconds.
     const SIDE: usize = 256;
     let grid = Grid { x: Interval::new(0.1, 1.0)?, y: first_humps(5), columns: SIDE, rows: SIDE };
     let image = || basin_raster(grid, |_| ControlFlow::Continue(()));

@@ -16,8 +16,7 @@ pub(crate) struct Score {
     pub(crate) cases: usize,
     /// Inputs that the method refused, by an error or because they lie outside its range.
     pub(crate) refused: usize,
-    /// Results with a wrong number of sudden lift-offs, and results that are grounded where the exact one is not,
-    /// or the reverse.
+    /// Results with a wrong number of sudden lift-offs, or with a wrong decision whether the hopper is grounded.
     pub(crate) wrong: usize,
     /// Relative errors of all other results, median and worst; `None` if there are none.
     pub(crate) errors: Option<(f64, f64)>,
@@ -52,7 +51,7 @@ fn score(class: &Class, method: Method) -> Score {
         match error(class.quantity, case, &answer) {
             None => wrong += 1,
             Some(Some(error)) => errors.push(error),
-            Some(None) => {} // grounded, as it should be: there is no error to count
+            Some(None) => {} // correctly grounded: there is no error to count
         }
     }
     errors.sort_by(f64::total_cmp);
@@ -69,8 +68,7 @@ fn score(class: &Class, method: Method) -> Score {
     }
 }
 
-/// The relative error of a result. `None` stands for a wrong verdict, `Some(None)` for a hopper that is rightly
-/// grounded.
+/// The relative error of a result. `None` means a wrong decision, `Some(None)` a hopper that is correctly grounded.
 fn error(quantity: Quantity, case: &Case, answer: &Answer) -> Option<Option<f64>> {
     if answer.sudden.is_some_and(|sudden| case.sudden.is_some_and(|right| right != sudden)) {
         return None;
@@ -117,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_verdicts_are_not_errors() {
+    fn wrong_decisions_are_not_errors() {
         let case = Case {
             mass_ratio: MassRatio::ONE,
             alpha: 5.0,

@@ -9,7 +9,7 @@ use journal_figures::{DataFile, csv_text};
 use std::fmt::Write;
 use std::time::Duration;
 
-/// Whether a method is in the tables: of the tolerances every third is, 1e-3, 1e-6, 1e-9 and 1e-12.
+/// Whether a method is in the tables. Of the tolerances every third is: 1e-3, 1e-6, 1e-9 and 1e-12.
 fn shown(method: Method) -> bool {
     !matches!(method, Method::Integrated(k) if k % 3 != 0)
 }
@@ -130,8 +130,7 @@ mod tests {
     use crate::text::replace_block;
     use crate::work_precision::methods::ALL as METHODS;
 
-    /// The document has the blocks that the command fills, and names every method of the tables. The CSV file beside it
-    /// has a line for each method of the window.
+    /// The document has the blocks that the command fills, and contains every method of the tables.
     #[test]
     fn the_document_is_filled() {
         let path = repository_tools::repository().join("docs/accuracy.md");

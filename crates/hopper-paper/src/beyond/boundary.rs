@@ -13,11 +13,11 @@ use hopper_basin::hopper_basins;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::{LiftOffMap, MassRatio};
 
-/// The mass ratio at which the paper measures 0.037: most of the window falls through the traps, so that the boundary
-/// is rich.
+/// The mass ratio at which the paper measures 0.037. Most of the window falls through the traps, so that the boundary
+/// has many points.
 const M: f64 = 0.2;
 
-/// Shortest part whose preimages are computed: a hundred ulps of α, below which roundings decide.
+/// Shortest part whose preimages are computed: a hundred ulps of α. Below this length rounding decides.
 const SHORTEST: f64 = 1e-13;
 
 /// Gaps between parts that are shorter than this count as roundings: ten of the shortest parts.
@@ -68,7 +68,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
             .map(|k| count(pxfm::f_exp10(-10.0 + 0.5 * f64::from(k))))
             .collect::<Result<_, Error>>()?;
         let law = power_law(&counts)?;
-        // Counts are half a decade apart: the mean of two local slopes is the slope over a decade.
+        // Counts are half a decade apart. The mean of two local slopes is the slope over a decade.
         for (k, pair) in law.local.chunks(2).enumerate() {
             let [a, b] = *pair else { continue };
             let size = pxfm::f_exp10(-9.5 + k as f64);
@@ -148,7 +148,7 @@ fn fit(law: &PowerLaw) -> String {
 
 /// The fixed point at which generations are followed.
 const N: u64 = 2;
-/// Generations that are followed: enough for four decades of the approach to the law.
+/// Number of generations that are followed: enough for four decades of the approach to the law.
 const GENERATIONS: usize = 30_000;
 
 /// The backward orbit of one boundary point towards α*₂ from the left, as distances from it.
@@ -157,8 +157,8 @@ fn generations() -> Result<Vec<f64>, Error> {
     let mut delta: f64 = 0.05;
     let mut generations = Vec::with_capacity(GENERATIONS);
     for _ in 0..GENERATIONS {
-        // A hop leads away from α* on this side: the preimage of −delta lies nearer, in (−delta, 0). The bisection
-        // ends where no number lies between its ends.
+        // On this side a hop leads away from α*. The preimage of −delta is therefore nearer, in (−delta, 0). The
+        // bisection ends when no number lies between its ends.
         let (mut near, mut far) = (0.0f64, delta);
         loop {
             let middle = 0.5 * (near + far);
@@ -224,7 +224,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     let rows = job.scan("uncertain starts", 6, |k| {
         let epsilon = pxfm::f_exp10(-2.0 - k as f64);
-        // Uncertain starts are rarer at a smaller ε: more points keep their relative error.
+        // Uncertain starts are rarer at a smaller ε. More points keep their relative error.
         let count = 50_000 << k.min(4);
         let fraction =
             uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;

@@ -11,8 +11,8 @@ use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Boxes on the five humps, and starts in each box. Entropies of boxes depend on their size: 100 boxes a hump. With
-/// 100 starts an entropy of f fates comes out low by about (f − 1)/200.
+/// Boxes on the five humps, and starts in each box. Entropies of boxes depend on their size: 100 boxes a hump. With 100
+/// starts the computed entropy of f fates is too small by about (f − 1)/200.
 const BOXES: usize = 500;
 const STARTS: usize = 100;
 

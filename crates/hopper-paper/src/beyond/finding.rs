@@ -5,7 +5,7 @@ use crate::figure::Figure;
 /// A result.
 #[derive(Debug, Clone)]
 pub struct Finding {
-    /// Its figure, with the paper's statement and ours as texts.
+    /// Its figure, with the paper's statement and our statement as texts.
     pub figure: Figure,
     /// Its table.
     pub table: Table,

@@ -35,7 +35,7 @@ pub(super) fn by_humps(place: f64) -> f64 {
     left + (right - left) * (place - whole as f64)
 }
 
-/// A fraction as it is drawn and printed: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
+/// A fraction for drawing and printing: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FractionWithBar {
     pub(super) value: f64,
@@ -77,7 +77,7 @@ pub(super) fn bounds(fraction: &FractionWithBar) -> String {
     format!("{:.5} … {:.5} %", 100.0 * fraction.lower, 100.0 * fraction.upper)
 }
 
-/// `count` values from `first` to `last` in equal factors.
+/// `count` values from `first` to `last`, equally spaced on a logarithmic scale.
 pub(super) fn geometric(first: f64, last: f64, count: usize) -> Vec<f64> {
     let power = |k: usize| k as f64 / (count - 1) as f64;
     (0..count).map(|k| first * pxfm::f_pow(last / first, power(k))).collect()

@@ -13,7 +13,8 @@ use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
-/// Humps in equal factors. On hump 10 000 an orbit takes thousands of hops, and α has an ulp of 4e-12.
+/// The humps, each ten times the one before. On hump 10 000 an orbit takes thousands of hops, and α has an ulp of
+/// 4e-12.
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
 /// Errors ε of the start: 10⁻¹ to 10⁻⁸, one for each decade. The last one is still 2500 ulps of α on hump 10 000. A
 /// smaller one would be compared with rounding, and takes as long as the others.

@@ -17,23 +17,24 @@ use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
 use std::collections::BTreeMap;
 
-/// Smallest and largest mass ratio and their number, in equal factors: 1/50 to 50, so that each has its inverse.
+/// Smallest and largest mass ratio and their number, equally spaced on a logarithmic scale: 1/50 to 50, so that each
+/// mass ratio has its inverse.
 const RATIOS: (f64, f64, usize) = (0.02, 50.0, 121);
 
 /// Largest mass ratio at which basins are computed as intervals. Up to it a hop has at most one sudden lift-off, so
-/// that its branches are known; beyond it fractions are estimated from points.
+/// that its branches are known. For larger mass ratios fractions are estimated from points.
 const BY_INTERVALS: f64 = 0.905;
-/// Shortest interval whose preimages are computed. What is shorter widens the bounds of the measure.
+/// Shortest interval whose preimages are computed. Shorter intervals widen the bounds of the measure.
 const SHORTEST: f64 = 1e-7;
 /// Points of a golden rotation, and rotations with random starts. Together 64 000 points, about the 50 000 of the
 /// paper; sixteen replicates give a 95 % interval.
 const POINTS: usize = 4000;
 const REPLICATES: usize = 16;
-/// Seed of the random starts. Any number serves; another one changes the data within their intervals.
+/// Seed of the random starts. Another seed changes the data within their intervals.
 const SEED: u64 = 2002;
 
-/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000 or among the
-/// last five of `u16`: this one lies between and is no fate.
+/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000 or among the last four
+/// of `u16`. This label lies between them and belongs to no fate.
 const ALL: u16 = HopperFate::UNDECIDED - 10;
 
 /// Labels in the order of the columns of the data.
@@ -241,7 +242,7 @@ fn three_ways() -> Result<Table, Error> {
 /// M, the fraction of incessant starts at M and at 1/M, and the fraction of starts whose fates differ.
 type AsymmetryRow = (f64, f64, f64, f64);
 
-/// The basins at M against those at 1/M.
+/// The basins at M compared with those at 1/M.
 pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(RATIOS.0, 1.0, 61);
     let scan = job.scan("asymmetry", ratios.len(), |k| {
@@ -257,7 +258,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         let sum = |bit: u16| -> f64 {
             counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, fraction)| fraction.value).sum()
         };
-        // Several counted kinds have the bit: the sum of their half widths bounds the half width of the sum.
+        // The bit belongs to several counted kinds. The sum of their half widths bounds the half width of the sum.
         let width = |bit: u16| -> f64 {
             counts
                 .iter()

@@ -19,7 +19,7 @@ use crate::job::Job;
 /// Computes a result.
 pub type Find = fn(&Job) -> Result<Finding, Error>;
 
-/// All results, by the names that `--only` takes.
+/// All results, with their names for `--only`.
 pub const ALL: &[(&str, Find)] = &[
     ("measure", measure::measure),
     ("asymmetry", measure::asymmetry),

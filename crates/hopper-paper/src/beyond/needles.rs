@@ -1,4 +1,4 @@
-//! Needles at large M: the edge of an immediate basin depends on the spacing of the scan.
+//! Needles at large M: the edge of the immediate basin depends on the spacing of the scan.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::fates;
@@ -9,17 +9,18 @@ use crate::job::Job;
 use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
-/// Spacings of the scans. A needle narrower than the spacing is missed; a tenth of it takes ten times as long.
+/// Spacings of the scans. A needle narrower than the spacing is missed. A scan at a tenth of the spacing takes ten
+/// times as long.
 const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
-/// Largest mass ratio at which falls are searched for. At 100 the needles are
-/// 10⁻⁴⁶ wide already, far below an ulp of α.
+/// Largest mass ratio at which falls are searched for. At M = 100 the needles are already 10⁻⁴⁶ wide, far below an ulp
+/// of α.
 const LARGEST: f64 = 400.0;
-/// Mass ratios of the table, from just above 1/M_c(1) ≈ 9.67 to where every spacing misses the needles.
+/// Mass ratios of the table, from just above 1/M_c(1) ≈ 9.67 to a mass ratio at which every spacing misses the needles.
 const RATIOS: [f64; 7] = [10.0, 11.0, 12.0, 14.0, 16.0, 20.0, 30.0];
 /// Marker of each hump.
 const LOOKS: [Marker; 3] = [Marker::Disc, Marker::Square, Marker::Triangle];
 
-/// The length of the immediate basin of α*₁, and the mass ratios from which three humps hold no fall, for each
+/// The right end of the immediate basin of α*₁, and the mass ratios from which three humps have no fall, for each
 /// spacing.
 pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
     let humps = 3;

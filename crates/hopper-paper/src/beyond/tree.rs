@@ -13,12 +13,13 @@ use passive_hopper::alpha_star;
 /// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
 
-/// Last level that is drawn. Level 19 has a length of 3·10⁻⁸ and no interval over [`SHORTEST`]: later levels would be
-/// below the axis.
+/// Number of levels that are drawn, and number of levels with all intervals: the number of intervals grows too fast for
+/// more.
 const DRAWN: usize = 20;
 /// Levels whose intervals are all kept, long or short. Their number grows too fast for more.
 const GROWN: usize = 10;
-/// Shortest interval that is followed on the drawn levels; what is shorter is missing from their lengths.
+/// Shortest interval that is followed on the drawn levels. Shorter intervals are missing from the lengths of the
+/// levels.
 const SHORTEST: f64 = 1e-8;
 
 /// Numbers and lengths of the intervals, level by level.
@@ -36,7 +37,8 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
     let all = branches(&fates, FROM, TO, 400)?;
     let tree = PreimageTree::grow(&fates, &all, trap, window, GROWN);
-    // On the first two humps the tree can be grown to level 60: enough to tell a power of the level from doubling.
+    // On the first two humps the tree can be grown to level 60. This is enough to distinguish a power of the level from
+    // doubling.
     let lower = Interval::new(alpha_star(1), alpha_star(3))?;
     let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60);
     let growth = match deep.residual_set() {

@@ -25,7 +25,7 @@ fn multimodal() -> Result<Claim, Error> {
             hump.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count(),
         );
     }
-    // An independent check: the whole window is sampled, without any theory of the humps.
+    // An independent check: the whole window is sampled, without theory about the humps.
     let blind = monotone_branches(&fates, first_humps(5), 40_001)?;
     let blind_turning_points =
         blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
@@ -37,8 +37,8 @@ fn multimodal() -> Result<Claim, Error> {
         .holds(turning_points.iter().all(|&t| t == 2) && blind_turning_points == 10))
 }
 
-/// The lowest value of the map on [α*₁, α*₆], and the lowest value without the first branch, whose left end is α*₁
-/// itself.
+/// The lowest value of the map on [α*₁, α*₆], and the lowest value without the first branch, whose left end is the
+/// fixed point α*₁.
 fn lowest(mass_ratio: f64) -> Result<(f64, f64), Error> {
     let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
     let branches = branches(&fates, 1, 6, 2001)?;
@@ -63,7 +63,7 @@ fn above_first() -> Result<Claim, Error> {
         .holds([light.0, heavy.0].iter().all(|&v| v >= star - BELOW_FIRST)))
 }
 
-/// M_c(1), computed with mpmath to 34 digits, without this code.
+/// M_c(1), computed with mpmath to 34 digits, independently of this code.
 const CRISIS: f64 = 0.103_457_755_336_137_07;
 
 /// Largest relative error of M_c(1): one unit of the last of the 14 decimals in the claim, 10⁻¹⁴, relative to 0.1.

@@ -1,8 +1,8 @@
-//! A claim of the paper with its verdict.
+//! A claim of the paper, with the result of its check.
 
 use serde::Serialize;
 
-/// The verdict on a claim.
+/// The result of the check of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
@@ -19,7 +19,7 @@ pub enum Verdict {
 pub struct Claim {
     /// Short name.
     pub name: String,
-    /// Where the paper makes it.
+    /// The place of the claim in the paper.
     pub place: &'static str,
     /// The paper's statement in our words, as markup.
     pub paper: String,
@@ -27,9 +27,9 @@ pub struct Claim {
     pub ours: String,
     /// The error, or the largest of many.
     pub error: String,
-    /// How it was computed.
+    /// The method of the computation.
     pub how: String,
-    /// The verdict.
+    /// The result of the check.
     pub verdict: Verdict,
 }
 
@@ -64,11 +64,11 @@ impl Claim {
     pub(super) fn holds(self, holds: bool) -> Self {
         self.judged(if holds { Verdict::Confirmed } else { Verdict::Fails })
     }
-    /// Judges a claim that the paper has wrong: `evidence` is whether the known correction is confirmed.
+    /// Sets the result for a claim that is wrong in the paper. `evidence` is true if the known correction is confirmed.
     pub(super) fn corrected(self, evidence: bool) -> Self {
         self.judged(if evidence { Verdict::Corrected } else { Verdict::Fails })
     }
-    /// Sets the verdict. The texts were written for a claim that holds: a failed one says so first.
+    /// Sets the result. The texts are written for a claim that holds. For a failed claim a prefix states the failure.
     pub(super) fn judged(mut self, verdict: Verdict) -> Self {
         if verdict == Verdict::Fails {
             self.ours = format!("not found; expected was: {}", self.ours);
@@ -78,7 +78,7 @@ impl Claim {
     }
 }
 
-/// The largest of some errors; NaN if one of them is NaN, so that no comparison passes on it.
+/// The largest of some errors; NaN if one of them is NaN, so that no comparison with it succeeds.
 pub(super) fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
     errors
         .into_iter()

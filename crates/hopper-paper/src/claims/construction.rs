@@ -38,7 +38,7 @@ fn each_level(levels: &[IntervalSet]) -> Result<Claim, Error> {
     let mut probed = 0;
     for (k, level) in levels.iter().enumerate() {
         for interval in level.intervals() {
-            // An end is known to an ulp and may belong to either side: the probes lie a millionth inside.
+            // An end is known to an ulp and may belong to either side. Therefore the probes lie a millionth inside.
             for part in [1e-6, 0.5, 1.0 - 1e-6] {
                 let alpha = interval.left + part * interval.length();
                 let found = fates.fate_within(alpha, 100)?;
@@ -65,9 +65,9 @@ fn each_level(levels: &[IntervalSet]) -> Result<Claim, Error> {
         .holds(wrong == 0 && disjoint))
 }
 
-/// The limit of the levels, which is no Cantor set.
+/// The limit of the levels, which is not a Cantor set.
 fn limit(levels: &[IntervalSet]) -> Result<Claim, Error> {
-    // The proof needs f(α) ≤ α with equality at the fixed points only. The probes lie where f comes closest to α.
+    // The proof needs f(α) ≤ α with equality at the fixed points only. The probes are where f is closest to α.
     let map = LiftOffMap::new(MassRatio::new(M)?);
     let mut rises = 0;
     for n in 1..=4 {

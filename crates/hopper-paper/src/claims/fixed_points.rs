@@ -54,7 +54,7 @@ fn printed_digits() -> Claim {
     for (n, (digits, decimals)) in (1u64..).zip(printed) {
         let star = alpha_star(n);
         let ulp = 10f64.powi(-decimals);
-        // The paper rounds some values and cuts others: both lie within one unit of the last digit.
+        // The paper rounds some values and truncates others: both are within one unit of the last digit.
         right &= digits.parse::<f64>().is_ok_and(|value| (value - star).abs() < ulp);
         ours.push(format!("{star:.12}"));
     }
@@ -102,7 +102,7 @@ fn found_from_the_map() -> Result<Claim, Error> {
         .holds(found.len() == 5 && touching && worst < FOUND))
 }
 
-/// The map near α*_n as a map of the distance |δ|, from the loss, which has digits of its own.
+/// The map near α*_n as a map of the distance |δ|, computed from the loss, which does not cancel.
 pub(super) fn probe(
     n: u64,
     mass_ratio: MassRatio,
@@ -120,8 +120,8 @@ pub(super) fn probe(
         let alpha = star.value() + sign * distance;
         let exact = sign * star.offset_of(alpha);
         let loss = map.hop(alpha).ok()?.loss?;
-        // The map is evaluated at the nearest f64, at the distance `exact`. Its loss is scaled to the distance asked
-        // for; the loss grows like the power 4/3, so that the error of this is a third of the relative difference.
+        // The map is evaluated at the nearest f64, at the distance `exact`. Its loss is scaled to the given distance.
+        // The loss grows like the power 4/3, so that the error of this scaling is a third of the relative difference.
         Some(distance - sign * loss * (distance / exact))
     };
     one_sided_stability(displacement, side, largest, count)

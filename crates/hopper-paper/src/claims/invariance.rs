@@ -33,7 +33,7 @@ struct InversionComparison {
     sudden: bool,
     /// The difference of α′² between M and 1/M, relative to α².
     difference: f64,
-    /// The difference of α′ between M and 1/M, relative to α²/α′, the change that α² itself would cause.
+    /// The difference of α′ between M and 1/M, relative to α²/α′, the change of α′ that a relative change of α² causes.
     image_difference: f64,
     verdicts_agree: bool,
 }
@@ -53,7 +53,7 @@ fn compare(k: u64, contact: bool) -> Result<InversionComparison, passive_hopper:
     // Whether the first landing is sudden does not depend on M.
     let sudden = here.sudden > 0;
     let difference = (here.next_speed_squared - there.next_speed_squared).abs() / (alpha * alpha);
-    // α′² within rounding of zero: the hopper may be grounded at M and not at 1/M, and both are right.
+    // α′² is within rounding of zero: the hopper may be grounded at M and not at 1/M, and both results are right.
     let near = here.next_speed_squared.abs() <= ROUNDING * alpha * alpha;
     let verdicts_agree = near || here.next.is_some() == there.next.is_some();
     let image_difference = match (here.next, there.next) {

@@ -1,4 +1,4 @@
-//! Claims about β, λ and Δ: the approximate map, its erratum, and the trapping region.
+//! Claims about β, λ and Δ: the approximate map, its erratum, and the trap.
 
 use super::claim::{Claim, largest};
 use super::fixed_points::coefficient;
@@ -36,8 +36,8 @@ fn beta() -> Result<Claim, Error> {
             let time = first.map_or(f64::NAN, |landing| landing.time);
             Ok((time - 2.0 * star.value()) / local.flight_time_shift(star.offset_of(alpha)))
         };
-        // ratio(δ) = 1 + w/(4α*) + O(w²) with w = βδ^{1/3}. An eighth of δ halves w. So 2·ratio(δ/8) − ratio(δ) =
-        // 1 + O(w²).
+        // The ratio is 1 + w/(4α*) + … with w = βδ^{1/3}. An eighth of δ halves w: twice the second ratio minus the
+        // first one tends to 1.
         let limit = 2.0 * ratio(1e-7)? - ratio(8e-7)?;
         errors.push((limit - 1.0).abs());
     }

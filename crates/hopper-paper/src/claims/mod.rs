@@ -1,4 +1,4 @@
-//! Every claim of the paper, with its value and ours.
+//! Every claim of the paper, with its value and our value.
 
 mod basins;
 mod claim;

@@ -1,7 +1,7 @@
 //! `basin-raster`: the basins over any window of (M, α), in tiles on disk.
 //!
-//! A run that is killed leaves its finished tiles, and the next run computes the others. The array is written from
-//! the tiles, compared with them, and only then are the tiles removed.
+//! A run that is killed leaves its finished tiles, and the next run computes the others. The array is written from the
+//! tiles and compared with them. The tiles are removed only after this comparison.
 
 use crate::error::Error;
 use crate::figures::basin_plot::{PIXELS, Window, draw_basins};
@@ -20,7 +20,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Options {
-    /// Folder for the results and, until they are complete, for finished tiles
+    /// Folder for the results, and for finished tiles until the results are complete
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Mass ratios from and to
@@ -34,8 +34,8 @@ pub struct Options {
     pixels: Vec<usize>,
 }
 
-/// Columns of a tile. A killed run loses the tiles it was computing, one a thread: wider tiles lose more work.
-/// Narrower ones share less work between columns, and are more files to flush.
+/// Columns of a tile. A killed run loses one unfinished tile for each thread: with wider tiles more work is lost.
+/// Narrower tiles share less work between columns, and are more files to flush.
 const TILE: usize = 16;
 
 /// The largest number of pixels along each axis. A tile of 2²⁰ rows has 32 MiB of labels, and some hundred megabytes
@@ -85,7 +85,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let array = folder.path().join(ARRAY);
     let mut counts = BTreeMap::new();
     let mut picture = Picture::new(&grid);
-    // Row 0 is the lowest speed. In Fortran's order the columns, and so the tiles, follow one another in the file.
+    // Row 0 is the lowest speed. In Fortran's order the columns, and therefore the tiles, follow one another in the
+    // file.
     let header = npy_header(Order::Fortran, grid.rows, grid.columns);
     kept.assemble(&array, &header, tiles, |tile, bytes| {
         for pair in bytes.chunks_exact(2) {
@@ -142,8 +143,8 @@ fn grid(options: &Options) -> Result<Grid, Error> {
     }
     let speed = options.speed.as_deref().unwrap_or(&default);
     for values in [&options.mass_ratio[..], speed] {
-        // A window narrower than 10⁻¹² of its end has some thousand doubles: many neighbouring pixels would be the
-        // same point after rounding.
+        // A window narrower than 10⁻¹² of its end has some thousand doubles: many neighbouring pixels would be the same
+        // point after rounding.
         if let [from, to] = *values
             && !(to - from > 1e-12 * to.abs())
         {
@@ -154,7 +155,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
         MassRatio::new(m)?;
     }
     let grid = Grid { x: pair(&options.mass_ratio)?, y: pair(speed)?, columns, rows };
-    // Labels no column, but refuses a grid that has no labels before anything is written.
+    // This call labels no column. It refuses a grid that has no labels before anything is written.
     basin_columns(&grid, 0..0)?;
     Ok(grid)
 }

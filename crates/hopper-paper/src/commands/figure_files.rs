@@ -6,8 +6,8 @@ use crate::figures::Build;
 use journal_figures::{Rendered, render};
 use repository_tools::{Folder, Progress};
 
-/// Pixels of the PNG for a CSS pixel of the drawing (1/96 inch): 192 dpi, so that text of 10 points stays sharp on a
-/// screen while no PNG passes a megabyte.
+/// Pixels of the PNG for a CSS pixel of the drawing (1/96 inch): 192 dpi. Text of 10 points is then sharp on a screen,
+/// and no PNG exceeds a megabyte.
 const PIXELS_PER_CSS_PIXEL: f64 = 2.0;
 
 /// Builds a figure and writes it in both forms, with its data.

@@ -1,4 +1,4 @@
-//! `verify-invariance`: the claim of Eq. 23 alone, with its figure.
+//! `verify-invariance`: only the claim of Eq. 23, with its figure.
 
 use super::claim_lines::{all_hold, line};
 use super::figure_files::make_figure;

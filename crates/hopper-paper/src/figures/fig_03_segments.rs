@@ -63,7 +63,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     });
     for (k, segment) in segments.iter().enumerate() {
         let x = frame.at((segment.alpha, 0.0)).0;
-        // Segment α_S is narrower than its name: the name stands above the peak, the other names at the foot.
+        // Segment α_S is narrower than its name. Its name is above the peak; the other names are at the foot.
         let y = if k == 1 { frame.top + 20.0 } else { frame.top + frame.height - 16.0 };
         svg.text(x, y, Anchor::Middle, 12.5, segment.name);
         if let Some(next) = map.image(segment.alpha)? {

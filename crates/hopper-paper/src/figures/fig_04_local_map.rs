@@ -19,7 +19,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?;
     let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
     let star = alpha_star(1);
-    // f has a term δ^{4/3} at α*: squares of equal steps crowd the points there, and the curve stays smooth.
+    // f has a term δ^{4/3} at α*. Squares of equal steps give dense points there, and the curve is smooth.
     let side =
         |end: f64| (0..=80).map(move |k| star + (end - star) * (f64::from(k) / 80.0).powi(2));
     let sides: [Vec<f64>; 2] = [side(WINDOW.0).collect(), side(WINDOW.1).collect()];

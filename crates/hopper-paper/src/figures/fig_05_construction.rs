@@ -9,7 +9,7 @@ use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 
-/// Here hump 2 falls below the trap of α*₁ and rises again, as in the paper's sketch.
+/// At this mass ratio hump 2 falls below the trap of α*₁ and rises again, as in the paper's sketch.
 pub(crate) const M: f64 = 0.4;
 /// The last level that is computed and drawn. Deeper levels are thinner than a line.
 pub(crate) const DEPTH: usize = 4;
@@ -41,7 +41,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         "(b)  points that enter $A$ after $k$ hops (level $k$), with those before in grey",
     );
     for (k, level) in levels.iter().enumerate() {
-        // One row for each level. Earlier levels are grey: the construction keeps them.
+        // One row for each level. Earlier levels are grey: they remain part of the basin.
         let y = bars.top + 36.0 * k as f64;
         for (j, part) in levels.iter().take(k + 1).enumerate() {
             let color = if j == k { COLORS[k] } else { "#c9c9c9" };

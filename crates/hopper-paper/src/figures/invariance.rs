@@ -29,8 +29,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     top.clipped(&mut svg, |svg| {
         top.polyline(svg, &[(0.0, 0.0), (20.0, 20.0)], Pen::dashed("#000", 0.7, "1.5 2.5"));
         for (map, pen) in maps.iter().zip([LIGHT, HEAVY]) {
-            // Above M = 0.9 the sudden windows have jumps and kinks. A smooth curve would swing beyond them: here
-            // the points are joined by straight lines, and not across a jump.
+            // Above M = 0.9 the sudden windows have jumps and kinks, where a smooth curve would overshoot. Here the
+            // points are joined by straight lines, and not across a jump.
             for piece in graph_pieces(map, &cuts, 600) {
                 for run in piece.chunk_by(|a, b| (a.1 - b.1).abs() < 0.5) {
                     top.polyline(svg, run, pen);
@@ -56,7 +56,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         let images = [maps[0].image(alpha)?, maps[1].image(alpha)?];
         rows.push(vec![Some(alpha), images[0], images[1]]);
         if let [Some(a), Some(b)] = images {
-            // The logarithm of a difference of exactly zero does not exist: it is drawn at the foot of the axis.
+            // The logarithm of a difference of exactly zero does not exist: such a difference is drawn at the foot of
+            // the axis.
             let (x, y) = bottom.at((alpha, (a - b).abs().max(2e-18)));
             svg.fill_rect(x - 0.5, y - 0.5, 1.0, 1.0, "#10386e");
         }

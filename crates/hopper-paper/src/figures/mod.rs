@@ -19,7 +19,7 @@ use repository_tools::Progress;
 /// Computes and draws a figure.
 pub type Build = fn(&Progress) -> Result<Figure, Error>;
 
-/// All figures, by the names that `--only` takes.
+/// All figures, with their names for `--only`.
 pub const ALL: &[(&str, Build)] = &[
     ("fig1", fig_01_model::build),
     ("fig2", fig_02_map::build),

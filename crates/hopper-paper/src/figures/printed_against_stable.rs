@@ -12,7 +12,7 @@ use serde_json::Value;
 const VALUES: &str = "crates/passive-hopper/tests/data/losses_near_first_fixed_point.jsonl";
 /// Range of |δ|: from below an ulp of α* to the edge of the expansions.
 const OFFSETS: (f64, f64) = (1e-16, 1e-1);
-/// Range of the errors. Those outside are drawn on the edge.
+/// Range of the errors. Errors outside are drawn on the edge.
 const ERRORS: (f64, f64) = (1e-17, 1e5);
 
 /// Name, marker, colour and column of each form. The first two are evaluated at α, the others at δ.
@@ -101,8 +101,8 @@ fn row(row: &Value) -> Result<ErrorRow, Error> {
     let map = LiftOffMap::new(MassRatio::ONE);
     let off = |found: f64, exact: f64| ((found - exact) / exact).abs();
     let mut errors = [None; 6];
-    // A row without "loss" has a δ whose α, rounded to f64, lies on the other side of α*: there the forms at α say
-    // nothing about δ.
+    // A row without "loss" has a δ whose α, rounded to f64, lies on the other side of α*. The forms at α then give no
+    // information about δ.
     if row.get("loss").is_some() {
         let at_alpha = field("loss")?;
         let printed = printed_image(MassRatio::ONE, alpha)?;

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 /// Flow rates of the tutorial's diagram.
 const RATES: (f64, f64) = (0.2, 10.0);
-/// Flow rates, and those of one piece that is kept on disk.
+/// Number of flow rates, and number of flow rates in one piece that is stored on disk.
 const COLUMNS: usize = 980;
 const PIECE: usize = 20;
 /// Turning points that are left out while the motion settles, and turning points that are drawn.

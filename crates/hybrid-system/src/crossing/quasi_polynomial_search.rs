@@ -134,7 +134,7 @@ impl QuasiPolynomial {
                 .enumerate()
                 .map(|(j, term)| term * pxfm::f_pow(clear, (j + 1) as f64))
                 .sum();
-            // `time` is 0 only for a horizon of zero, where there is nothing to search.
+            // `time` is 0 only for a horizon of zero, where no time is searched.
             if clear >= time && time > 0.0 || reached > start_hidden {
                 return Err(Error::UndecidedSign { order, value });
             }

@@ -7,8 +7,8 @@ const SAME_INSTANT_ULPS: f64 = 4.0;
 
 /// True if `time` comes before `other` by more than a few ulps.
 ///
-/// Guards are searched in the order in which the model lists them. Because this comparison is strict by a margin, the
-/// guard listed first keeps its place among crossings at the same instant.
+/// Guards are searched in the order in which the model lists them. This comparison is strict by a margin. Therefore the
+/// guard listed first is returned among crossings at the same instant.
 pub(crate) fn sooner(time: f64, other: f64) -> bool {
     time < other * (1.0 - SAME_INSTANT_ULPS * f64::EPSILON)
 }
