@@ -63,7 +63,7 @@ impl Hop {
 /// it on all classes of docs/accuracy.md. A larger limit would hide the loss of a digit.
 pub(crate) const LIMIT: f64 = 4.0;
 
-/// The loss of a small hop.
+/// A hop so small that α′ rounds to α, and the loss α − α′ is compared instead.
 pub(crate) struct Loss {
     pub(crate) mass_ratio: MassRatio,
     pub(crate) alpha: f64,
@@ -84,7 +84,7 @@ pub(crate) fn window_hops() -> Result<Vec<Hop>, Error> {
     if hops.is_empty() { Err(RowError::NoReference { path }.into()) } else { Ok(hops) }
 }
 
-/// All lines of a file, each with its number.
+/// All lines of a file, each with its number from one.
 ///
 /// # Errors
 /// [`Error::ReferenceLine`] for a line of no known kind; [`Error::NoReference`] if there is no line whose answer can

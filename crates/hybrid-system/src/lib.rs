@@ -98,6 +98,7 @@ mod execution;
 mod guard;
 #[cfg(feature = "ode")]
 mod ode;
+mod searched;
 mod sensitivity;
 mod simultaneous;
 mod state;
@@ -115,6 +116,7 @@ pub use guard::{Direction, Guard};
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
 };
+pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use state::State;
 pub use system::{HybridSystem, Reset, VectorField};

@@ -15,13 +15,14 @@ pub(super) enum Class {
 }
 
 /// Every crate in `crates/`, with its class and the reason for it.
-const CLASSES: [(&str, Class, &str); 11] = [
+const CLASSES: [(&str, Class, &str); 12] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
     ("basin-of-attraction", Computing, "random points come from a seed argument"),
     ("passive-hopper", Computing, "hops are functions of α and M"),
     ("hopper-asymptotics", Computing, "expansions are functions of n and M"),
     ("hopper-basin", Computing, "fates are functions of α and M"),
+    ("example-systems", Computing, "models are functions of their parameters"),
     ("journal-figures", Computing, "figures are bytes; its font is part of the crate"),
     ("resumable-job", Files, "finished pieces must survive a kill, so they are on disk"),
     ("repository-tools", Program, "the file and terminal access that the programs share"),

@@ -1,4 +1,4 @@
-//! `work-precision`: time against error of every way to compute a hop.
+//! `work-precision`: time against error of every method that computes a hop.
 
 use crate::error::Error;
 use crate::text::{duration, replace_block};
@@ -24,7 +24,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "work-precision")?;
     let before = sin_cos_time();
     let scores = measure(&Progress)?;
-    // A processor that has just woken up is slower.
+    // A processor runs slower just after it was idle: the smaller of two times counts.
     let unit = before.min(sin_cos_time());
     let scenes = scenes(&scores)?;
     let svg = work_precision_figure(&scores, unit);

@@ -9,12 +9,12 @@ use journal_figures::{DataFile, csv_text};
 use std::fmt::Write;
 use std::time::Duration;
 
-/// Methods in the tables: not every tolerance.
+/// Whether a method is in the tables: of the tolerances every third is, 1e-3, 1e-6, 1e-9 and 1e-12.
 fn shown(method: Method) -> bool {
     !matches!(method, Method::Integrated(k) if k % 3 != 0)
 }
 
-/// One line a class and method.
+/// One line for each class and method.
 pub(crate) fn csv(scores: &[Score], unit: Duration) -> Result<DataFile, Error> {
     let header = [
         "class",
@@ -45,7 +45,8 @@ pub(crate) fn csv(scores: &[Score], unit: Duration) -> Result<DataFile, Error> {
     Ok(csv_text("work_precision.csv", &header, rows)?)
 }
 
-/// The paper's window in full, and the hard classes by their worst errors.
+/// A table of the paper's window with all numbers, and one of the hard classes with their worst errors. `unit` is the
+/// time of one `sin_cos`.
 pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
     let mut out = String::from(
         "| on the paper's window | time a hop | in `sin_cos` | median error | worst error | wrong | refused |\n\
@@ -104,7 +105,7 @@ fn cell(score: &Score) -> String {
     text
 }
 
-/// Which question needs which model.
+/// The table of questions and models.
 pub(crate) fn scenes(scenes: &[Scene]) -> String {
     let mut out =
         String::from("| question | model only | call | time | error |\n|---|---|---|---:|---|\n");
@@ -121,7 +122,7 @@ mod tests {
     use super::*;
     use crate::text::replace_block;
 
-    /// The document has the blocks that the command fills, filled with all methods.
+    /// The document has the blocks that the command fills, and names every method of the tables.
     #[test]
     fn the_document_is_filled() {
         let path = repository_tools::repository().join("docs/accuracy.md");
