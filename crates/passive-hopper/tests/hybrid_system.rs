@@ -3,9 +3,8 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-mod reference;
-
 use approx::assert_relative_eq;
+use hopper_reference::rows;
 use hybrid_system::{Event, Execution, HybridSystem, Limits, Searched, State, Stop};
 use nalgebra::SVector;
 use passive_hopper::{
@@ -13,7 +12,6 @@ use passive_hopper::{
     energy, landing_loss,
 };
 use proptest::prelude::*;
-use reference::rows;
 use return_map::{ReturnMap, Section};
 
 fn hopper(mass_ratio: f64) -> Hopper {

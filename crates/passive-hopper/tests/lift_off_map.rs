@@ -3,11 +3,9 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-mod reference;
-
+use hopper_reference::{UNITS_PER_FLIGHT, map, rows};
 use passive_hopper::{Error, FixedPointSpeed, LiftOffMap, MassRatio, alpha_star, printed_image};
 use proptest::prelude::*;
-use reference::{UNITS_PER_FLIGHT, map, rows};
 use std::f64::consts::PI;
 
 /// Compares every hop of a reference file: its verdicts are right and its α′ is within [`UNITS_PER_FLIGHT`] a flight.

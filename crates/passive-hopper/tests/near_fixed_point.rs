@@ -3,10 +3,8 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-mod reference;
-
+use hopper_reference::{map, rows};
 use passive_hopper::Error;
-use reference::{map, rows};
 
 /// Largest error of δ′, in ulps: what the crate's documentation promises.
 const ULPS: f64 = 8.0;

@@ -3,10 +3,8 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-mod reference;
-
+use hopper_reference::{map, rows};
 use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio};
-use reference::{map, rows};
 use std::f64::consts::PI;
 
 /// The allowed error of a slope is its change within an ulp of α, times 64, and 1e-13 of its size.

@@ -1,9 +1,10 @@
 //! Hops of the paper's window, one by one and many in one call.
 
 use crate::error::Error;
-use crate::reference::{Hop, LIMIT, window_hops};
+use crate::reference::{Hop, window_hops};
 use crate::timing::median_seconds;
 use hopper_basin::first_humps;
+use hopper_reference::UNITS_PER_FLIGHT;
 use passive_hopper::{LiftOffMap, MassRatio};
 
 /// Numbers of mass ratios and of speeds for each in the timed set: 65 536 different hops, too many for a branch
@@ -38,7 +39,9 @@ pub(super) fn check() -> Result<String, Error> {
         let found = map.image(hop.alpha)?;
         let right = many.iter().all(|image| *image == found)
             && match (found, hop.next) {
-                (Some(found), Some(exact)) => (found - exact).abs() <= hop.allowed(LIMIT),
+                (Some(found), Some(exact)) => {
+                    (found - exact).abs() <= hop.allowed(UNITS_PER_FLIGHT)
+                }
                 (None, None) => true,
                 _ => false,
             };
@@ -71,7 +74,8 @@ pub(super) fn check_landings() -> Result<String, Error> {
             && match hop.next {
                 // α′² = α² − μ Σ v²: an error e of α′ is an error 2α′e of α′².
                 Some(next) => {
-                    (next_speed_squared - next * next).abs() <= 2.0 * next * hop.allowed(LIMIT)
+                    (next_speed_squared - next * next).abs()
+                        <= 2.0 * next * hop.allowed(UNITS_PER_FLIGHT)
                 }
                 None => next_speed_squared < 0.0,
             };
