@@ -2,6 +2,7 @@
 
 use super::claim::{Claim, largest};
 use crate::error::Error;
+use basin_of_attraction::SplitMix64;
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use rayon::prelude::*;
 use repository_tools::Progress;
@@ -13,13 +14,8 @@ const PAIRS: u64 = 1_000_000;
 /// both μ and of both α′² add up to 8 ulps at most.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The k-th number of a fixed sequence, uniform in [0, 1): SplitMix64 as published, seeded with digits of π.
-fn uniform(k: u64) -> f64 {
-    let mut z = k.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x243f_6a88_85a3_08d3);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 * f64::EPSILON / 2.0
-}
+/// A fixed sequence of random numbers. The state is made of digits of π.
+const RANDOM: SplitMix64 = SplitMix64::from_state(0x243f_6a88_85a3_08d3);
 
 struct Comparison {
     sudden: bool,
@@ -33,11 +29,11 @@ struct Comparison {
 /// Compares the maps at a random M in [10⁻³, 10³] and at 1/M, at a random α on one of the humps 0 to 18: on its contact
 /// part (α*_n, (n+1)π), or in the sudden window ((n+1)π, α*_{n+1}).
 fn compare(k: u64, contact: bool) -> Result<Comparison, passive_hopper::Error> {
-    let ratio = MassRatio::new(pxfm::f_exp10(6.0 * uniform(3 * k) - 3.0))?;
-    let n = (19.0 * uniform(3 * k + 1)) as u64;
+    let ratio = MassRatio::new(pxfm::f_exp10(6.0 * RANDOM.uniform(3 * k) - 3.0))?;
+    let n = (19.0 * RANDOM.uniform(3 * k + 1)) as u64;
     let turn = (n + 1) as f64 * PI;
     let (left, right) = if contact { (alpha_star(n), turn) } else { (turn, alpha_star(n + 1)) };
-    let alpha = left + (right - left) * (1e-6 + (1.0 - 2e-6) * uniform(3 * k + 2));
+    let alpha = left + (right - left) * (1e-6 + (1.0 - 2e-6) * RANDOM.uniform(3 * k + 2));
     let here = LiftOffMap::new(ratio).hop(alpha)?;
     let there = LiftOffMap::new(ratio.inverted()).hop(alpha)?;
     // Whether the first landing is sudden does not depend on M.

@@ -11,6 +11,7 @@
 mod tests {
     use crate::precision::long::{Long, MOST};
     use crate::precision::real::{Extended, Real};
+    use basin_of_attraction::SplitMix64;
     use dashu_float::{FBig, round::mode::HalfEven};
 
     type Reference = FBig<HalfEven, 2>;
@@ -28,16 +29,20 @@ mod tests {
     /// Bits of the reference beyond those of a [`Long`].
     const MORE_BITS: usize = 128;
 
-    /// SplitMix64.
-    struct Random(u64);
+    /// Random words, one after the other.
+    struct Random {
+        generator: SplitMix64,
+        drawn: u64,
+    }
 
     impl Random {
+        fn new(state: u64) -> Self {
+            Random { generator: SplitMix64::from_state(state), drawn: 0 }
+        }
+
         fn word(&mut self) -> u64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            z ^ (z >> 31)
+            self.drawn += 1;
+            self.generator.bits(self.drawn)
         }
 
         /// A number with random bits; every fourth has words of zeros or ones, where a carry goes far.
@@ -84,7 +89,7 @@ mod tests {
     }
 
     fn operations<const W: usize>(seed: u64, count: usize) {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         for _ in 0..count {
             // Half of the pairs have nearly the same exponent, so that differences cancel.
             let range = if random.word().is_multiple_of(2) { 1 } else { 80 * W as i64 };
@@ -105,7 +110,7 @@ mod tests {
 
     /// sin and cos of all sums of `count` numbers and `count` more.
     fn sines<const W: usize>(seed: u64, count: usize) {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         // Up to 2⁴³, the largest lift-off speed.
         let large: Vec<f64> = (0..count)
             .map(|k| (random.word() >> 24) as f64 * 2f64.powi((k % 46) as i32 - 42))
@@ -135,7 +140,7 @@ mod tests {
 
     /// Near zero the error of the sine is relative to the argument.
     fn small_sines<const W: usize>(seed: u64, count: usize) {
-        let mut random = Random(seed);
+        let mut random = Random::new(seed);
         for _ in 0..count {
             let x: Long<W> = random.long(60);
             let x = Long { exponent: -x.exponent.abs(), ..x };
