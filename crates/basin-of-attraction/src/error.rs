@@ -44,9 +44,9 @@ pub enum Error {
         "columns {start} to {end} (exclusive) of a raster of {columns} columns: the end must be at most {columns}"
     )]
     BadColumnRange {
-        /// The first column asked for.
+        /// The first requested column.
         start: usize,
-        /// The column after the last one asked for.
+        /// The end of the range, one past the last requested column.
         end: usize,
         /// The number of columns of the raster.
         columns: usize,
@@ -63,7 +63,7 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// The caller asked to stop.
+    /// The caller stopped the work.
     #[error("interrupted after {finished} of {columns} columns")]
     Interrupted {
         /// Columns finished.
@@ -74,7 +74,7 @@ pub enum Error {
     /// A search for monotone branches with too few samples.
     #[error("monotone branches cannot be found with {samples} samples: at least 3 are needed")]
     TooFewSamples {
-        /// Samples asked for.
+        /// Requested number of samples.
         samples: usize,
     },
     /// A proportion without trials, or with more successes than trials.

@@ -48,7 +48,8 @@ fn intervals_cover_as_often_as_stated() {
 
 #[test]
 fn intervals_of_rare_labels_cover_too() {
-    // One point in fifty thousand lies in the basin. Most replicates have none; all together often have one.
+    // One point in fifty thousand lies in the basin. Most replicates have no such point; all replicates together often
+    // have one.
     let unit = interval(0.0, 1.0);
     let truth = 2e-5;
     let covered = (0..300u64)

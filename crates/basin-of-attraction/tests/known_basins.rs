@@ -40,7 +40,7 @@ fn cantor_levels(depth: usize) -> IntervalBasins {
     interval_basins(&map, &[gap], &branches, interval(0.0, 1.0), refinement).unwrap()
 }
 
-/// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the length before.
+/// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the length of the level before.
 fn extrapolated(levels: &IntervalBasins, colours: usize, label: usize) -> f64 {
     let lengths: Vec<f64> = levels.levels(0).values().map(|(_, length)| *length).collect();
     // Twelve levels: the rounding errors of further ones exceed their length.
@@ -66,7 +66,7 @@ fn b1_two_colour_cantor_basin() {
     let law = power_law(&points).unwrap();
     assert!((law.exponent.value + 2f64.ln() / 3f64.ln()).abs() < 1e-12);
     assert_eq!(law.warning, None);
-    // The uncertainty exponent is the dimension of the line less that of the boundary.
+    // The uncertainty exponent is the dimension of the line minus the dimension of the boundary.
     assert!((1.0 + law.exponent.value - 0.369_070_246_428_543).abs() < 1e-12);
     let fractions = [extrapolated(&levels, 2, 0), extrapolated(&levels, 2, 1)];
     assert!((entropy(fractions) - 0.673_011_667_009_256_5).abs() < 1e-12);

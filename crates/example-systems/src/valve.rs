@@ -139,15 +139,15 @@ impl Section<Valve, 3, 2> for Turns {
 /// The start of every orbit of the tutorial: displacement 0.2 and no pressure.
 pub const START: Vector2<f64> = Vector2::new(0.2, 0.0);
 
-/// Limits for an orbit of this number of turning points. The time and the number of events between two turning
-/// points stay far below them for all flow rates of the diagram.
+/// Limits for an orbit of this number of turning points. For all flow rates of the diagram the time and the number of
+/// events between two turning points are far below these limits.
 fn limits(turns: usize) -> Limits {
     Limits::new(1000.0 * (1 + turns) as f64, 10_000 * (1 + turns))
 }
 
 /// The displacements at `kept` turning points, after `transient` turning points that are left out.
 ///
-/// The orbit may contain Zeno limits and rests on the seat.
+/// The orbit may contain Zeno limits, and phases at rest on the seat.
 pub fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
     let valve = Valve { flow_rate };
     let (mode, start) = Turns.point(&START);

@@ -1,4 +1,4 @@
-//! Systems whose guards have bounds and are not sampled. Names of tests say where a case comes from.
+//! Systems whose guards have bounds and are not sampled. The names of tests give the source of a case.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 

@@ -1,4 +1,4 @@
-//! Crossings under bounds: all are found, and no others. Names of tests say where a case comes from.
+//! Crossings under bounds: all are found, and no others. The names of tests give the source of a case.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -7,7 +7,8 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Times of all crossings. After each one the search starts again from `shift(time)`, the function seen from there.
+/// Times of all crossings. After each crossing the search starts again with `shift(time)`, the function shifted to
+/// start there.
 fn crossings(
     function: &QuasiPolynomial,
     shift: impl Fn(f64) -> QuasiPolynomial,

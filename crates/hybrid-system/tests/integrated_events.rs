@@ -1,5 +1,5 @@
-//! Events along integrated flows: each is found once, without a limit on the size of steps. Names of tests say
-//! where a case comes from.
+//! Events along integrated flows: each is found once, without a limit on the size of steps. The names of tests give the
+//! source of a case.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -91,7 +91,7 @@ fn e2_scipy_test_events() {
     assert!((times[0].1 - 5.55057576624077608).abs() < 1e-12, "{times:?}");
     assert!((times[1].1 - 7.5487766624669276).abs() < 1e-12, "{times:?}");
     assert!(found.iter().all(|event| event.certainty == Certainty::Interpolated));
-    // In the opposite directions there is no event.
+    // In the opposite direction of each guard there is no event.
     let guards = [Guard::falling(0), Guard::rising(1)];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     assert!(events(&system, start, 3.0).is_empty());
@@ -252,7 +252,7 @@ proptest! {
                 Ok(arc) => match arc.event() {
                     Some(event) => {
                         let at = event.before[0];
-                        // A root next to one that was found may be within the rounding of the new start.
+                        // A root next to one that has been found may be within the rounding of the new start.
                         while ahead.next_if(|root| (at - root).abs() > 1e-10 && root - last < 1e-6).is_some() {}
                         last = ahead.next().unwrap();
                         prop_assert!((at - last).abs() < 1e-10, "{} {}", at, last);

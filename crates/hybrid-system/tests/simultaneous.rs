@@ -73,7 +73,7 @@ fn both_walls_of_a_corner() {
     }
 }
 
-/// If the first reset turns the point away from the other wall, there is no second event.
+/// If the first reset reverses the point away from the other wall, there is no second event.
 #[test]
 fn the_first_reset_may_prevent_the_second_event() {
     let corner = Corner { bounds: true, left_reverses_both: true };

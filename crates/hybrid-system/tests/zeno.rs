@@ -78,7 +78,7 @@ fn sciml_696_restitution_one_half() {
     assert!(limit.time_error < 1e-11 && (limit.ratio - 0.5).abs() < 1e-3 && limit.period == 1);
     assert!((limit.state - Vector2::new(-1.0, 0.0)).amax() <= limit.state_error);
     assert_eq!(after, Some((Mode::Resting, Vector2::new(-1.0, 0.0))));
-    // It rests up to the limit on time. Other software lets it fall through the floor.
+    // The ball rests up to the limit on time. Other software lets it fall through the floor.
     let last = arcs.last().unwrap();
     assert_eq!((last.mode, stop), (Mode::Resting, Some(Stop::TimeLimit)));
     assert_eq!(last.state(&ball, last.duration).unwrap(), Vector2::new(-1.0, 0.0));
@@ -110,7 +110,7 @@ fn every_restitution_has_its_limit() {
         let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 1e4);
         let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
         let exact = (1.0 + restitution) / (1.0 - restitution);
-        // The roundings of thousands of bounces come on top of the limit's own error.
+        // The roundings of thousands of bounces are added to the limit's own error.
         let rounding = 1e-15 * arcs.len() as f64 * exact;
         assert!(
             (limit.time - exact).abs() <= limit.time_error + rounding,
@@ -123,7 +123,7 @@ fn every_restitution_has_its_limit() {
     assert_eq!((arcs.len(), stop), (501, Some(Stop::TimeLimit)));
 }
 
-/// If the model names no mode after the limit, the execution ends there, with that reason.
+/// If the model gives no mode after the limit, the execution ends there, with that reason.
 #[test]
 fn a_zeno_limit_without_rest_ends_the_execution() {
     struct Restless(Ball, bool);

@@ -11,13 +11,13 @@ use std::io::{BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The end of every temporary name.
+/// The ending of every temporary name.
 const SUFFIX: &str = ".partial.tmp";
 
 /// Temporary files that this process has begun.
 static BEGUN: AtomicU64 = AtomicU64::new(0);
 
-/// A file under construction; [`AtomicFile::finish`] gives it its name. Dropped before, it leaves nothing behind.
+/// A file under construction; [`AtomicFile::finish`] gives it its name. If it is dropped before, no file remains.
 #[derive(Debug)]
 pub struct AtomicFile {
     file: BufWriter<File>,
@@ -37,8 +37,8 @@ impl AtomicFile {
             let new = OpenOptions::new().read(true).write(true).create_new(true).open(&temporary);
             let file = match new {
                 Ok(file) => file,
-                // The number of a process is used again after its end, and in another container at the same
-                // time. The name then belongs to somebody else: the next count is tried.
+                // The number of a process is used again after its end, and in another container at the same time. The
+                // name then belongs to another process: the next count is tried.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
                 Err(error) => return Err(Error::at(&temporary)(error)),
             };
@@ -67,8 +67,8 @@ impl AtomicFile {
         self.finish_if(|_| Ok(()))
     }
 
-    /// The same, if `check` accepts the file. It receives the flushed file, at its start; after an error of `check`
-    /// the file that had the name before is untouched.
+    /// As [`finish`](Self::finish), if `check` accepts the file. `check` receives the flushed file, at its start. After
+    /// an error of `check`, the file that had the name before is unchanged.
     pub fn finish_if<E: From<Error>>(
         mut self,
         check: impl FnOnce(&mut File) -> Result<(), E>,
@@ -90,13 +90,13 @@ impl AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if !self.has_its_name {
-            // An earlier error is the one to tell; if this fails too, `remove_leftovers` removes the file later.
+            // An earlier error is reported. If this removal fails too, `remove_leftovers` removes the file later.
             let _ = std::fs::remove_file(&self.temporary);
         }
     }
 }
 
-/// Writes a whole file: who looks finds the old bytes or the new ones.
+/// Writes a whole file: a reader finds either the old bytes or the new ones.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut file = AtomicFile::create(path)?;
     file.append(bytes)?;
@@ -104,19 +104,19 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// Removes from a folder the temporary files of [`AtomicFile`]s whose process no longer runs.
-///
-/// Files of running or stopped processes stay, since these hold their locks. Where files cannot be locked or read,
-/// they stay too: a leftover costs room and does no other harm, so no failure is reported.
+/// Files of running or stopped processes stay, since these processes hold their locks. Files that cannot be locked or
+/// read stay too. Such a leftover only costs disk space, so that no failure is reported.
 pub fn remove_leftovers(folder: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         if !is_temporary(&entry.file_name().to_string_lossy()) {
             continue;
         }
         let path = entry.path();
-        // Opened for writing, because some network file systems lock nothing else.
+        // Opened for writing, because some network file systems lock only files that are open for writing.
         let Ok(file) = OpenOptions::new().write(true).open(&path) else { continue };
         if file.try_lock().is_ok() && is_named(&file, &path).unwrap_or(false) {
-            // The lock is held during the removal: a writer that created this file just now sees it (`create`).
+            // The lock is held during the removal. A writer that created this file just now therefore notices the
+            // removal (`create`).
             let _ = std::fs::remove_file(&path);
         }
     }
@@ -131,8 +131,8 @@ fn is_temporary(name: &str) -> bool {
         .is_some_and(|(process, count)| is_number(process) && is_number(count))
 }
 
-/// Flushes the folder, which holds the name. Some systems cannot flush folders: a name may then be lost when the
-/// power fails, but not when the process is killed, so this is no error.
+/// Flushes the folder, which holds the name. Some systems cannot flush folders. A name may then be lost when the power
+/// fails, but not when the process is killed. Therefore this is no error.
 fn sync_folder_of(path: &Path) {
     let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let _ = File::open(parent.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
@@ -235,7 +235,7 @@ mod tests {
     fn a_name_left_by_an_earlier_process_of_the_same_number_is_passed_over() {
         let folder = folder("same_number");
         let next = BEGUN.load(Ordering::Relaxed);
-        // Other tests of this process take counts meanwhile: a range of names is occupied.
+        // Other tests of this process also take counts, so that a range of names is occupied.
         for count in next..next + 50 {
             let name = format!("a.{}-{count}{SUFFIX}", std::process::id());
             std::fs::write(folder.join(name), b"left over").unwrap();

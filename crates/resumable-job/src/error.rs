@@ -12,7 +12,7 @@ pub enum Error {
     File {
         /// The file or folder.
         path: PathBuf,
-        /// The answer of the system.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// Another process holds the lock.
@@ -25,7 +25,7 @@ pub enum Error {
         folder: PathBuf,
         /// The part of the folder that is locked.
         part: String,
-        /// The number of the process that holds the lock; `None` if the lock file does not tell it.
+        /// The number of the process that holds the lock; `None` if the lock file does not contain it.
         holder: Option<u32>,
     },
     /// The file system of this folder has no locks.
@@ -37,7 +37,7 @@ pub enum Error {
     NoLocks {
         /// The folder.
         folder: PathBuf,
-        /// The answer of the system.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// A finished piece cannot be used.
@@ -66,7 +66,7 @@ pub enum Error {
         path: PathBuf,
         /// The header, a piece with its number, or the end of the file.
         part: String,
-        /// The place in the file at which this part starts.
+        /// The position in the file at which this part starts.
         offset: u64,
     },
 }
@@ -77,7 +77,7 @@ fn process(holder: Option<u32>) -> String {
 }
 
 impl Error {
-    /// Attaches a path to an answer of the system.
+    /// Attaches a path to an error of the system.
     pub(crate) fn at(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Error {
         move |source| Error::File { path: path.to_path_buf(), source }
     }

@@ -1,5 +1,5 @@
-//! Long jobs on disk: a run that is killed at any instant leaves pieces from which the next run goes on, and
-//! the result has the bytes of an undisturbed run.
+//! Long jobs on disk. A run that is killed at any instant leaves pieces from which the next run continues, and the
+//! result has the bytes of an undisturbed run.
 //!
 //! ```text
 //!   lock the folder ─► compute the missing pieces ─► assemble ─► check ─► rename ─► remove the pieces
@@ -42,16 +42,16 @@
 //! ```
 //!
 //! # Guarantees
-//! - A file name shows the old bytes or the new bytes, never a part of them, whatever kills the process.
+//! - A file name shows the old bytes or the new bytes, never a part of them, however the process ends.
 //! - A process that is killed or stopped never harms another one: temporary names are not shared, and a stopped
 //!   process keeps its lock.
-//! - A lock ends with its process, however that ends. A lock file that is left on disk locks nothing.
-//! - Each file is flushed before it gets its name. A loss of power can therefore lose the newest file, but cannot
-//!   leave it half written; on systems that cannot flush a folder this rests on the file system.
+//! - A lock ends with its process, however the process ends. A lock file that is left on disk locks nothing.
+//! - Each file is flushed before it gets its name. A loss of power can therefore lose the newest file, but cannot leave
+//!   it half written. On systems that cannot flush a folder this depends on the file system.
 //! - A damaged piece, and a piece of another job or another build, is an error that names its file.
 //!
-//! The check of [`Pieces::assemble`] reads the file through the operating system's cache. It finds what programs do
-//! wrong. It does not find what a disk loses later.
+//! The check of [`Pieces::assemble`] reads the file through the operating system's cache. It finds errors of programs.
+//! It does not find data that a disk loses later.
 //!
 //! # Not here
 //! Threads, progress, printing: the caller computes the pieces, in any order and on any number of threads.

@@ -1,8 +1,8 @@
 //! A lock on a named part of a folder, which ends with its process.
 //!
-//! The lock belongs to the open file, not to its name: the system removes it when the process ends, by itself or
-//! killed. A lock file left on disk is therefore harmless, and the next process locks it again. A stopped process
-//! keeps its lock.
+//! The lock belongs to the open file, not to its name: the system removes the lock when the process ends, also if it is
+//! killed. A lock file left on disk is therefore harmless, and the next process locks it again. A stopped process keeps
+//! its lock.
 
 use crate::error::Error;
 use crate::open_file::is_named;
@@ -11,12 +11,13 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Time before a refused lock is asked for once more. Between the lock and the line with its number, a holder's file
-/// tells no number or an old one; that takes microseconds. Longer would delay the refusal for no gain.
+/// Time before a refused lock is tried once more. Between taking the lock and writing its number, a holder's file has
+/// no number or an old one. That takes microseconds. A longer time would delay the refusal without a gain.
 const SECOND_TRY_AFTER: Duration = Duration::from_millis(20);
 
-/// Trials to lock a file that its last holder removes meanwhile. Each trial lost needs another process that ended at
-/// that instant, so a few suffice. The limit guards against file systems on which a file never is the one it was.
+/// Trials to lock a file that its last holder removes meanwhile. Each lost trial needs another process that ended at
+/// that instant, so that a few trials suffice. The limit is for file systems on which a name never shows the file that
+/// was opened.
 const TRIALS: usize = 100;
 
 /// The right of one process to write one part of a folder, until it is dropped.
@@ -39,12 +40,12 @@ impl Lock {
         let path = folder.join(format!("{part}.lock"));
         let mut refused = false;
         for _ in 0..TRIALS {
-            // Not truncated: the number in it may be that of the holder.
+            // The file is not truncated: the number in it may be the number of the holder.
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
             let file = options.open(&path).map_err(Error::at(&path))?;
             match file.try_lock() {
-                // The last holder removed the file after it was opened here: this lock protects nothing.
+                // The last holder removed the file after this process opened it: the lock protects nothing.
                 Ok(()) if !is_named(&file, &path).map_err(Error::at(&path))? => continue,
                 Ok(()) => {
                     let lock = Lock { file, path };
@@ -76,17 +77,18 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Removed while still locked, so that a process that opened it before finds its name gone (`take`). That
-        // needs inode numbers; elsewhere the file stays. A file put there by others in the meantime stays too.
+        // The file is removed while it is still locked, so that a process that opened it before finds its name gone
+        // (`take`). This needs inode numbers; on other systems the file stays. A file that another process put there in
+        // the meantime stays too.
         if cfg!(unix) && is_named(&self.file, &self.path).unwrap_or(false) {
             let _ = std::fs::remove_file(&self.path);
         }
     }
 }
 
-/// The number in a lock file. `None` if it cannot be read: on Windows a lock keeps others from reading, too.
+/// The number in a lock file. `None` if it cannot be read: on Windows a lock also prevents others from reading.
 ///
-/// The open file is read, not its name: its holder may end just now and remove the name.
+/// The open file is read, not its name: the holder may end just now and remove the name.
 fn holder(mut file: &File) -> Option<u32> {
     let mut text = String::new();
     file.read_to_string(&mut text).ok()?;
@@ -158,7 +160,7 @@ mod tests {
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// The lock file appears and goes all the time; never do two threads hold the lock.
+    /// The lock file appears and disappears all the time; two threads never hold the lock at once.
     #[test]
     fn never_two_at_once() {
         let folder = folder("never");

@@ -1,4 +1,4 @@
-//! Finished pieces of a long job, kept on disk until the result is complete.
+//! Finished pieces of a long job, stored on disk until the result is complete.
 //!
 //! A piece carries the digest of its job, its own number and a digest of all its bytes:
 //!
@@ -20,8 +20,8 @@ const DIGEST: usize = 16;
 const HEAD: usize = MAGIC.len() + DIGEST + 8;
 
 /// The pieces of one job in one folder.
-///
-/// Two processes that write the same piece at once do no harm, but waste work; a [`crate::Lock`] avoids that, and is
+/// Two processes that write the same piece at once do no harm, but waste work. A [`crate::Lock`] avoids this.
+/// [`Pieces::assemble`] and [`Pieces::remove`] need the lock.
 /// needed for [`Pieces::assemble`] and [`Pieces::remove`].
 #[derive(Debug, Clone)]
 pub struct Pieces {
@@ -32,7 +32,7 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// The pieces of the job described, in `folder`, which is made if it does not exist.
+    /// The pieces of the described job in `folder`. The folder is made if it does not exist.
     ///
     /// The running program belongs to the description: another build may compute other bytes.
     pub fn open(folder: &Path, description: &str) -> Result<Self, Error> {
@@ -66,7 +66,7 @@ impl Pieces {
         Ok(Some(bytes))
     }
 
-    /// The reason why the contents of a file are not this piece of this job, if there is one.
+    /// The reason why the contents of a file are not this piece of this job; `None` if they are.
     fn defect(&self, piece: usize, bytes: &[u8]) -> Option<&'static str> {
         let Some((head, rest)) = bytes.split_at_checked(HEAD) else {
             return Some("it is too short to be a piece");
@@ -88,7 +88,7 @@ impl Pieces {
         None
     }
 
-    /// Keeps a finished piece.
+    /// Stores a finished piece.
     pub fn write(&self, piece: usize, payload: &[u8]) -> Result<(), Error> {
         let mut bytes = Vec::with_capacity(HEAD + payload.len() + DIGEST);
         bytes.extend_from_slice(MAGIC);
@@ -108,14 +108,14 @@ impl Pieces {
         })
     }
 
-    /// Writes `header` and the payloads of the pieces 0 … `pieces` − 1 to the file `path`, and compares what was
-    /// written with the pieces before the file gets its name.
+    /// Writes `header` and the payloads of the pieces 0 … `pieces` − 1 to the file `path`. Compares the written bytes
+    /// with the pieces before the file gets its name.
     ///
-    /// Each payload that agrees is handed to `look`, in order, with its number.
+    /// `look` receives each payload that agrees, in order, with its number.
     ///
     /// # Errors
-    /// [`Error::MissingPiece`] if a piece is not finished; [`Error::Differs`] if the file written does not hold the
-    /// bytes of the pieces. Neither touches the pieces, nor a file that had this name before.
+    /// [`Error::MissingPiece`] if a piece is not finished; [`Error::Differs`] if the written file does not have the
+    /// bytes of the pieces. After either error the pieces, and a file that had this name before, are unchanged.
     pub fn assemble(
         &self,
         path: &Path,
@@ -169,7 +169,7 @@ impl Pieces {
         Ok(())
     }
 
-    /// Removes all pieces of a job that is done, and what killed runs left half written.
+    /// Removes all pieces of a finished job, and the half-written files of killed runs.
     pub fn remove(self, pieces: usize) -> Result<(), Error> {
         for piece in 0..pieces {
             let path = self.path(piece);
@@ -181,7 +181,7 @@ impl Pieces {
             }
         }
         remove_leftovers(&self.folder);
-        // A folder that holds other files is not empty: it stays.
+        // A folder with other files is not empty: it stays.
         let _ = std::fs::remove_dir(&self.folder);
         Ok(())
     }

@@ -8,7 +8,7 @@ use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use example_systems::valve::turns;
 use rayon::prelude::*;
 
-/// Returns for each flow rate: enough that the start of an execution costs nothing in comparison.
+/// Returns for each flow rate. Their number is so large that the start of an execution does not matter.
 const RETURNS: usize = 500;
 
 fn valve(criterion: &mut Criterion) {

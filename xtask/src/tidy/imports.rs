@@ -1,4 +1,4 @@
-//! What a file imports from its own crate.
+//! The imports of a file from its own crate.
 
 use super::module_tree::Module;
 
@@ -16,7 +16,7 @@ pub(super) struct Import {
 /// The imports of a file from its own crate: `use crate::…`, `use super::…`, and `use child::…` of a file with
 /// modules.
 ///
-/// Tests are left out: they may use whatever the crate has.
+/// Tests are left out: they may import anything from the crate.
 pub(super) fn imports(module: &Module, modules: &[Module]) -> Vec<Import> {
     let mut found = Vec::new();
     let mut statement: Option<(usize, bool, String)> = None;

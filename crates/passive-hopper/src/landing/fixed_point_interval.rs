@@ -31,8 +31,8 @@ impl FixedPointInterval {
         let half_turns = alpha / PI;
         let mut n = half_turns as u64;
         let part = half_turns - n as f64;
-        // The quotient has an error of an ulp, at most 2⁻¹¹ for α ≤ 2⁴³. Only within 10⁻³ of an integer can ⌊α/π⌋
-        // be wrong, and the 100 bits of nπ are needed.
+        // The quotient has an error of an ulp, at most 2⁻¹¹ for α ≤ 2⁴³. Thus ⌊α/π⌋ can be wrong only within 10⁻³ of an
+        // integer. There the 100 bits of nπ decide.
         if part < 1e-3 && n > 0 && n_pi(n).compare(alpha) == Ordering::Less {
             n -= 1;
         } else if part > 0.999 && n_pi(n + 1).compare(alpha) != Ordering::Less {

@@ -32,8 +32,8 @@ impl Landing {
     }
 }
 
-/// Whether a sudden lift-off follows a landing at stretch 1 + `excess` with `velocity`. At stretch one itself the
-/// upper mass decides: moving up, it stretches the spring further.
+/// Whether a sudden lift-off follows a landing at stretch 1 + `excess` with `velocity`. At stretch 1 exactly, it
+/// follows if the upper mass moves up, because the upper mass then stretches the spring further.
 pub(crate) fn is_sudden(excess: f64, velocity: f64) -> bool {
     excess > 0.0 || (excess == 0.0 && velocity > 0.0)
 }
