@@ -38,6 +38,14 @@ fn hops_near_fixed_points_are_right_to_eight_ulps() {
     }
 }
 
+#[test]
+fn the_largest_index_is_an_error() {
+    for n in [u64::MAX, u64::MAX - 1, 1 << 63] {
+        let error = map(1.0).hop_near_fixed_point(n, 1e-5).unwrap_err();
+        assert!(matches!(error, Error::Offset { .. }), "{error}");
+    }
+}
+
 /// The ends of the interval (nπ, (n+1)π) in δ lie between two `f64`. Offsets two ulps inside are accepted, and offsets
 /// outside are errors.
 #[test]

@@ -28,7 +28,14 @@ pub struct AtomicFile {
 
 impl AtomicFile {
     /// Begins a file that will be named `path`, in a folder that exists.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be created, or if `path` is a folder, which no file can replace.
     pub fn create(path: &Path) -> Result<Self, Error> {
+        if path.is_dir() && !path.is_symlink() {
+            let reason = "this is a folder, and a file is to have this name; remove it, or give another folder";
+            return Err(Error::at(path)(std::io::Error::new(ErrorKind::IsADirectory, reason)));
+        }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         loop {
             let count = BEGUN.fetch_add(1, Ordering::Relaxed);
@@ -103,12 +110,32 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     file.finish()
 }
 
+/// Makes a folder with its parents. A folder that exists stays as it is.
+///
+/// # Errors
+/// [`Error::File`] with the answer of the system; with the reason if a file, or a link that leads nowhere, has this name.
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let error = if error.kind() == ErrorKind::AlreadyExists {
+            let reason = "this is a file, or a link that leads to no folder; remove it, or give another folder";
+            std::io::Error::new(ErrorKind::NotADirectory, reason)
+        } else {
+            error
+        };
+        Error::at(folder)(error)
+    })
+}
+
 /// Removes from a folder the temporary files of [`AtomicFile`]s whose process no longer runs.
 /// Files of running or stopped processes stay, since these processes hold their locks. Files that cannot be locked or
 /// read stay too. Such a leftover only costs disk space, so that no failure is reported.
 pub fn remove_leftovers(folder: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         if !is_temporary(&entry.file_name().to_string_lossy()) {
+            continue;
+        }
+        // Opening a named pipe would wait for a reader.
+        if !entry.file_type().is_ok_and(|kind| kind.is_file()) {
             continue;
         }
         let path = entry.path();
@@ -173,6 +200,26 @@ mod tests {
         drop(dropped);
         assert_eq!(std::fs::read(&path).unwrap(), b"new");
         assert_eq!(names(&folder), ["a"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_folder_of_this_name_is_an_error_at_the_beginning() {
+        let folder = folder("is_folder");
+        let error = AtomicFile::create(&folder).unwrap_err().to_string();
+        assert!(error.contains("is_folder") && error.contains("this is a folder"), "{error}");
+        assert_eq!(names(&folder), [""; 0]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_file_in_the_place_of_a_folder_is_told() {
+        let folder = folder("make");
+        make_folder(&folder.join("a/b")).unwrap();
+        make_folder(&folder.join("a")).unwrap();
+        std::fs::write(folder.join("c"), b"").unwrap();
+        let error = make_folder(&folder.join("c")).unwrap_err().to_string();
+        assert!(error.contains("this is a file") && error.contains("remove it"), "{error}");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -28,6 +28,23 @@ pub enum Error {
         /// The number of the process that holds the lock; `None` if the lock file does not contain it.
         holder: Option<u32>,
     },
+    /// The lock file was removed or replaced while its holder was at work.
+    #[error(
+        "{path}: this lock file, or its folder, was removed or replaced during the run, so another run may use the \
+         folder; this run stops; run again when no other run is at work there"
+    )]
+    LockLost {
+        /// The lock file.
+        path: PathBuf,
+    },
+    /// The name of the lock file belongs to a folder, a link or a device.
+    #[error(
+        "{path}: this is no regular file, so it cannot serve as a lock; remove it, or give another folder"
+    )]
+    LockFile {
+        /// The path of the lock file.
+        path: PathBuf,
+    },
     /// The file system of this folder has no locks.
     #[error(
         "{}: files cannot be locked here ({source}), so two runs could damage each other; \
@@ -47,6 +64,15 @@ pub enum Error {
         path: PathBuf,
         /// The defect.
         reason: &'static str,
+    },
+    /// A piece belongs to another job, and its neighbours may do so too.
+    #[error(
+        "{path}: it belongs to another job, or another build of this program; give another folder, or remove the \
+         folder {}", .path.parent().unwrap_or(.path).display()
+    )]
+    ForeignPiece {
+        /// The file of the piece.
+        path: PathBuf,
     },
     /// A piece was finished, and its file is missing now.
     #[error("{path}: this finished piece of the job '{job}' is missing; run again to compute it")]

@@ -14,6 +14,7 @@
 //! | [`Lock`] | gives one named part of a folder to one process; ends with the process |
 //! | [`Pieces`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
 //! | [`AtomicFile`], [`write_atomically`] | a file that appears under its name complete or not at all |
+//! | [`make_folder`] | makes a folder with its parents, and tells a file that has its name |
 //! | [`remove_leftovers`] | removes temporary files of processes that no longer run |
 //! | [`npy_header`], [`Order`] | the header of a NumPy file for a two-dimensional array of 16-bit labels |
 //! | [`digest`], [`program_digest`] | 64-bit FNV-1a of bytes; of the running program |
@@ -46,6 +47,7 @@
 //! - A process that is killed or stopped never harms another one: temporary names are not shared, and a stopped
 //!   process keeps its lock.
 //! - A lock ends with its process, however the process ends. A lock file that is left on disk locks nothing.
+//! - A lock file that another process removes or replaces is noticed by [`Lock::confirm`].
 //! - Each file is flushed before it gets its name. A loss of power can therefore lose the newest file, but cannot leave
 //!   it half written. On systems that cannot flush a folder this depends on the file system.
 //! - A damaged piece, and a piece of another job or another build, is an error that names its file.
@@ -70,7 +72,7 @@ mod npy;
 mod open_file;
 mod pieces;
 
-pub use atomic_file::{AtomicFile, remove_leftovers, write_atomically};
+pub use atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
 pub use digest::{digest, program_digest};
 pub use error::Error;
 pub use lock::Lock;

@@ -34,12 +34,17 @@ impl Lock {
     /// the process, for the message of others, and is removed with the lock.
     ///
     /// # Errors
-    /// [`Error::AtWork`] if another process holds the lock, [`Error::NoLocks`] if the file system has no locks, and
-    /// [`Error::File`] if the lock file cannot be opened or written.
+    /// [`Error::AtWork`] if another process holds the lock, [`Error::NoLocks`] if the file system has no locks,
+    /// [`Error::LockFile`] if the name of the lock file belongs to a folder, a link or a device, and [`Error::File`]
+    /// if the lock file cannot be opened or written.
     pub fn take(folder: &Path, part: &str) -> Result<Self, Error> {
         let path = folder.join(format!("{part}.lock"));
         let mut refused = false;
         for _ in 0..TRIALS {
+            // A link would lead to another file, and the process number would replace its bytes.
+            if std::fs::symlink_metadata(&path).is_ok_and(|data| !data.is_file()) {
+                return Err(Error::LockFile { path });
+            }
             // The file is not truncated: the number in it may be the number of the holder.
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
@@ -67,6 +72,22 @@ impl Lock {
         }
         let source = std::io::Error::other("the lock file never is the file that was opened");
         Err(Error::NoLocks { folder: folder.into(), source })
+    }
+
+    /// Makes sure that the lock still protects the folder.
+    ///
+    /// Others can remove the lock file, or the whole folder, and the next process then locks a new file. To be
+    /// called before each step that writes into the folder. It shortens the time in which two processes write
+    /// there, and cannot prevent it: others can remove the file just after the call.
+    ///
+    /// # Errors
+    /// [`Error::LockLost`] if the name of the lock file is gone or belongs to another file.
+    pub fn confirm(&self) -> Result<(), Error> {
+        if is_named(&self.file, &self.path).map_err(Error::at(&self.path))? {
+            Ok(())
+        } else {
+            Err(Error::LockLost { path: self.path.clone() })
+        }
     }
 
     fn tell_process(&self) -> std::io::Result<()> {
@@ -182,6 +203,42 @@ mod tests {
         });
         assert!(taken.into_inner() > 0);
         assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_lock_file_that_is_removed_or_replaced_is_noticed() {
+        let folder = folder("lost");
+        let first = Lock::take(&folder, "job").unwrap();
+        first.confirm().unwrap();
+        std::fs::remove_file(folder.join("job.lock")).unwrap();
+        let error = first.confirm().unwrap_err();
+        assert!(matches!(error, Error::LockLost { .. }), "{error}");
+        let second = Lock::take(&folder, "job").unwrap();
+        second.confirm().unwrap();
+        assert!(first.confirm().is_err());
+        // The end of the first one leaves the lock of the second one.
+        drop(first);
+        second.confirm().unwrap();
+        drop(second);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_name_of_a_folder_or_a_link_is_no_lock() {
+        let folder = folder("no_file");
+        let (path, other) = (folder.join("job.lock"), folder.join("other"));
+        std::fs::write(&other, b"contents").unwrap();
+        std::os::unix::fs::symlink(&other, &path).unwrap();
+        let error = Lock::take(&folder, "job").unwrap_err();
+        assert!(matches!(error, Error::LockFile { .. }), "{error}");
+        assert_eq!(std::fs::read(&other).unwrap(), b"contents");
+        std::fs::remove_file(&path).unwrap();
+        std::fs::create_dir(&path).unwrap();
+        let error = Lock::take(&folder, "job").unwrap_err().to_string();
+        assert!(error.contains("job.lock") && error.contains("remove it"), "{error}");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

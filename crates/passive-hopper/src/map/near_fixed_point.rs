@@ -54,7 +54,8 @@ impl LiftOffMap {
     pub fn hop_near_fixed_point(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
         let star = exact_alpha_star(n);
         // The interval (nπ, (n+1)π) in δ, to 100 bits.
-        let (left, right) = (n_pi(n) - star, n_pi(n + 1) - star);
+        // The largest n has no successor; it is refused below, since its speed is too large.
+        let (left, right) = (n_pi(n) - star, n_pi(n.saturating_add(1)) - star);
         let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
         // Below 10⁻³⁰⁰ the terms of δ(t), of size t³ ∝ δ, come near the smallest normal number and lose digits.
         let resolved = delta == 0.0 || delta.abs() >= 1e-300;
