@@ -1,4 +1,6 @@
 //! The algebraic approach to a fixed point from the right.
+//!
+//! Proof: docs/theory.md, Theorem 37.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;

@@ -1,4 +1,6 @@
 //! The fixed points α*_n for large n.
+//!
+//! Proof: docs/theory.md, Lemma 40.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;

@@ -1,4 +1,6 @@
 //! The map on the left of a fixed point, to three orders.
+//!
+//! Proof: docs/theory.md, Theorem 36.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;

@@ -41,7 +41,8 @@
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
-//! Phys. Rev. E, Sec. IV (cited as "paper"). The factor ¾ and the left side are derived in `docs/model.md`.
+//! Phys. Rev. E, Sec. IV (cited as "paper"). The factor ¾ and the left side are derived in `docs/theory.md`, Theorem 35
+//! and Theorem 36.
 
 mod coefficients;
 mod decay;

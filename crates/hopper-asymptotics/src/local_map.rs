@@ -1,4 +1,6 @@
 //! The local map: the map about a fixed point, to leading order on both sides.
+//!
+//! Proof: docs/theory.md, Theorem 35 and Theorem 36.
 
 use crate::coefficients::Coefficients;
 

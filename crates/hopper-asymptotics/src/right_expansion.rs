@@ -1,4 +1,6 @@
 //! The map on the right of a fixed point, to five orders.
+//!
+//! Proof: docs/theory.md, Theorem 35.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;

@@ -1,4 +1,6 @@
 //! Small hops: the map about α*_0 = 0.
+//!
+//! Proof: docs/theory.md, Lemma 39.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;

@@ -1,4 +1,6 @@
 //! The length Δ_n of the trap for large λ.
+//!
+//! Proof: docs/theory.md, Lemma 40.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;

@@ -6,6 +6,8 @@
 //! where α is the speed of the throw over g √(m_h/k).
 //!
 //! Run with `cargo run -p passive-hopper --example juggler`.
+//!
+//! Proof of the equivalence: docs/theory.md, Lemma 53.
 
 #![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and its last bits do not matter
 

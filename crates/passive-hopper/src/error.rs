@@ -111,8 +111,8 @@ pub enum Error {
         /// Velocity of the upper mass at the last landing.
         velocity: f64,
     },
-    /// Rounding errors hid the sign change on an interval that, by theory, holds a landing. Only the printed equations
-    /// give this error.
+    /// Rounding errors hid the sign change on an interval that holds a landing (docs/theory.md, Theorem 7 and
+    /// Theorem 12). Only the printed equations give this error.
     #[error(
         "a landing could not be bracketed from stretch 1 + {excess}, velocity {velocity}: {source}"
     )]

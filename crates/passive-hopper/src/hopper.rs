@@ -130,8 +130,8 @@ impl Hopper {
             let upper_position = flight.stretch(time).0;
             (time, HopperState { upper_position, lower_position: 0.0, ..flight.state(time) })
         };
-        // The result is certain: theory gives a bracket that contains only the first landing, and the search refines
-        // it.
+        // The result is certain: a bracket contains only the first landing (docs/theory.md, Theorem 7 and Theorem 12),
+        // and the search refines it.
         Ok(Crossing {
             surface: HopperSurface::Landing,
             time,

@@ -39,10 +39,11 @@
 //! ```
 //!
 //! # Accuracy
-//! For each landing theory gives an interval with no other root. The solver finds the landing in half the time of
-//! flight, to about an ulp as a backward error in the speed. 3222 reference hops have 40 digits: random ones, extreme
-//! ones, and ones within 2⁻⁴⁸ of a change of branch. Against these references the error of α′ is at most 4 (1 + sudden
-//! lift-offs) units of ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³ (`cargo xtask check-reference`).
+//! Each landing lies in an interval with no other root (docs/theory.md, Theorem 7 and Theorem 12). The solver finds the
+//! landing in half the time of flight, to about an ulp as a backward error in the speed. 3222 reference hops have 40
+//! digits: random ones, extreme ones, and ones within 2⁻⁴⁸ of a change of branch. Against these references the error of
+//! α′ is at most 4 (1 + sudden lift-offs) units of ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³
+//! (`cargo xtask check-reference`).
 //!
 //! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. If 53 bits
 //! do not suffice for it, 106 and then up to 1024 bits are used. [`Hop::certain`] is false for a hop that needs more.

@@ -125,8 +125,8 @@ fn bad_speeds_are_errors_with_the_value() {
     assert!(map(1.0).image(f64::MIN_POSITIVE / 8.0).unwrap().is_some());
 }
 
-/// Thousands of sudden lift-offs in one hop: theory bounds their number. Beyond the budget the hop is an error with the
-/// last state on the ground.
+/// Thousands of sudden lift-offs in one hop: their number is bounded (docs/theory.md, Theorem 18). Beyond the budget
+/// the hop is an error with the last state on the ground.
 #[test]
 fn hops_at_huge_mass_ratios_end() {
     for (m, alpha) in [(1e4, 3.6), (1e5, 3.6), (1e6, 3.2)] {

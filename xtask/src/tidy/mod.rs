@@ -8,6 +8,7 @@
 //! | no import cycles between files | `import_cycles.rs` |
 //! | no imports through `lib.rs` | `lib_imports.rs` |
 //! | the root of the repository holds known names only | `root_folder.rs` |
+//! | citations of `docs/theory.md` name statements that exist | `theory_citations.rs` |
 
 mod breach;
 mod crate_classes;
@@ -18,6 +19,7 @@ mod line_rules;
 mod module_tree;
 mod root_folder;
 mod sources;
+mod theory_citations;
 mod workspace_members;
 
 use crate::error::Error;
@@ -56,6 +58,8 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     crate_classes::check(&crates, &mut breaches);
     workspace_members::check(&sources::read(root, "Cargo.toml")?.text, &crates, &mut breaches);
     root_folder::check(root, &mut breaches)?;
+    let documents = sources::documents(root)?;
+    theory_citations::check(&sources, &documents, &mut breaches);
     Ok(breaches)
 }
 

@@ -77,7 +77,7 @@ impl Source {
 pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
     let mut names = Vec::new();
     for folder in ["crates", "xtask"] {
-        collect_in(root, folder, &mut names)?;
+        collect_in(root, folder, &[".rs", ".toml"], &mut names)?;
     }
     names.sort();
     let mut sources: Vec<Source> =
@@ -86,13 +86,29 @@ pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
     Ok(sources)
 }
 
+/// `README.md` and all Markdown files in `crates`, `docs` and `xtask`, sorted by name.
+pub(super) fn documents(root: &Path) -> Result<Vec<Source>, Error> {
+    let mut names = vec!["README.md".to_owned()];
+    for folder in ["crates", "docs", "xtask"] {
+        collect_in(root, folder, &[".md"], &mut names)?;
+    }
+    names.sort();
+    names.iter().map(|name| read(root, name)).collect()
+}
+
 /// Marks the files that others declare as tests.
 fn mark_tests(sources: &mut [Source]) {
     let tests: Vec<String> = sources.iter().flat_map(Source::test_modules).collect();
     sources.iter_mut().for_each(|source| source.is_test = tests.contains(&source.name));
 }
 
-fn collect_in(root: &Path, folder: &str, names: &mut Vec<String>) -> Result<(), Error> {
+/// Adds the files of a folder, and of those in it, whose names have one of the endings.
+fn collect_in(
+    root: &Path,
+    folder: &str,
+    endings: &[&str],
+    names: &mut Vec<String>,
+) -> Result<(), Error> {
     let path = root.join(folder);
     let at = |source| Error::File { path: path.clone(), source };
     for entry in std::fs::read_dir(&path).map_err(at)? {
@@ -102,9 +118,9 @@ fn collect_in(root: &Path, folder: &str, names: &mut Vec<String>) -> Result<(), 
         if entry.path().is_dir() {
             // Build results: a fuzz crate has its own `target`.
             if file != "target" {
-                collect_in(root, &name, names)?;
+                collect_in(root, &name, endings, names)?;
             }
-        } else if name.ends_with(".rs") || name.ends_with(".toml") {
+        } else if endings.iter().any(|ending| name.ends_with(ending)) {
             names.push(name);
         }
     }

@@ -14,9 +14,10 @@ const SAMPLES_OF_MONOTONE_PART: usize = 65;
 
 /// The monotone branches of the map from α*_`from` to α*_`to`.
 ///
-/// On the contact parts all branches are found: theory gives every critical point, and the map is cut there. Each
-/// sudden window (nπ, α*_n) is searched with `samples` points, which may miss branches narrower than their
-/// spacing. For M ≤ 0.905 a hop has at most one sudden lift-off, and the windows have few branches.
+/// On the contact parts all branches are found: the map is cut at its critical points, all of which are known
+/// (docs/theory.md, Corollary 28). Each sudden window (nπ, α*_n) is searched with `samples` points, which may miss
+/// branches narrower than their spacing. For M ≤ 0.905 a hop has at most one sudden lift-off (docs/theory.md,
+/// Theorem 20), and the windows have few branches.
 ///
 /// # Errors
 /// As [`Fates::new`].

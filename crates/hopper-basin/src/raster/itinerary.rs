@@ -2,7 +2,7 @@
 //!
 //! If the orbits of two speeds have the same itinerary, every orbit that starts between them has their fate. This holds
 //! for orbits as `f64` computes them, because an itinerary carries a bound on the rounding errors. README.md has the
-//! proof; its invariants are cited here by name.
+//! proof; its invariants are cited here by name. Its assumptions are those of docs/theory.md, Theorem 52.
 
 use crate::raster::laps::{ID_BITS, Laps};
 use passive_hopper::LiftOffMap;

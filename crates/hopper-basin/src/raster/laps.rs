@@ -1,14 +1,14 @@
 //! The laps of the map: the intervals on which it is proved to be continuous and monotone.
 //!
 //! ```text
-//!   hump n      α*_n … maximum        rises   1 − 4μW > 0 (docs/model.md)
+//!   hump n      α*_n … maximum        rises   1 − 4μW > 0 (docs/theory.md, Corollary 28)
 //!               maximum … minimum     falls   1 − 4μW < 0
 //!               minimum … (n+1)π      rises
 //!   window n+1  (n+1)π … α*_{n+1}     rises   proved for some M, up to 10⁻³ below α*_{n+1} (`rising_windows`)
 //! ```
 //!
-//! For M < 1 the map is continuous at (n+1)π. So the last part of hump n and window n+1 form one lap. If the hump has
-//! no maximum, all of hump n and window n+1 form one lap.
+//! For M < 1 the map is continuous at (n+1)π (docs/theory.md, Theorem 23). So the last part of hump n and window n+1
+//! form one lap. If the hump has no maximum, all of hump n and window n+1 form one lap.
 
 use crate::error::Error;
 use crate::raster::rising_windows::rising_window;

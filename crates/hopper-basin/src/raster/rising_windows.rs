@@ -1,6 +1,7 @@
 //! The sudden windows (nπ, α*_n) on which the map is proved to rise.
 //!
-//! The proof is a test at the end of this file. It encloses the derivative over the plane of h and M with intervals.
+//! The proof (docs/theory.md, Theorem 48) is a test at the end of this file. It encloses the derivative over the plane
+//! of h and M with intervals.
 
 use basin_of_attraction::Interval;
 use passive_hopper::alpha_star;
@@ -66,9 +67,9 @@ mod tests {
     //! ```
     //!
     //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight is
-    //! monotone in x and V. Therefore the values at the ends of an interval give the range of each over the interval.
-    //! The intervals are not rounded outwards. Instead the bounds must hold with a margin of 10⁻⁶, a thousand times the
-    //! rounding errors.
+    //! monotone in x and V. Therefore the values at the ends of an interval give the range of each over the interval
+    //! (docs/theory.md, Lemma 14). The intervals are not rounded outwards. Instead the bounds must hold with a margin
+    //! of 10⁻⁶, a thousand times the rounding errors.
 
     #![allow(clippy::disallowed_methods)]
 

@@ -1,4 +1,6 @@
 //! The mass ratios from which orbits of a hump fall below its fixed point, or to the ground.
+//!
+//! Proofs: docs/theory.md, Theorem 29 and Theorem 31.
 
 use crate::error::Error;
 use crate::traps::hump::{Hump, LARGEST_HUMP, Target, Touch};

@@ -12,6 +12,8 @@
 //!
 //! The coordinate on hump n ≥ 1 is t = τ − 2α*_n = 2(h − α*_n), because α − α*_n and Γ can be computed
 //! from t without cancellation. On hump 0 it is t = τ, since α*_0 = 0.
+//!
+//! Proofs: docs/theory.md, Lemma 26, Lemma 27, Theorem 29 and Theorem 31.
 
 use crate::error::Error;
 use hybrid_system::bracketed_root;

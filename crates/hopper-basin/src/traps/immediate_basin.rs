@@ -25,7 +25,7 @@ pub struct ImmediateBasin {
 /// Where an immediate basin ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ImmediateBasinEdge {
-    /// On the contact part of the hump. It is proved that f crosses α*_n downwards only once there.
+    /// On the contact part of the hump. f crosses α*_n downwards only once there (docs/theory.md, Theorem 29).
     Contact,
     /// In the sudden window, at the first speed with f < α*_n that a scan found. The scan may have missed an
     /// earlier interval with f < α*_n, if that is narrower than the spacing.
@@ -33,7 +33,7 @@ pub enum ImmediateBasinEdge {
         /// The spacing of the scan.
         width: f64,
     },
-    /// At the next fixed point; proved by a bound on the loss of a hop.
+    /// At the next fixed point; proved by a bound on the loss of a hop (docs/theory.md, Lemma 32).
     NextFixedPoint,
     /// At the next fixed point: the scan found no speed with f < α*_n. It may have missed an interval narrower
     /// than the spacing.
@@ -90,7 +90,7 @@ fn scan(map: &LiftOffMap, trap: &Trap, width: f64) -> Result<ImmediateBasin, Err
         let at = (left + (right - left) * (point as f64 / points)).min(right);
         if falls(at)? {
             let mut below = at;
-            // Bisection down to neighbouring `f64`: f is continuous where it first falls.
+            // Bisection down to neighbouring `f64`: the first fall is no jump over α*_n (docs/theory.md, Lemma 33).
             while above.next_up() < below {
                 let middle = above + 0.5 * (below - above);
                 if falls(middle)? { below = middle } else { above = middle }

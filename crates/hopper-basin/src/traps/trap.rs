@@ -12,8 +12,8 @@ use std::f64::consts::PI;
 /// Where a trap ends on the right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TrapEdge {
-    /// The trap ends where f falls to α*_n on the contact part of the hump. It is proved that f crosses α*_n
-    /// downwards only once there.
+    /// The trap ends where f falls to α*_n on the contact part of the hump. f crosses α*_n downwards only once there
+    /// (docs/theory.md, Theorem 29).
     Crossing,
     /// f stays above α*_n on the whole contact part, and the trap is taken up to its end, (n+1)π. f may stay
     /// above α*_n further on, in the sudden window; see [`immediate_basin`](crate::immediate_basin).
@@ -23,7 +23,7 @@ pub enum TrapEdge {
     NextFixedPoint,
 }
 
-/// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off.
+/// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
 const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
 
 /// Whether no hop from the sudden window ((n+1)π, α*_{n+1}) can lose enough to fall to α*_n.
@@ -31,7 +31,7 @@ const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
 /// A hop loses α² − α′² = μ Σ Γ². A flight from (Y, V) has |ṡ| ≤ √(Y²+V²) = R. Its stretch stays above −R,
 /// so that |Ṗ| ≤ √(V² + 2(Y+R)) = B. Hence Γ = ṡ − Ṗ ≤ R + B, and the landing has Y′ ≤ R and
 /// |V′| ≤ max(R, B). For M ≤ [`ONE_SUDDEN`] a hop has at most two flights, and the sum at most two terms.
-/// (docs/model.md, "A bound without the map")
+/// (docs/theory.md, Lemma 32)
 ///
 /// The condition is sufficient, not necessary.
 fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {

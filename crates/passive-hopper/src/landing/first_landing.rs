@@ -1,5 +1,5 @@
-//! The first landing after a gradual lift-off. It exists and is unique for every α > 0 (docs/model.md,
-//! section 4).
+//! The first landing after a gradual lift-off. It exists and is unique for every α > 0 (docs/theory.md,
+//! Theorem 7).
 
 use crate::landing::first_flight_table::{TablePosition, fixed_points};
 use crate::landing::fixed_point_interval::FixedPointInterval;

@@ -6,8 +6,8 @@
 //!   (α*_n, (n+1)π) into contact     (α, (n+1)π)      A((n+1)π) = (n+1)π, A(h) − h < 0
 //! ```
 //!
-//! with A(h) the lift-off speed of the flight that lasts 2h, which increases (docs/model.md,
-//! section 4). For n = 0 only the second line applies.
+//! with A(h) the lift-off speed of the flight that lasts 2h, which increases (docs/theory.md,
+//! Theorem 7). For n = 0 only the second line applies.
 
 use crate::model::fixed_points::{exact_alpha_star, n_pi};
 use crate::precision::double_double::DoubleDouble;

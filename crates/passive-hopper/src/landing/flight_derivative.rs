@@ -11,6 +11,8 @@
 //! ```
 //!
 //! The derivatives of the map (`map/slopes.rs`) and the error bounds (`error_bound.rs`) both use it.
+//!
+//! Proof: docs/theory.md, Lemma 16.
 
 use crate::landing::flight_ends::{Landing, TakeOff};
 

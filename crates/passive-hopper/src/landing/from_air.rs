@@ -4,6 +4,8 @@
 //! Between two neighbouring times of this lattice G is convex (s > 1) or concave (s < 1). Therefore the signs of G at
 //! the two ends of a piece, and at the minimum of a convex piece, decide whether G has a root in the piece. No samples
 //! are needed. Where P > R, G is positive, and such pieces are skipped.
+//!
+//! Proof: docs/theory.md, Lemma 15.
 
 use crate::model::motion::Flight;
 use hybrid_system::{Error, bracketed_root};

@@ -17,6 +17,8 @@
 //! ```
 //!
 //! For x = 0, V is A(h) of the paper's Eq. (11), and Γ its closing speed Γ(h).
+//!
+//! Proof: docs/theory.md, Lemma 5.
 
 use crate::precision::real::{Extended, Real};
 

@@ -14,6 +14,8 @@
 //! Γ, S u/D and dδ/dt.
 //!
 //! No term cancels another, however small t is. Hence every function keeps its relative accuracy.
+//!
+//! Proof: docs/theory.md, Lemma 34.
 
 use crate::landing::extended_landing::ExtendedLanding;
 use crate::model::fixed_points::alpha_star;

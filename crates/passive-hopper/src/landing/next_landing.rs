@@ -1,7 +1,7 @@
 //! The landing of a flight that starts with a sudden lift-off, at stretch Y = 1 + x, x > 0.
 //!
 //! In h, half the time of flight, the landing is a root of V(h) = V. The first root lies on an increasing branch of
-//! V(h), and the following intervals hold it and no other root (docs/model.md, section 4):
+//! V(h), and the following intervals hold it and no other root (docs/theory.md, Theorem 12):
 //!
 //! ```text
 //!   branch b    h in                      because

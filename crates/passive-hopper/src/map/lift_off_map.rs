@@ -2,6 +2,8 @@
 //!
 //! A hop is computed by the first of these methods whose decisions are all conclusive: the kernel; landing by landing
 //! in `f64`, with an error bound; landing by landing in longer arithmetic.
+//!
+//! Proof: docs/theory.md, Theorem 4; the invariance under M → 1/M: docs/theory.md, Corollary 10.
 
 use crate::error::Error;
 use crate::kernel::scalar::hop::{DecidedHop, MassFactors, kernel_hop};

@@ -2,8 +2,9 @@
 
 /// Sudden lift-offs that one hop may have. A hop with more is an error.
 ///
-/// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. The limit thus stops
-/// only hops with M far above 10⁶. A hop that reaches the limit takes some tenths of a second.
+/// Their number is below ((α√M + √(α²M + 8αα*_1))/(2α*_1))² (docs/theory.md, Theorem 18). So the limit stops no hop
+/// with α (2 + 10³√M) ≤ 4.49 · 10⁶ (docs/theory.md, Corollary 19). Scans find 1013 at M = 10⁴. A hop that reaches the
+/// limit takes some tenths of a second.
 pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
 
 /// Largest speed of hops in plain `f64`, 2²⁸. Faster hops are computed in longer arithmetic from the start.

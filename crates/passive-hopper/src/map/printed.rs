@@ -16,7 +16,7 @@ type UpperState = (f64, f64);
 
 /// f(α; M) by the printed equations; `None` if the hopper is grounded.
 ///
-/// The time of flight is the only root of Eq. (8) in a bracket that theory gives.
+/// The time of flight is the only root of Eq. (8) in a bracket that docs/theory.md, Theorem 7 and Theorem 12, gives.
 ///
 /// # Errors
 /// [`Error::LiftOffSpeed`], [`Error::LiftOffSpeedTooLarge`] and [`Error::SuddenLiftOffBudget`] as in the stable form;

@@ -27,9 +27,9 @@ pub struct Slopes {
 impl LiftOffMap {
     /// ∂α′/∂α and ∂α′/∂M at `alpha`; `None` if the hopper is grounded.
     ///
-    /// On the contact intervals ∂α′/∂α = (α/α′)(1 − 4μW). At α*_n both one-sided derivatives by α are 1, with
-    /// f′ = 1 − (4/3)λδ^{1/3} on the right and 1 + (40/3)λ|δ|^{1/3} on the left. Both derivatives
-    /// are infinite where α′ falls to zero, and on one side of a grazing.
+    /// On the contact intervals ∂α′/∂α = (α/α′)(1 − 4μW) (docs/theory.md, Lemma 26). At α*_n both one-sided derivatives
+    /// by α are 1, with f′ = 1 − (4/3)λδ^{1/3} on the right and 1 + (40/3)λ|δ|^{1/3} on the left. Both derivatives are
+    /// infinite where α′ falls to zero, and on one side of a grazing.
     ///
     /// # Errors
     /// The errors of [`image`](Self::image).

@@ -23,7 +23,7 @@ pub fn contact_flow(mass_ratio: MassRatio, start: &HopperState, time: f64) -> Ho
 }
 
 /// e = V² + x (2 + κ x), the square of the next gradual lift-off speed, for stretch 1 + x and velocity V on the
-/// ground. This is the energy, shifted and scaled so that a gradual lift-off has e = α².
+/// ground. This is the energy, shifted and scaled so that a gradual lift-off has e = α² (docs/theory.md, Lemma 2).
 pub fn lift_off_energy(mass_ratio: MassRatio, excess: f64, velocity: f64) -> f64 {
     velocity * velocity + excess * (2.0 + mass_ratio.kappa() * excess)
 }
@@ -34,8 +34,8 @@ pub fn lift_off_energy(mass_ratio: MassRatio, excess: f64, velocity: f64) -> f64
 /// A start at or beyond y₁ = 1 that moves up lifts off at once.
 ///
 /// With a = y₁ + 1/M, c = 1 + 1/M, b = V/ν, q = √e/ν: a cos θ + b sin θ = c first rises at
-/// tan ½θ = (c − a)/(b + q) = (b − q)/(a + c). The first form is used for b ≥ 0 and the second for b < 0. The other
-/// form would subtract nearly equal numbers, or divide zero by zero.
+/// tan ½θ = (c − a)/(b + q) = (b − q)/(a + c) (docs/theory.md, Lemma 3). The first form is used for b ≥ 0 and the
+/// second for b < 0. The other form would subtract nearly equal numbers, or divide zero by zero.
 ///
 /// # Errors
 /// [`Error::NotFinite`] unless both numbers, and the energy computed from them, are finite.

@@ -1,4 +1,6 @@
 //! The energy of both masses and the spring.
+//!
+//! Proof that nothing else changes it: docs/theory.md, Lemma 2.
 
 use crate::model::mass_ratio::MassRatio;
 use crate::model::state::HopperState;

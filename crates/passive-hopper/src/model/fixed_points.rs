@@ -12,7 +12,7 @@ use std::sync::OnceLock;
 /// The hop with this lift-off speed lands after τ = 2α*_n with closing speed zero, and repeats for ever. The value is
 /// the `f64` nearest to the root; [`FixedPointSpeed`] has 100 bits of it.
 ///
-/// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²).
+/// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²) (docs/theory.md, Lemma 6).
 ///
 /// ```
 /// use passive_hopper::alpha_star;

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The flight lands before the maximum if V < (m+½)π and (−1)^m (V cos V − Y sin V) ≥ 0; see the head of
-//! `landing/next_landing.rs` and docs/model.md.
+//! `landing/next_landing.rs` and docs/theory.md, Theorem 12.
 
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::half_angle::{HalfAngle, negated_if_odd};
