@@ -31,8 +31,10 @@ fn intervals_contain_the_true_fraction_as_often_as_stated() {
     let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
     let wide = interval(-1.5, 0.5);
     type Label<'a> = &'a (dyn Fn(f64) -> u16 + Sync);
-    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] =
-        [("Cantor basin", unit, &|x| cantor_label(x, 2), 0, 0.6), ("one-sided fixed point", wide, &step, 1, 0.5)];
+    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] = [
+        ("Cantor basin", unit, &|x| cantor_label(x, 2), 0, 0.6),
+        ("one-sided fixed point", wide, &step, 1, 0.5),
+    ];
     for (name, window, label, basin, truth) in cases {
         let covered = |fraction: &dyn Fn(u64) -> ConfidenceInterval| {
             (0..1000).filter(|&seed| fraction(seed).covers(truth)).count()

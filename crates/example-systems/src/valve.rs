@@ -73,7 +73,9 @@ impl HybridSystem<3> for Valve {
 
     fn guards(&self, mode: Mode) -> &[Guard<Surface>] {
         match mode {
-            Mode::Open => const { &[Guard::falling(Surface::Seat), Guard::falling(Surface::TurningPoint)] },
+            Mode::Open => {
+                const { &[Guard::falling(Surface::Seat), Guard::falling(Surface::TurningPoint)] }
+            }
             Mode::Closed => const { &[Guard::rising(Surface::Release)] },
         }
     }
@@ -132,7 +134,8 @@ impl Section<Valve, 3, 2> for TurningPoints {
         (Mode::Open, Vector3::new(y[0], 0.0, y[1]))
     }
     fn coordinates(&self, event: &Event<Mode, Surface, 3>) -> Option<SVector<f64, 2>> {
-        (event.surface == Surface::TurningPoint).then(|| Vector2::new(event.before[0], event.before[2]))
+        (event.surface == Surface::TurningPoint)
+            .then(|| Vector2::new(event.before[0], event.before[2]))
     }
 }
 
@@ -155,7 +158,9 @@ pub fn turning_points(flow_rate: f64, transient: usize, kept: usize) -> Result<V
     let mut turning_point = 0;
     for arc in Execution::new(&valve, mode, start, limits(transient + kept)) {
         let arc = arc?;
-        let Some(at) = arc.event().and_then(|event| TurningPoints.coordinates(event)) else { continue };
+        let Some(at) = arc.event().and_then(|event| TurningPoints.coordinates(event)) else {
+            continue;
+        };
         if turning_point >= transient {
             found.push(at[0]);
         }
@@ -164,7 +169,9 @@ pub fn turning_points(flow_rate: f64, transient: usize, kept: usize) -> Result<V
             return Ok(found);
         }
     }
-    let reason =
-        format!("{turning_point} turning points were found where {} were asked for", transient + kept);
+    let reason = format!(
+        "{turning_point} turning points were found where {} were asked for",
+        transient + kept
+    );
     Err(Error::Model { reason })
 }

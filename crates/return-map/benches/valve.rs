@@ -17,11 +17,16 @@ fn valve(criterion: &mut Criterion) {
     group.sample_size(10);
     group.throughput(Throughput::Elements((RETURNS * rates.len()) as u64));
     group.bench_function("one thread", |b| {
-        b.iter(|| rates.iter().map(|&q| turning_points(q, RETURNS - 1, 1).unwrap()[0]).sum::<f64>());
+        b.iter(|| {
+            rates.iter().map(|&q| turning_points(q, RETURNS - 1, 1).unwrap()[0]).sum::<f64>()
+        });
     });
     group.bench_function("all threads", |b| {
         b.iter(|| {
-            rates.par_iter().map(|&q| turning_points(q, RETURNS - 1, 1).unwrap()[0]).collect::<Vec<_>>()
+            rates
+                .par_iter()
+                .map(|&q| turning_points(q, RETURNS - 1, 1).unwrap()[0])
+                .collect::<Vec<_>>()
         });
     });
     group.finish();

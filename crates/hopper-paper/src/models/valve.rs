@@ -59,7 +59,10 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         "flow rate $q$ (dimensionless)",
         "displacement $y$_{1} at the turns, $y$_{2} = 0",
     );
-    let rows = displacements.iter().enumerate().map(|(k, &displacement)| vec![Some(rate(k / DRAWN)), Some(displacement)]);
+    let rows = displacements
+        .iter()
+        .enumerate()
+        .map(|(k, &displacement)| vec![Some(rate(k / DRAWN)), Some(displacement)]);
     Ok(Figure {
         name: "valve",
         title: "Bifurcations of a pressure relief valve".into(),

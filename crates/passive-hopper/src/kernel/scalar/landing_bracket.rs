@@ -75,7 +75,8 @@ impl LandingBracket {
             negated_if_odd(velocity * at_velocity.cos - (1.0 + excess) * at_velocity.sin, parity);
         let before_maximum = (test >= 0.0) & (part < 0.5);
         // |test| must be larger than its error: that of the sines, and that of x and V, where |∂test/∂x| ≤ 1 and
-        // |∂test/∂V| ≤ 1 + Y + V. The factor 4 is a margin.
+        // |∂test/∂V| ≤ 1 + Y + V. A factor 2 would do, since 1 + Y + V ≤ 2 (1 + x + V); 4 is a margin. A larger
+        // factor would send more flights to the careful path.
         let size = 4.0 * (1.0 + excess + velocity);
         let slack = EIGHT_DIGITS * size + error + size * error;
         let (low, high) = (m * PI, (m + 1.0) * PI);
