@@ -59,10 +59,10 @@ pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error
 /// A margin of a factor 4 over one ulp.
 const SMALLEST_BOX_ULPS: f64 = 4.0;
 
-/// A last box is left out if it is thinner than this fraction of the window. The quotient of the window's length and the
-/// size may exceed a whole number by rounding, some ulps of it; that would add an empty box. 10⁻¹² is thousands of ulps.
-/// For windows far from 0 the rounding of their ends is larger, and a thin box may appear. A larger fraction would leave
-/// out thin boxes that the caller asked for.
+/// A last box is left out if it is thinner than this fraction of the window. The quotient of the window's length and
+/// the size may exceed a whole number by rounding, some ulps of it; that would add an empty box. 10⁻¹² is thousands of
+/// ulps. For windows far from 0 the rounding of their ends is larger, and a thin box may appear. A larger fraction
+/// would leave out thin boxes that the caller asked for.
 const THINNEST_BOX: f64 = 1e-12;
 
 impl IntervalBasins {

@@ -172,8 +172,8 @@ const SUSPECT_STEP: f64 = 4.0;
 
 /// A jump keeps more than this fraction of the step's height when the step is halved to neighbouring `f64`. A
 /// continuous map keeps a fraction near 0. A jump inside a step across which the map also changes smoothly keeps the
-/// quotient of the two heights: a jump lower than a quarter of its step is taken for a steep part of the branch. A smaller
-/// fraction would find lower jumps; it would also cut a branch where rounding is a larger part of a low step.
+/// quotient of the two heights: a jump lower than a quarter of its step is taken for a steep part of the branch. A
+/// smaller fraction would find lower jumps; it would also cut a branch where rounding is a larger part of a low step.
 const JUMP_FRACTION: f64 = 0.25;
 
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.

@@ -68,8 +68,8 @@ pub fn interval_basins(
     /// longest as a rule. A larger fraction would add rounds with few intervals.
     const FIRST_THRESHOLD: f64 = 0.01;
     /// Once no longer intervals are pending, the threshold is divided by this. A smaller divisor follows the intervals
-    /// more nearly in the order of their length, in more rounds. The two numbers decide the order of the search only, and
-    /// so the result only if a limit stops it.
+    /// more nearly in the order of their length, in more rounds. The two numbers decide the order of the search only,
+    /// and so the result only if a limit stops it.
     const THRESHOLD_STEP: f64 = 8.0;
     TrapSet::new(traps.to_vec())?;
     let trapped = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());

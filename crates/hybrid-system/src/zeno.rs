@@ -47,9 +47,9 @@ const USUAL: Criterion = Criterion { periods: 5, spread: 0.01, remainder: 1e-12 
 /// of order t², is below 10⁻¹⁶: the remainder may be as large as about 10⁻⁷, for large coordinates more.
 const NEXT_EVENT_HIDDEN: Criterion = Criterion { periods: 2, spread: 0.1, remainder: 1e-5 };
 
-/// Longest period that is looked for, in events: two guards that are crossed alternately give period 2, and 4 leaves room
-/// for twice as many. A Zeno limit of a longer period is not recognised, and the execution ends at its limit on events. A larger
-/// number costs a longer history, and more tests of every short arc.
+/// Longest period that is looked for, in events: two guards that are crossed alternately give period 2, and 4 leaves
+/// room for twice as many. A Zeno limit of a longer period is not recognised, and the execution ends at its limit on
+/// events. A larger number costs a longer history, and more tests of every short arc.
 const LONGEST_PERIOD: usize = 4;
 
 /// Number of arcs kept: one period more than the factors that must agree, because a factor compares two periods.

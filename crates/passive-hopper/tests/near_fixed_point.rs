@@ -38,7 +38,8 @@ fn hops_near_fixed_points_are_right_to_eight_ulps() {
     }
 }
 
-/// The ends nπ and (n+1)π of the interval of a fixed point lie between two `f64`. Offsets two ulps inside are accepted, and offsets outside are errors.
+/// The ends nπ and (n+1)π of the interval of a fixed point lie between two `f64`. Offsets two ulps inside are
+/// accepted, and offsets outside are errors.
 #[test]
 fn offsets_are_accepted_up_to_the_ends_of_the_interval_of_the_fixed_point() {
     for n in [1u64, 1000, 100_000, 1 << 40] {

@@ -122,12 +122,13 @@ fn edge_error(map: &LiftOffMap, alpha: f64) -> Result<f64, Error> {
 }
 
 /// Mass ratios tried by [`upper_crisis_bracket`] before it bisects, in geometric steps. Each costs a scan. Mass
-/// ratios at which orbits fall again may lie between two neighbouring ones; they are then missed, and the bracket is too
-/// low. More would miss fewer. If the largest M is five times 1/M_c(n), neighbouring ones differ by 5 %.
+/// ratios at which orbits fall again may lie between two neighbouring ones; they are then missed, and the bracket is
+/// too low. More would miss fewer. If the largest M is five times 1/M_c(n), neighbouring ones differ by 5 %.
 const TRIED_MASS_RATIOS: u32 = 32;
 
-/// The relative length to which [`upper_crisis_bracket`] closes its bracket. Each factor of 10 costs three to four scans
-/// more. Below an ulp, 2·10⁻¹⁶, the middle of the bracket would be one of its ends, and the bisection would not end.
+/// The relative length to which [`upper_crisis_bracket`] closes its bracket. Each factor of 10 costs three to four
+/// scans more. Below an ulp, 2·10⁻¹⁶, the middle of the bracket would be one of its ends, and the bisection would not
+/// end.
 const BRACKET_LENGTH: f64 = 1e-6;
 
 /// Two mass ratios above 1 that enclose the largest one at which orbits of hump n fall below α*_n: at the first

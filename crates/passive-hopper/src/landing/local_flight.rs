@@ -109,8 +109,8 @@ impl NearFixedPoint<f64> {
 }
 
 /// Guard on the number of Newton steps in extended arithmetic. From 15 digits each step doubles them, and seven suffice
-/// for 1024 bits. 40 leaves room for starts with fewer digits. Where the last bits of the step are rounding, they may stay above the bound for ever: the guard ends
-/// the search, and t is right to its rounding error.
+/// for 1024 bits. 40 leaves room for starts with fewer digits. Where the last bits of the step are rounding, they may
+/// stay above the bound for ever: the guard ends the search, and t is right to its rounding error.
 const EXTENDED_NEWTON_STEPS: usize = 40;
 
 impl<R: Extended> NearFixedPoint<R> {

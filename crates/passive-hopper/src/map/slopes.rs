@@ -27,8 +27,8 @@ pub struct Slopes {
 impl Slopes {
     /// The unit of the error of `next` = α′: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
     ///
-    /// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³. The error of [`LiftOffMap`] is at most 4 (1 + sudden
-    /// lift-offs) of these units.
+    /// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³. The error of [`LiftOffMap`] is at most 4 (1 +
+    /// sudden lift-offs) of these units.
     pub fn error_unit(&self, alpha: f64, mass_ratio: f64, next: f64) -> f64 {
         // α (α/α′) does not overflow where α² does.
         let sum = next

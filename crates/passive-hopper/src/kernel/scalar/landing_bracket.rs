@@ -68,8 +68,8 @@ impl LandingBracket {
         let velocity_over_pi = velocity * FRAC_1_PI;
         let (m, parity) = nearest_integer(velocity_over_pi - 0.5); // ⌊V/π⌋
         let part = velocity_over_pi - m; // in [0, 1]
-        // The same formula as `maximum_test` of `landing/next_landing.rs`; written again because eight digits of the sines
-        // suffice here and cost less, and because the parity comes with m, without a branch.
+        // The same formula as `maximum_test` of `landing/next_landing.rs`; written again because eight digits of the
+        // sines suffice here and cost less, and because the parity comes with m, without a branch.
         let at_velocity = HalfAngle::to_eight_digits(velocity);
         let test =
             negated_if_odd(velocity * at_velocity.cos - (1.0 + excess) * at_velocity.sin, parity);
