@@ -1,4 +1,4 @@
-//! The length Δ_n of the trapping region for large λ.
+//! The length Δ_n of the trap for large λ.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;
