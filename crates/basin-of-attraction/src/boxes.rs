@@ -55,12 +55,14 @@ pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error
     Ok(boxes.len() as u64)
 }
 
-/// Boxes of intervals are larger than this number of ulps of the window's larger end, because their sides are rounded
-/// too. The value was chosen with a margin of a factor of four.
+/// Boxes of intervals are larger than this number of ulps of the window's larger end: their sides are rounded too.
+/// A margin of a factor 4 over one ulp.
 const SMALLEST_BOX_ULPS: f64 = 4.0;
 
-/// A last box thinner than this fraction of a box is left out. The quotient of the window's length and the size
-/// may exceed a whole number by rounding; that would add an empty box.
+/// A last box is left out if it is thinner than this fraction of the window. The quotient of the window's length and
+/// the size may exceed a whole number by rounding, some ulps of it; that would add an empty box. 10⁻¹² is thousands of
+/// ulps. For windows far from 0 the rounding of their ends is larger, and a thin box may appear. A larger fraction
+/// would leave out thin boxes that the caller asked for.
 const THINNEST_BOX: f64 = 1e-12;
 
 impl IntervalBasins {

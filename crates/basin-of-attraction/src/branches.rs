@@ -170,8 +170,10 @@ fn bisect(mut left: f64, mut right: f64, holds: impl Fn(f64) -> bool) -> (f64, f
 /// search finds no jump. A larger factor would miss small jumps, a smaller one would search more.
 const SUSPECT_STEP: f64 = 4.0;
 
-/// At a jump, the half step with the larger change keeps more than this fraction of the whole change, down to
-/// neighbouring `f64`. A continuous map keeps a fraction near 0. The value was chosen.
+/// A jump keeps more than this fraction of the step's height when the step is halved to neighbouring `f64`. A
+/// continuous map keeps a fraction near 0. A jump inside a step across which the map also changes smoothly keeps the
+/// quotient of the two heights: a jump lower than a quarter of its step is taken for a steep part of the branch. A
+/// smaller fraction would find lower jumps; it would also cut a branch where rounding is a larger part of a low step.
 const JUMP_FRACTION: f64 = 0.25;
 
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.

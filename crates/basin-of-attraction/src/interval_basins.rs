@@ -64,10 +64,12 @@ pub fn interval_basins(
     /// does not depend on the number of threads. Smaller rounds give the threads too little work; larger rounds exceed
     /// the limit on intervals by more.
     const ROUND: usize = 16_384;
-    /// Intervals longer than this fraction of the window are followed first.
+    /// Intervals longer than this fraction of the window are followed first: their preimages are the
+    /// longest as a rule. A larger fraction would add rounds with few intervals.
     const FIRST_THRESHOLD: f64 = 0.01;
-    /// When no longer intervals are pending, the threshold is divided by this. Both numbers were chosen. They
-    /// change only the order of the search, and so the result only if a limit stops the search.
+    /// Once no longer intervals are pending, the threshold is divided by this. A smaller divisor follows the intervals
+    /// more nearly in the order of their length, in more rounds. The two numbers decide the order of the search only,
+    /// and so the result only if a limit stops it.
     const THRESHOLD_STEP: f64 = 8.0;
     TrapSet::new(traps.to_vec())?;
     let trapped = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());

@@ -107,7 +107,8 @@ fn the_middle_third_leaves_a_cantor_set() {
     assert!((law.exponent.value + 0.630_929_753_571_457).abs() < 1e-12, "{law:?}");
 }
 
-/// The map x + x² of `a_fixed_point_that_attracts_from_one_side_has_its_basin` has two intervals in every level, so that no Cantor set remains.
+/// The map x + x² of `a_fixed_point_that_attracts_from_one_side_has_its_basin` has two intervals in every level, so
+/// that no Cantor set remains.
 #[test]
 fn a_fixed_point_that_attracts_from_one_side_leaves_a_countable_set() {
     let map = |x: f64| Some(x + x * x);

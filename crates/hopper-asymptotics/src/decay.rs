@@ -36,8 +36,9 @@ const NEGLECTED: f64 = 0.1;
 /// number is at most 10²⁵⁹ here. For λ under 10⁻²⁰⁰ it could exceed the range of `f64`.
 const SMALLEST_LAMBDA: f64 = 1e-150;
 
-/// Most Newton steps of [`Decay::offset_after`]. K is nearly linear, so that a few steps suffice. The limit only
-/// guarantees that the loop ends.
+/// Most Newton steps of [`Decay::offset_after`]. K is nearly linear, so that a few suffice; the limit only makes sure
+/// that the loop ends. It exceeds the 53 bits of a number: even a search that gained one bit a step would end before
+/// it.
 const NEWTON_STEPS: usize = 60;
 
 /// Larger than ln(u₁/u₀) for any two positive `f64`: u lies between 1 and 10¹⁰⁸, and ln 10¹⁰⁸ = 249.

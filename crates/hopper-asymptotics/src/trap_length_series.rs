@@ -1,6 +1,4 @@
 //! The length Δ_n of the trap for large λ.
-//!
-//! Proof: docs/theory.md, Lemma 40.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;

@@ -1,5 +1,7 @@
 //! The unit of an error of α′.
 
+use passive_hopper::Slopes;
+
 /// Units of error that α′ may have for each flight of its hop.
 ///
 /// Chosen by measurement: the worst of the 3222 reference hops has 2.4 units a flight. A larger limit would hide the loss
@@ -8,24 +10,15 @@ pub const UNITS_PER_FLIGHT: f64 = 4.0;
 
 /// The unit of the error of `next` = α′: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
 ///
-/// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³, but for a very small α′. An error h = εα² of α² moves α′ by
-/// √(α′² + h) − α′, which is below h/(2α′) and below √h. Near α′ = 0 only the second bound is finite, so that the last term
-/// is at most √h/ε. A slope that the reference does not have counts as zero,
+/// It is [`Slopes::error_unit`]. A slope that the reference does not have counts as zero,
 /// which makes the unit smaller. Zero if the hopper is grounded (`None`): then there is no α′ to compare.
 pub fn error_unit(
     next: Option<f64>,
     (alpha, slope_alpha): (f64, f64),
     (mass_ratio, slope_mass_ratio): (f64, f64),
 ) -> f64 {
-    let scale = next.map_or(0.0, |next| {
-        // √(ε/2) α in units of ε/2 is α √(2/ε), ε here the spacing of numbers at 1. α (α/α′) does not overflow where α²
-        // does.
-        let most = (2.0 / f64::EPSILON).sqrt();
-        next + slope_alpha.abs() * alpha
-            + slope_mass_ratio.abs() * mass_ratio
-            + alpha * (alpha / next).min(most)
-    });
-    0.5 * f64::EPSILON * scale
+    let slopes = Slopes { by_speed: slope_alpha, by_mass_ratio: slope_mass_ratio };
+    next.map_or(0.0, |next| slopes.error_unit(alpha, mass_ratio, next))
 }
 
 #[cfg(test)]

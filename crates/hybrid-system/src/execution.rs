@@ -68,8 +68,10 @@ pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     pending: Vec<T::Surface>,
 }
 
-/// Most events in a row without time passing. A few are normal where several guards are crossed together. With more
-/// events the resets lead back to each other. The execution then ends with [`Error::TimelessChain`].
+/// Most events in a row without time passing. Where several guards are crossed together, there is about one for each
+/// guard; many more mean that the resets lead back to each other. The execution then ends with
+/// [`Error::TimelessChain`]. The number is far above the guards of a model, and a thousand resets take no noticeable
+/// time. A model with more surfaces in one point would be refused.
 const MOST_TIMELESS: usize = 1000;
 
 impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {

@@ -11,9 +11,10 @@ use crate::guard::Direction;
 use crate::state::State;
 use crate::system::HybridSystem;
 
-/// Two events are at the same instant if their times differ by this many ulps at most. A crossing is moved up to some
-/// ulps past its root, and each guard has its own rounding. A larger number would join events that are distinct. With a
-/// smaller number an event could be lost, because the next arc would start beyond its surface.
+/// Two events are at the same instant if their times differ by this many ulps at most. A crossing is moved up to
+/// some ulps past its root, and each guard has its own rounding. The number is a margin of several times their sum,
+/// not derived. A larger number would join events that are distinct; a smaller one would lose an event: the next arc
+/// would start beyond its surface.
 const SAME_INSTANT_ULPS: f64 = 16.0;
 
 /// Largest value of a guard at the end of an arc, relative to its values at both ends, for which the flow is
@@ -29,7 +30,9 @@ const LOOKS: i32 = 40;
 /// is not known.
 const LONGEST_LOOK: f64 = 1.0;
 
-/// A guard has left its surface when its value is this many times its rounding error.
+/// A guard has left its surface when its value is this many times its rounding error. A margin of a factor 4 over the
+/// error at the time 0: the error of the later value, and that of the flow in between, are not known here. A smaller
+/// number may take rounding for a side; a larger one looks later, when the guard may have come back.
 const LEFT_SURFACE: f64 = 4.0;
 
 /// The other guards, besides the one that was `crossed`, that are at their surfaces at the end of an arc and come

@@ -48,8 +48,9 @@ const USUAL: Criterion = Criterion { periods: 5, spread: 0.01, remainder: 1e-12 
 /// coordinates.
 const NEXT_EVENT_HIDDEN: Criterion = Criterion { periods: 2, spread: 0.1, remainder: 1e-5 };
 
-/// Longest period that is tested, in events. With a longer period more arcs would be needed before the limit is
-/// recognised, and a longer history.
+/// Longest period that is looked for, in events: two guards that are crossed alternately give period 2, and 4 leaves
+/// room for twice as many. A Zeno limit of a longer period is not recognised, and the execution ends at its limit on
+/// events. A larger number costs a longer history, and more tests of every short arc.
 const LONGEST_PERIOD: usize = 4;
 
 /// Number of stored arcs: one period more than the factors that must agree, because a factor compares two periods.

@@ -148,7 +148,8 @@ fn the_zeros_of_an_oscillator_are_found() {
     }
 }
 
-/// Nine roots, and a parabola that misses, touches or crosses, on ẋ = 1, where each step is ten times as long as the one before.
+/// Nine roots, and a parabola that misses, touches or crosses, on ẋ = 1, where each step is ten times as long as the
+/// one before.
 #[test]
 fn roots_and_touches_within_long_steps_are_found() {
     let field = |_: &State<1>| Vector1::new(1.0);

@@ -14,7 +14,8 @@ const MILLION_HOPS: u64 = 0x33b4_bccf_16af_bf6b;
 const PARTS: u64 = 10;
 const SIZE: u64 = 100_000;
 
-/// A step of FNV-1a over a 64-bit word. `resumable_job::digest` steps over bytes: its digest of the same numbers differs.
+/// A step of FNV-1a over a 64-bit word. `resumable_job::digest` steps over bytes: its digest of the same numbers
+/// differs.
 fn mix(hash: u64, word: u64) -> u64 {
     (hash ^ word).wrapping_mul(0x0000_0100_0000_01b3)
 }

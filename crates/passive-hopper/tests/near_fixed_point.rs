@@ -46,8 +46,8 @@ fn the_largest_index_is_an_error() {
     }
 }
 
-/// The ends nπ and (n+1)π of the interval of a fixed point lie between two `f64`. Offsets two ulps inside
-/// are accepted, and offsets outside are errors.
+/// The ends nπ and (n+1)π of the interval of a fixed point lie between two `f64`. Offsets two ulps inside are
+/// accepted, and offsets outside are errors.
 #[test]
 fn offsets_are_accepted_up_to_the_ends_of_the_interval_of_the_fixed_point() {
     for n in [1u64, 1000, 100_000, 1 << 40] {

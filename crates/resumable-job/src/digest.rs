@@ -5,8 +5,8 @@ use std::path::Path;
 
 /// The 64-bit FNV-1a digest of some bytes, as 16 hexadecimal digits.
 ///
-/// A test of the lift-off map hashes a million results with a variant of its own. It takes a 64-bit word in a step, where
-/// this function takes a byte, and so gives other digests.
+/// A test of the lift-off map hashes a million results with a variant of its own. It takes a 64-bit word in a step,
+/// where this function takes a byte, and so gives other digests.
 pub fn digest(bytes: &[u8]) -> String {
     // Offset basis and prime of the 64-bit variant: RFC 9923, section 5.
     const BASIS: u64 = 0xcbf2_9ce4_8422_2325;

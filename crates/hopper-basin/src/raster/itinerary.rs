@@ -195,11 +195,9 @@ mod tests {
                 continue;
             };
             assert!(map.hop(alpha).unwrap().sudden <= 1);
-            let unit = next
-                + slopes.by_speed.abs() * alpha
-                + slopes.by_mass_ratio.abs() * m
-                + alpha * (alpha / next);
-            // The factor 1 + 10⁻⁹ covers the error of the computed slopes.
+            // In units of 2⁻⁵³.
+            let unit = slopes.error_unit(alpha, m, next) / (0.5 * f64::EPSILON);
+            // The last digits are those of the computed slopes.
             let assumed = (lap.slope + 2.0) * alpha * (alpha / next) * (1.0 + 1e-9);
             assert!(unit <= assumed, "M = {m}, α = {alpha}: {unit} {assumed}");
             seen += 1;

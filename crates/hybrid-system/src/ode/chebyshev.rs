@@ -9,8 +9,8 @@ pub(super) const NODES: usize = 16;
 
 /// The Chebyshev nodes in [−1, 1], and the matrix from values there to Chebyshev coefficients.
 ///
-/// A crate that uses this one has a second transform, for tables: with 8 nodes, in 106 bits, to coefficients by powers.
-/// Of the two only the formula of the nodes is the same.
+/// A crate that uses this one has a second transform, for tables: with 8 nodes, in 106 bits, to coefficients by
+/// powers. Of the two only the formula of the nodes is the same.
 pub(super) struct Transform {
     /// cos((2j + 1)π/2V) for V nodes, from right to left.
     pub(super) nodes: [f64; NODES],

@@ -16,17 +16,18 @@ const MOST_HALVINGS: usize = 64;
 /// [`Error::NoConvergence`].
 const MOST_INTERVALS: usize = 100_000;
 
-/// Rounding error of an interpolant, in units of the rounding error of the largest state on its step: its weights are
-/// large and of both signs, so that digits cancel. The value is an estimate, not derived. If it is too small, rounding
-/// errors are reported as crossings; if it is too large, grazings are reported too early.
+/// Rounding error of an interpolant, in units of that of the largest state on its step: its weights are large and
+/// of both signs, so that digits cancel. The value is an estimate, not derived: it allows the weights to lose six
+/// bits. If it is too small, rounding is taken for a crossing; if it is too large, grazings are reported too early.
 const INTERPOLANT_ROUNDING: f64 = 64.0;
 
 /// A shorter first step is tried if the rounding of the guard on the step exceeds the rounding at the start by this
 /// factor, four times the factor of every step. Below this factor a shorter step could not show more.
 const COARSE: f64 = 4.0 * INTERPOLANT_ROUNDING;
 
-/// Length of the shorter first step, relative to the first step that was too long. The rounding shrinks with the
-/// length, by two digits at a time.
+/// Length of the shorter first step, relative to the one that was too long. The rounding of the interpolant shrinks
+/// with it, by two digits at a time. A shorter step would often be shorter than necessary, and cost more steps after
+/// it. A longer one would need more tries, each of which starts the integration again.
 const SHORTER: f64 = 0.01;
 
 /// The state is moved along its rate by this distance, relative to its size, to compute the rate of a guard at the

@@ -25,9 +25,10 @@ const COEFFICIENT_ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// an error of the coefficients to an error of the slope.
 const SLOPE_OF_ONES: f64 = 1240.0;
 
-/// A guard that started at zero has left zero when a value on the interval exceeds its rounding error by this factor.
-/// Smaller values have too few digits to show the order of the zero. A larger factor needs a longer interval, which may
-/// already contain the next crossing.
+/// A guard that started at zero has left it when a value on the interval exceeds its rounding error by this factor.
+/// A value of 1000 errors has three digits, so that a division by τᵏ near the start still leaves digits to show the
+/// order of the zero. A smaller factor leaves fewer. A larger factor needs a longer interval, which may hold the next
+/// crossing already.
 pub(super) const LEFT_ZERO: f64 = 1000.0;
 
 /// Highest order of a zero at the start. Each order divides by τ ≥ 0.0024, and so multiplies the noise by up to 415.

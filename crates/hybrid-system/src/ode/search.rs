@@ -18,8 +18,10 @@ const POLISHING_REACHES: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
 /// Guards of one mode that are followed without allocating. With more guards each search allocates once.
 const GUARDS_ON_STACK: usize = 8;
 
-/// The first step after rounding has hidden how a guard leaves its start, relative to the time up to which it was
-/// hidden.
+/// The first step after rounding has hidden a start, relative to the time up to which it was hidden. Another try is
+/// made only if that time is less than this part of the last first step. So first steps shrink by a factor of 4 at
+/// least, and the tries end. A value near 1 would repeat steps that differ too little to show more. A smaller one
+/// would give up where a somewhat shorter step shows the crossing.
 const SHORTER_FIRST_STEP: f64 = 0.5;
 
 /// Follows `field` from `start` until a guard of `mode` is crossed, or to `horizon`.

@@ -85,9 +85,9 @@ impl ErrorBound {
             self.inconclusive |= test.abs() <= slack;
         }
         if landing.sudden || !first {
-            // A rounding of h acts like a rounding of V, because the residual of the landing is a backward error in V.
-            // With exact sines, the part of h below an ulp is corrected to first order, and the square of that part
-            // remains. Without exact sines, the phase has a rounding error of an ulp of its size.
+            // A rounding of h acts like one of V: the residual of the landing is a backward error in V. With exact sines
+            // the rest of an ulp of h is corrected to first order, and its square remains; the factor 4 is a margin.
+            // Else the phase is rounded to an ulp of its size.
             let ulp = self.epsilon * size;
             let backward = if self.sines_are_exact { self.epsilon + 4.0 * ulp * ulp } else { ulp };
             let change =
@@ -113,6 +113,8 @@ impl ErrorBound {
         let (a, a_closing) = derivative.carry(by_excess);
         let (b, b_closing) = derivative.carry(by_velocity);
         let (most, most_closing) = derivative.bound(change);
+        // The phase of the flight is right to an ulp of its time, which changes the sines of the derivative by as
+        // much; the factor 4 is a margin.
         let part = DERIVATIVE_ERROR + 4.0 * f64::EPSILON * landing.time;
         let after = Variation {
             excess: a.excess.abs() + b.excess.abs() + part * most.excess,

@@ -251,9 +251,9 @@ fn exact_first(alpha: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
 
 /// Interpolation at the Chebyshev nodes of [−1, 1]: from values to coefficients by powers.
 ///
-/// `hybrid-system` has a transform at Chebyshev nodes too, in `ode/chebyshev.rs`. The two share no code: this one has 8
-/// nodes, computes in 106 bits and gives coefficients by powers; that one has 16, computes in `f64` and gives Chebyshev
-/// coefficients.
+/// `hybrid-system` has a transform at Chebyshev nodes too, in `ode/chebyshev.rs`. The two share no code: this one has
+/// 8 nodes, computes in 106 bits and gives coefficients by powers; that one has 16, computes in `f64` and gives
+/// Chebyshev coefficients.
 struct Interpolation {
     nodes: [DoubleDouble; COEFFICIENTS],
     /// Coefficient k is Σ matrix[k][j] value[j].

@@ -70,8 +70,8 @@ impl<R: Real> NearFixedPoint<R> {
     }
 }
 
-/// Guard on the number of Newton steps in `f64`, never reached: the expansion gives three digits or more, and four
-/// steps from there give 15.
+/// Guard on the number of Newton steps in `f64`, never reached: from the expansion's three digits or more, four steps
+/// give 15, and a fifth one sees that. 12 is a margin. A number below 4 would lose digits.
 const NEWTON_STEPS: usize = 12;
 
 impl NearFixedPoint<f64> {
@@ -111,9 +111,9 @@ impl NearFixedPoint<f64> {
     }
 }
 
-/// Guard on the number of Newton steps in extended arithmetic. From 15 digits each step doubles the number of digits,
-/// and seven steps suffice for 1024 bits. The last bits of a step are rounding errors and may stay above the bound for
-/// ever. The guard then ends the search, and t is right to its rounding error.
+/// Guard on the number of Newton steps in extended arithmetic. From 15 digits each step doubles them, and seven suffice
+/// for 1024 bits. 40 leaves room for starts with fewer digits. Where the last bits of the step are rounding, they may
+/// stay above the bound for ever: the guard ends the search, and t is right to its rounding error.
 const EXTENDED_NEWTON_STEPS: usize = 40;
 
 impl<R: Extended> NearFixedPoint<R> {

@@ -24,6 +24,25 @@ pub struct Slopes {
     pub by_mass_ratio: f64,
 }
 
+impl Slopes {
+    /// The unit of the error of `next` = α′: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
+    ///
+    /// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³, but for a very small α′. An error h = εα² of α² moves
+    /// α′ by √(α′² + h) − α′, which is below h/(2α′) and below √h. Near α′ = 0 only the second bound is finite, so that the
+    /// last term is at most √h/ε. The error of [`LiftOffMap`] is at most 4 (1 +
+    /// sudden lift-offs) of these units.
+    pub fn error_unit(&self, alpha: f64, mass_ratio: f64, next: f64) -> f64 {
+        // √(ε/2) α in units of ε/2 is α √(2/ε); ε is the spacing of numbers at 1 here.
+        let most = (2.0 / f64::EPSILON).sqrt();
+        // α (α/α′) does not overflow where α² does.
+        let sum = next
+            + self.by_speed.abs() * alpha
+            + self.by_mass_ratio.abs() * mass_ratio
+            + alpha * (alpha / next).min(most);
+        0.5 * f64::EPSILON * sum
+    }
+}
+
 impl LiftOffMap {
     /// ∂α′/∂α and ∂α′/∂M at `alpha`; `None` if the hopper is grounded.
     ///

@@ -27,8 +27,10 @@ pub struct Flight {
     pub(crate) height: (f64, f64),
 }
 
-/// Up to this time the second form of G is used. Chosen, not derived: past it the first form cancels no more than
-/// some bits, and the second one would subtract terms that grow with τ².
+/// Up to this time the second form of G is used. At τ = 1 the smallest of its differences, 1 − cos τ − τ²/2, is
+/// −0.04: past it the first form cancels at most some five bits, and the second one would subtract terms that grow
+/// with τ². Any time near 1 would do. A much smaller one would lose digits of the first form, whose terms nearly
+/// cancel there.
 const NEAR_START: f64 = 1.0;
 
 impl Flight {

@@ -67,14 +67,15 @@ impl LandingBracket {
         let velocity_over_pi = velocity * FRAC_1_PI;
         let (m, parity) = nearest_integer(velocity_over_pi - 0.5); // ⌊V/π⌋
         let part = velocity_over_pi - m; // in [0, 1]
-        // The same formula as `maximum_test` of `landing/next_landing.rs`; written again because eight digits of the sines
-        // suffice here and cost less, and because the parity comes with m, without a branch.
+        // The same formula as `maximum_test` of `landing/next_landing.rs`; written again because eight digits of the
+        // sines suffice here and cost less, and because the parity comes with m, without a branch.
         let at_velocity = HalfAngle::to_eight_digits(velocity);
         let test =
             negated_if_odd(velocity * at_velocity.cos - (1.0 + excess) * at_velocity.sin, parity);
         let before_maximum = (test >= 0.0) & (part < 0.5);
-        // |test| must be larger than its error. The error has two parts: the error of the sines, and the errors of x
-        // and V, with |∂test/∂x| ≤ 1 and |∂test/∂V| ≤ 1 + Y + V. The factor 4 is a margin.
+        // |test| must be larger than its error: that of the sines, and that of x and V, where |∂test/∂x| ≤ 1 and
+        // |∂test/∂V| ≤ 1 + Y + V. A factor 2 would do, since 1 + Y + V ≤ 2 (1 + x + V); 4 is a margin. A larger
+        // factor would send more flights to the careful path.
         let size = 4.0 * (1.0 + excess + velocity);
         let slack = EIGHT_DIGITS * size + error + size * error;
         let (low, high) = (m * PI, (m + 1.0) * PI);
