@@ -8,6 +8,7 @@
 //! | no import cycles between files | `import_cycles.rs` |
 //! | no imports through `lib.rs` | `lib_imports.rs` |
 //! | the root of the repository holds known names only | `root_folder.rs` |
+//! | the files and tests that the documentation names exist | `names_in_pages.rs` |
 
 mod breach;
 mod crate_classes;
@@ -16,6 +17,7 @@ mod imports;
 mod lib_imports;
 mod line_rules;
 mod module_tree;
+mod names_in_pages;
 mod root_folder;
 mod sources;
 mod workspace_members;
@@ -56,6 +58,7 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     crate_classes::check(&crates, &mut breaches);
     workspace_members::check(&sources::read(root, "Cargo.toml")?.text, &crates, &mut breaches);
     root_folder::check(root, &mut breaches)?;
+    names_in_pages::check(&sources::pages(root)?, &sources, &mut breaches);
     Ok(breaches)
 }
 

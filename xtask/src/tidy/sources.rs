@@ -77,7 +77,12 @@ impl Source {
 pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
     let mut names = Vec::new();
     for folder in ["crates", "xtask"] {
-        collect_in(root, folder, &mut names)?;
+        collect_in(
+            root,
+            folder,
+            &|name| name.ends_with(".rs") || name.ends_with(".toml"),
+            &mut names,
+        )?;
     }
     names.sort();
     let mut sources: Vec<Source> =
@@ -86,13 +91,28 @@ pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
     Ok(sources)
 }
 
+/// The pages of the documentation, sorted by name: `README.md`, those in `docs`, and those beside the code they explain.
+pub(super) fn pages(root: &Path) -> Result<Vec<Source>, Error> {
+    let mut names = vec!["README.md".to_owned()];
+    collect_in(root, "docs", &|name| name.ends_with(".md"), &mut names)?;
+    let beside_code = |name: &str| name.contains("/src/") && name.ends_with("/README.md");
+    collect_in(root, "crates", &beside_code, &mut names)?;
+    names.sort();
+    names.iter().map(|name| read(root, name)).collect()
+}
+
 /// Marks the files that others declare as tests.
 fn mark_tests(sources: &mut [Source]) {
     let tests: Vec<String> = sources.iter().flat_map(Source::test_modules).collect();
     sources.iter_mut().for_each(|source| source.is_test = tests.contains(&source.name));
 }
 
-fn collect_in(root: &Path, folder: &str, names: &mut Vec<String>) -> Result<(), Error> {
+fn collect_in(
+    root: &Path,
+    folder: &str,
+    chosen: &impl Fn(&str) -> bool,
+    names: &mut Vec<String>,
+) -> Result<(), Error> {
     let path = root.join(folder);
     let at = |source| Error::File { path: path.clone(), source };
     for entry in std::fs::read_dir(&path).map_err(at)? {
@@ -102,9 +122,9 @@ fn collect_in(root: &Path, folder: &str, names: &mut Vec<String>) -> Result<(), 
         if entry.path().is_dir() {
             // Build results: a fuzz crate has a `target` of its own.
             if file != "target" {
-                collect_in(root, &name, names)?;
+                collect_in(root, &name, chosen, names)?;
             }
-        } else if name.ends_with(".rs") || name.ends_with(".toml") {
+        } else if chosen(&name) {
             names.push(name);
         }
     }
