@@ -10,7 +10,7 @@ use std::process::{Command, ExitCode};
 /// A command.
 struct Task {
     name: &'static str,
-    /// The purpose of the command, in one line.
+    /// The effect of the command, in one line.
     about: &'static str,
     /// The package whose program runs the command; `None` for a command of this program.
     package: Option<&'static str>,
@@ -110,9 +110,10 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     }
 }
 
-/// Builds a program of the workspace and runs it in the folder in which the user is.
+/// Builds a program of the workspace and runs it in the user's current folder.
 fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
-    // Cargo names itself to the programs it runs; by hand, the first one in the path will do.
+    // Cargo sets CARGO for the programs that it runs. If this program was started by hand, the first `cargo` in the
+    // path is used.
     let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(&program);
     command.args(["run", "--quiet", "--release", "--package", package, "--manifest-path"]);
@@ -121,14 +122,15 @@ fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<Exit
     become_program(&mut command).map_err(|source| Error::Cargo { program, source })
 }
 
-/// Replaces this process, so that a signal meets the program itself and its exit status is ours.
+/// Replaces this process, so that signals reach the program itself and its exit status is the exit status of the
+/// command.
 #[cfg(unix)]
 fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
-    // It returns only if the program could not be started.
+    // `exec` returns only if the program could not be started.
     Err(std::os::unix::process::CommandExt::exec(command))
 }
 
-/// Waits for the program and takes over its exit status. Ctrl-C reaches both processes.
+/// Waits for the program and returns its exit status. Ctrl-C reaches both processes.
 #[cfg(not(unix))]
 fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
     let code = command.status()?.code().and_then(|code| u8::try_from(code).ok());

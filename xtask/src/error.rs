@@ -1,10 +1,10 @@
-//! The reasons why a command stops.
+//! Errors of the commands.
 
 use std::ffi::OsString;
 use std::fmt;
 use std::path::PathBuf;
 
-/// Why a command did not end well.
+/// Why a command failed.
 #[derive(Debug)]
 pub(crate) enum Error {
     /// No command was named.

@@ -1,4 +1,4 @@
-//! Box counts: how many boxes contain more than one basin, on intervals and on label images; how many contain a
+//! Box counts: how many boxes contain more than one basin, on intervals and on label images, and how many contain a
 //! point.
 
 use crate::entropy::entropy;
@@ -55,8 +55,8 @@ pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error
     Ok(boxes.len() as u64)
 }
 
-/// Boxes of intervals are larger than this number of ulps of the window's larger end: their sides are rounded too.
-/// Chosen with a factor of four to spare.
+/// Boxes of intervals are larger than this number of ulps of the window's larger end, because their sides are rounded
+/// too. The value was chosen with a margin of a factor of four.
 const SMALLEST_BOX_ULPS: f64 = 4.0;
 
 /// A last box thinner than this fraction of a box is left out. The quotient of the window's length and the size
@@ -66,9 +66,8 @@ const THINNEST_BOX: f64 = 1e-12;
 impl IntervalBasins {
     /// Counts boxes of one size, starting at the left end of the window.
     ///
-    /// A label counts in a box if it covers more than the fraction `resolution` of the box. Ends that coincide
-    /// with sides of boxes are known to an ulp only, and could otherwise count on the wrong side. All else is
-    /// computed from the intervals, without samples.
+    /// Ends that coincide with sides of boxes are known to an ulp only, and could otherwise count on the wrong side.
+    /// All other results are computed from the intervals, without samples.
     ///
     /// # Errors
     /// [`Error::BadBoxSize`] unless `size` is finite and larger than four ulps of the window's larger end.
@@ -81,8 +80,8 @@ impl IntervalBasins {
         }
         let boxes = ((window.length() / size) * (1.0 - THINNEST_BOX)).ceil().max(1.0);
         let index = |x: f64| ((x - window.left) / size).floor().clamp(0.0, boxes - 1.0);
-        // Only a box with an end of an interval, or of the window, can be mixed. All others lie inside one
-        // interval, or inside one undecided gap; the latter are counted by `boxes_in_gaps`.
+        // Only a box with an end of an interval, or of the window, can be mixed. All other boxes lie inside one
+        // interval, or inside one undecided gap. `boxes_in_gaps` counts the boxes inside gaps.
         let ends =
             self.intervals().iter().flat_map(|part| [part.interval.left, part.interval.right]);
         let mut candidates: Vec<f64> = ends.chain([window.left, window.right]).map(index).collect();
@@ -90,7 +89,7 @@ impl IntervalBasins {
         candidates.dedup();
         let mut count = BoxCount { size, boxes: boxes as u64, mixed: 0, open: 0, entropy: 0.0 };
         let mut first = 0;
-        // The boxes come from left to right, so that intervals left of one box are never looked at again.
+        // The boxes come from left to right, so that intervals left of a box are never used again.
         for k in candidates {
             let left = window.left + k * size;
             let right = (left + size).min(window.right);
@@ -116,7 +115,7 @@ impl IntervalBasins {
         Ok(count)
     }
 
-    /// The number of boxes that lie inside undecided gaps, with no end of an interval or of the window in them.
+    /// The number of boxes that lie inside undecided gaps and contain no end of an interval or of the window.
     fn boxes_in_gaps(&self, size: f64, resolution: f64, boxes: f64) -> u64 {
         let window = self.window();
         let starts = self.intervals().iter().map(|part| part.interval.left).chain([window.right]);

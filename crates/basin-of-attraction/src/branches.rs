@@ -86,16 +86,16 @@ impl Branch {
     ///
     /// Invariant of all three: `holds` is false at `left` and true at `right`.
     fn switch(&self, map: &impl ScalarMap, aim: f64, holds: impl Fn(f64) -> bool) -> (f64, f64) {
-        /// Most steps of regula falsi. A smooth branch needs fewer. At a jump, or where the branch is very flat,
-        /// regula falsi converges slowly; bisection then does the rest.
+        /// Most steps of regula falsi. A smooth branch needs fewer. At a jump, or where the branch is very flat, regula
+        /// falsi converges slowly; bisection then finds the root.
         const REGULA_FALSI_STEPS: usize = 24;
         /// Regula falsi stops when two guesses are as close as this number of ulps: rounding of the values then
         /// decides its steps.
         const CLOSE_ULPS: f64 = 4.0;
         let difference = |x: f64| match map.image(x) {
             Image::Point(value) => value - aim,
-            // The map has values inside its branch. If rounding leaves it without one, this happens at an end of
-            // the lap; the value at the right end keeps the invariant.
+            // The map has values inside its branch. If rounding gives a point without a value, this point is at an end
+            // of the lap. The value at the right end preserves the invariant.
             Image::Stops | Image::Undecided => self.at_right - aim,
         };
         let (mut left, mut right) = (self.domain.left, self.domain.right);
@@ -108,8 +108,8 @@ impl Branch {
             }
             let value = difference(guess);
             let beyond = holds(value);
-            // Illinois: if an end stays for two steps, its value is halved, so that the next guess falls on its
-            // other side. Without it one end could stay through all steps.
+            // Illinois: if an end stays for two steps, its value is halved, so that the next guess falls on its other
+            // side. Without this rule one end could stay through all steps.
             let again = side.replace(beyond) == Some(beyond);
             let half = if again { 0.5 } else { 1.0 };
             if beyond {
@@ -124,8 +124,8 @@ impl Branch {
                 break;
             }
         }
-        // `last` is the end that has come close. Steps from it towards the other end double until the switch is
-        // passed. Without a guess `last` is NaN: no step is taken, and bisection does it all.
+        // `last` is the end that is close to the switch. Steps from it towards the other end double until the switch is
+        // passed. Without a guess `last` is NaN: then no step is taken, and bisection does the whole search.
         let mut step = f64::EPSILON * last.abs();
         while step > 0.0 && step < 0.5 * (right - left) {
             if last == right {
@@ -170,16 +170,16 @@ fn bisect(mut left: f64, mut right: f64, holds: impl Fn(f64) -> bool) -> (f64, f
 /// search finds no jump. A larger factor would miss small jumps, a smaller one would search more.
 const SUSPECT_STEP: f64 = 4.0;
 
-/// A jump keeps more than this fraction of the step's height when the step is halved to neighbouring `f64`. A
-/// continuous map keeps a fraction near 0. Chosen.
+/// At a jump, the half step with the larger change keeps more than this fraction of the whole change, down to
+/// neighbouring `f64`. A continuous map keeps a fraction near 0. The value was chosen.
 const JUMP_FRACTION: f64 = 0.25;
 
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.
 ///
-/// Turning points are refined by golden-section search, to the square root of an ulp. Points at which the map
-/// loses its value, and jumps that stand out from the steps beside them, are refined to one ulp. A pair of turning
-/// points between two neighbouring samples is not seen, nor is a gap there. If theory knows such places, split the
-/// window at them.
+/// Turning points are refined by golden-section search, to the square root of an ulp. Points at which the map loses its
+/// value, and jumps that are larger than the steps beside them, are refined to one ulp. A pair of turning points
+/// between two neighbouring samples is missed, and so is a gap there. If theory gives such places, split the window at
+/// them.
 ///
 /// # Errors
 /// [`Error::TooFewSamples`] for fewer than three samples.
@@ -198,10 +198,10 @@ pub fn monotone_branches(
     let at = |k: usize| window.left + window.length() * (k as f64 / (samples - 1) as f64);
     let values: Vec<Option<f64>> = (0..samples).map(|k| value(at(k))).collect();
     let step = |k: usize| Some(values.get(k + 1).copied()?? - values.get(k).copied()??);
-    // The ends of branches, each with the value there. A cut without value separates two branches.
+    // The ends of branches, each with the value there. An end without a value separates two branches.
     let mut cuts = vec![(at(0), values[0])];
-    // The last step between samples of different values, and the sample at which it began. A turning point between
-    // two equal samples is found because the step before them is kept.
+    // The last step between samples of different values, and the sample at which it began. A turning point between two
+    // equal samples is found because the step before them is stored.
     let mut last: Option<(usize, f64)> = None;
     for k in 0..samples - 1 {
         match (values[k], values[k + 1]) {
@@ -227,8 +227,8 @@ pub fn monotone_branches(
                 }
                 if let Some((from, before)) = last.filter(|(_, before)| before * (b - a) < 0.0) {
                     let up = before.signum();
-                    let turn = highest_point(|x| value(x).map(|v| up * v), at(from), at(k + 1));
-                    cuts.push((turn, value(turn)));
+                    let extremum = highest_point(|x| value(x).map(|v| up * v), at(from), at(k + 1));
+                    cuts.push((extremum, value(extremum)));
                 }
                 if b != a {
                     last = Some((k, b - a));
@@ -241,9 +241,9 @@ pub fn monotone_branches(
     Ok(cuts.windows(2).filter_map(branch_between).collect())
 }
 
-/// The neighbouring `f64` between which the map jumps; `None` if it does not.
+/// The neighbouring `f64` between which the map jumps; `None` if the map does not jump.
 ///
-/// Bisection keeps the half over which the value changes more. At a jump most of the change remains in the end.
+/// Bisection keeps the half in which the value changes more. At a jump most of the change remains in the last half.
 fn jump(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<(f64, f64)> {
     let (mut left, mut right) = (left, right);
     let whole = (value(right)? - value(left)?).abs();
@@ -283,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turn_between_equal_samples_is_found() {
+    fn an_extremum_between_equal_samples_is_found() {
         for samples in [4, 8, 9] {
             let found = branches(|x| Some(x * x), -3.0, 3.0, samples);
             assert_eq!(found.len(), 2, "{samples}: {found:?}");

@@ -53,7 +53,7 @@ pub fn wilson_interval(successes: usize, trials: usize) -> Result<ConfidenceInte
     let center = fraction + 0.5 * square;
     let half = (square * (fraction * (1.0 - fraction) + 0.25 * square)).sqrt();
     let end = |x: f64| (x / (1.0 + square)).clamp(0.0, 1.0);
-    // Without successes, or without failures, one end is p̂ itself. The formula would miss it by rounding.
+    // Without successes, or without failures, one end is p̂ itself. The formula would differ from it by rounding.
     let lower = if successes == 0 { 0.0 } else { end(center - half) };
     let upper = if successes == trials { 1.0 } else { end(center + half) };
     Ok(ConfidenceInterval { value: fraction, lower, upper })

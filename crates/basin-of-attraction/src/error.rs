@@ -39,18 +39,6 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// A range of columns that reaches beyond the raster.
-    #[error(
-        "columns {start} to {end} (exclusive) of a raster of {columns} columns: the end must be at most {columns}"
-    )]
-    BadColumnRange {
-        /// The first column asked for.
-        start: usize,
-        /// The column after the last one asked for.
-        end: usize,
-        /// The number of columns of the raster.
-        columns: usize,
-    },
     /// A strip whose labels are not one for each of its pixels.
     #[error(
         "a strip of {columns} columns and {rows} rows has {found} labels: it must have {rows} labels for every column"
@@ -63,7 +51,7 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
-    /// The caller asked to stop.
+    /// The caller stopped the work.
     #[error("interrupted after {finished} of {columns} columns")]
     Interrupted {
         /// Columns finished.
@@ -74,7 +62,7 @@ pub enum Error {
     /// A search for monotone branches with too few samples.
     #[error("monotone branches cannot be found with {samples} samples: at least 3 are needed")]
     TooFewSamples {
-        /// Samples asked for.
+        /// Requested number of samples.
         samples: usize,
     },
     /// A proportion without trials, or with more successes than trials.

@@ -64,7 +64,7 @@ pub enum UndecidedReason {
     Budget,
     /// The computed image equals the point, outside any trap: the true step is shorter than the spacing of `f64`.
     Precision {
-        /// The point at which the orbit stands still.
+        /// The point that the computed orbit repeats.
         at: f64,
     },
     /// The map could not be evaluated, or the point is not finite.
@@ -76,8 +76,8 @@ pub enum UndecidedReason {
 
 /// The fate of `start`, and the number of steps after which it was known.
 ///
-/// Only a trap decides that an orbit is attracted; closeness to a point does not. An orbit that passes a point
-/// slowly is therefore never taken for one that is attracted by it. After `budget` steps the fate is undecided.
+/// Only a trap decides that an orbit is attracted; closeness to a point does not. Therefore an orbit that passes a
+/// point slowly is never reported as attracted by it. After `budget` steps the fate is undecided.
 ///
 /// ```
 /// use basin_of_attraction::{Fate, Interval, TrapSet, classify};

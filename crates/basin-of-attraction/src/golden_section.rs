@@ -9,10 +9,10 @@
 /// rotation of the circle by it has low discrepancy.
 pub(crate) const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 
-/// Where `height` has its maximum in [left, right], by golden-section search.
+/// The point of [left, right] at which `height` has its maximum, by golden-section search.
 ///
-/// `height` must rise to one maximum and fall after it. Points without a height count as −∞. The place is
-/// known to the square root of an ulp only, because a smooth height is flat there.
+/// `height` must rise to one maximum and fall after it. Points without a height count as −∞. The result is right to the
+/// square root of an ulp only, because a smooth height is flat at its maximum.
 pub(crate) fn highest_point(
     height: impl Fn(f64) -> Option<f64>,
     mut left: f64,

@@ -115,7 +115,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn union_and_difference_are_those_of_points(a in sets(), b in sets(), k in -40..60i32) {
+        fn union_and_difference_contain_the_points_of_their_definition(a in sets(), b in sets(), k in -40..60i32) {
             let x = f64::from(k) / 4.0 + 0.1; // never an end
             let both = IntervalSet::union([a.intervals(), b.intervals()].concat());
             prop_assert_eq!(both.contains(x), a.contains(x) || b.contains(x));

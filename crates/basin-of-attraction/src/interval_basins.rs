@@ -17,7 +17,7 @@ pub struct LabelledInterval {
     pub interval: Interval,
     /// The label of the trap that its orbits enter.
     pub label: u16,
-    /// The number of steps after which they enter it.
+    /// The number of steps after which the orbits enter the trap.
     pub level: usize,
 }
 
@@ -32,11 +32,11 @@ pub struct IntervalBasins {
 
 /// The basins of `traps` in `window`: the traps, their preimages, the preimages of these, and so on.
 ///
-/// A trap is an interval that no orbit leaves. An interval on which the map has no value may be given as a trap
-/// too, with a label of its own. `branches` must contain all monotone branches of the map in the window, and
-/// outside it wherever orbits leave the window and return. The caller guarantees both; they cannot be checked
-/// here. The ends of the intervals are located to one ulp of the computed map. An orbit enters a trap once, so
-/// that intervals of different levels are disjoint.
+/// A trap is an interval that no orbit leaves. An interval on which the map has no value may be given as a trap too,
+/// with a label of its own. `branches` must contain all monotone branches of the map in the window. Where orbits leave
+/// the window and return, `branches` must also contain the branches outside it. The caller guarantees both; this
+/// function cannot check them. The ends of the intervals are located to one ulp of the computed map. An orbit enters a
+/// trap once, so that intervals of different levels are disjoint.
 ///
 /// ```
 /// use basin_of_attraction::{Branch, Interval, Refinement, interval_basins};
@@ -60,18 +60,19 @@ pub fn interval_basins(
     window: Interval,
     refinement: Refinement,
 ) -> Result<IntervalBasins, Error> {
-    /// Intervals followed in one parallel round. The limits are tested between rounds, so that the result does
-    /// not depend on the number of threads. Smaller rounds give the threads too little work; larger ones
-    /// exceed the limit on intervals by more.
+    /// Number of intervals followed in one parallel round. The limits are tested between rounds, so that the result
+    /// does not depend on the number of threads. Smaller rounds give the threads too little work; larger rounds exceed
+    /// the limit on intervals by more.
     const ROUND: usize = 16_384;
     /// Intervals longer than this fraction of the window are followed first.
     const FIRST_THRESHOLD: f64 = 0.01;
-    /// Once no longer intervals are pending, the threshold is divided by this. Both numbers were chosen. They
-    /// decide the order of the search only, and so the result only if a limit stops it.
+    /// When no longer intervals are pending, the threshold is divided by this. Both numbers were chosen. They
+    /// change only the order of the search, and so the result only if a limit stops the search.
     const THRESHOLD_STEP: f64 = 8.0;
     TrapSet::new(traps.to_vec())?;
     let trapped = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
-    // Orbits may leave the window and return. Whole intervals are followed; their parts inside are kept.
+    // Orbits may leave the window and return. Whole intervals are followed; only their parts inside the window are
+    // stored.
     let inside = |part: &LabelledInterval| {
         part.interval.intersection(&window).map(|interval| LabelledInterval { interval, ..*part })
     };
@@ -229,7 +230,7 @@ impl IntervalBasins {
     /// Bounds on the total length of the basins whose label fulfils a condition.
     pub fn basin_length_of(&self, condition: impl Fn(u16) -> bool) -> Bounds {
         let resolved = self.resolved_length_of(condition);
-        // For every part of any label: one ulp for each of its two ends, and one for the rounding of the sum.
+        // For every part of any label: one ulp for each of its two ends, and one ulp for the rounding of the sum.
         let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
         let rounding = 3.0 * self.parts.len() as f64 * ulp;
         let upper = (resolved + self.undecided() + rounding).min(self.window.length());
@@ -325,7 +326,7 @@ mod tests {
         }
     }
 
-    /// Each limit stops the search with its own reason, and with more undecided than asked for.
+    /// Each limit stops the search with its own reason, and with more undecided length than requested.
     #[test]
     fn the_stop_reason_names_the_limit() {
         let (branches, traps) = branches_and_traps();

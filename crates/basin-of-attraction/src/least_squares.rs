@@ -5,7 +5,7 @@ pub(crate) struct FittedLine {
     pub(crate) slope: f64,
     /// Sum of the squared residuals.
     pub(crate) squared_residuals: f64,
-    /// Σ (x − mean)², by which the variance of the residuals is divided to give that of the slope.
+    /// Σ (x − mean)². The variance of the residuals divided by this is the variance of the slope.
     pub(crate) spread: f64,
 }
 

@@ -77,8 +77,8 @@ pub fn power_law(points: &[(f64, f64)]) -> Result<PowerLaw, Error> {
     Ok(PowerLaw { exponent, range, local, warning })
 }
 
-/// A change of the slope by less than this gives no warning, however small the scatter is. Without this limit
-/// exact data would be warned about for their rounding. Chosen.
+/// A change of the slope by less than this gives no warning, however small the scatter is. Without this limit the
+/// rounding of exact data would give a warning. The value was chosen.
 const STEADY: f64 = 0.05;
 
 /// A fit over fewer scales gives a warning. Chosen.

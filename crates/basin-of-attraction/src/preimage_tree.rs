@@ -12,9 +12,9 @@ pub struct TreeNode {
     pub interval: Interval,
     /// The number of steps after which its points enter the trap.
     pub level: usize,
-    /// The index of the node it is mapped into; `None` for the trap.
+    /// The index of the parent node; `None` for the trap.
     pub parent: Option<usize>,
-    /// The index of the branch that maps it there; 0 for the trap.
+    /// The index of the branch that maps the interval onto its parent; 0 for the trap.
     pub branch: usize,
 }
 
@@ -25,7 +25,7 @@ pub struct PreimageTree {
     nodes: Vec<TreeNode>,
     /// Level k has the nodes from starts[k] to starts[k + 1], without the last one.
     starts: Vec<usize>,
-    /// The first level that may lack a preimage, because its target is a few ulps wide.
+    /// The first level that may lack a preimage, because some target is a few ulps wide.
     incomplete: Option<usize>,
 }
 
@@ -33,7 +33,8 @@ pub struct PreimageTree {
 /// larger number would end the complete levels earlier. Chosen.
 const NARROW_ULPS: f64 = 64.0;
 
-/// The points of the window that no level contains, judged by the growth of the number of intervals a level.
+/// The points of the window that no level contains. The growth of the number of intervals with the level decides their
+/// kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ResidualSet {
     /// The number of intervals grows exponentially with the level. The points that never enter the trap contain a
@@ -94,13 +95,13 @@ impl PreimageTree {
                     let ulps = |x: &Interval| x.length() / (f64::EPSILON * x.right.abs());
                     let mut outside =
                         IntervalSet::union(vec![found]).minus(&trapped).intervals().to_vec();
-                    // At a fixed point on the trap's end, that end and its computed preimage differ by rounding.
-                    // The sliver between them is no preimage.
+                    // At a fixed point on the trap's end, the end and its computed preimage differ by rounding. The
+                    // interval of some ulps between them is no preimage.
                     outside.retain(|x| {
                         let beside = x.left == trap.right || x.right == trap.left;
                         !(beside && ulps(x) < NARROW_ULPS)
                     });
-                    // The preimages of a target of a few ulps may be lost to rounding: one level later.
+                    // The preimages of a target of a few ulps may be lost to rounding. They belong to the next level.
                     if outside.iter().any(|x| ulps(x) < NARROW_ULPS) {
                         tree.incomplete.get_or_insert(level + 1);
                     }
@@ -164,14 +165,16 @@ impl PreimageTree {
 
     /// Fits an exponential and a power law to the number of intervals of the later half of the complete levels.
     ///
-    /// The earlier half is left out because it follows neither law yet. The law with less than a quarter of the
-    /// other's squared residuals is the answer.
+    /// The earlier half is left out because it follows neither law yet. If one law has less than a quarter of the
+    /// other's squared residuals, it is the result.
     pub fn residual_set(&self) -> ResidualSet {
-        /// Two parameters leave two degrees of freedom to compare the fits by. Chosen as the least useful number.
+        /// A fit of two parameters then leaves at least two degrees of freedom to compare the fits. The value was
+        /// chosen as the smallest useful number.
         const FEWEST_LEVELS: usize = 4;
         /// A fit is better if its squared residuals are less than this part of the other's. Chosen.
         const BETTER: f64 = 0.25;
-        /// Exact laws have residuals of rounding size on one side, or 0 on both. This makes the latter undecided.
+        /// Exact laws have residuals of rounding size for one law, or 0 for both. If both are 0, this makes the result
+        /// undecided.
         const ROUNDING: f64 = 1e-12;
         let mut counts = self.counts();
         counts.truncate(self.complete_levels());
@@ -205,8 +208,8 @@ impl PreimageTree {
 
 /// The limit of a sum whose terms fall geometrically in the end, and an estimate of its error.
 ///
-/// Aitken's extrapolation: the terms not given are taken to fall by the ratio of the last two. The error is the
-/// change that the last term made. `None` for fewer than four terms, and if the terms do not fall.
+/// Aitken's extrapolation: the missing terms are assumed to fall by the ratio of the last two. The error is the change
+/// that the last term made. `None` for fewer than four terms, and if the terms do not fall.
 ///
 /// ```
 /// let terms: Vec<f64> = (0..12).map(|k| 0.5f64.powi(k)).collect();

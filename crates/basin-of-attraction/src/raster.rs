@@ -90,8 +90,9 @@ pub struct LegendEntry {
 
 /// Labels every pixel of `grid` by its middle. Columns are computed in parallel, each pixel by pixel.
 ///
-/// `prepare` does the work that a column shares. `label` labels a point of the column. `progress` is called with
-/// the number of finished columns, and may stop the work. The image does not depend on the number of threads.
+/// `prepare` does the work that the pixels of a column share. `label` labels a point of the column. `progress` is
+/// called with the number of finished columns, and may stop the work. The image does not depend on the number of
+/// threads.
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval, raster};
@@ -119,14 +120,14 @@ pub fn raster<C>(
     raster_by_strips(grid, 1, strip, progress)
 }
 
-/// Rows of the image that are filled together: 32 labels of two bytes are one cache line of 64 bytes. A lower band
-/// would read each line of a column several times. A higher one is no faster.
+/// Rows of the image that are filled together: 32 labels of two bytes are one cache line of 64 bytes. With fewer rows
+/// each line of a column would be read several times. With more rows the code is not faster.
 const BAND: usize = 32;
 
 /// Labels every pixel of `grid` by its middle. Strips of `width` neighbouring columns are computed in parallel.
 ///
-/// `strip` takes the x of neighbouring columns and all y of the grid, both in increasing order. It gives the labels of
-/// every column, from the lowest y up. This form is for maps that can label many points together faster than one
+/// `strip` receives the x of neighbouring columns and all y of the grid, both in increasing order. It returns the
+/// labels of every column, from the lowest y up. This form is for maps that label many points together faster than one
 /// by one. `progress` is as for [`raster`].
 ///
 /// ```

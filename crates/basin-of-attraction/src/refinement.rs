@@ -5,9 +5,9 @@
 pub struct Refinement {
     /// Stop as soon as no more than this length is undecided.
     pub undecided: f64,
-    /// Do not look for preimages of intervals shorter than this.
+    /// Intervals shorter than this are not followed.
     pub shortest: f64,
-    /// Do not look for preimages of intervals of this level or higher.
+    /// Intervals of this level or higher are not followed.
     pub levels: usize,
     /// Stop as soon as this number of intervals is found.
     pub intervals: usize,

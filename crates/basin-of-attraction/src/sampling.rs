@@ -32,8 +32,8 @@ pub fn equally_spaced_counts(
 pub struct EquallySpacedFraction {
     /// The fraction of the points.
     pub value: f64,
-    /// Bounds on the basin fraction. They hold if no part of a basin, and no gap in it, is narrower than the
-    /// spacing of the points. Narrower parts can lie between the points unseen.
+    /// Bounds on the basin fraction. They hold if no part of a basin, and no gap in it, is narrower than the spacing of
+    /// the points. Narrower parts may lie between the points.
     pub bounds: Bounds,
 }
 
@@ -74,8 +74,8 @@ pub fn equally_spaced_fractions(
 
 /// The basin fractions among `count` independent uniform points, with Wilson's 95 % intervals.
 ///
-/// The same seed gives the same points, with any number of threads. A label that no point has is not in the
-/// result: its fraction is [`wilson_interval`]`(0, count)`.
+/// The same seed gives the same points, with any number of threads. A label without points is not in the result: its
+/// fraction is [`wilson_interval`]`(0, count)`.
 ///
 /// # Errors
 /// [`Error::BadTrials`] for a `count` of 0.
@@ -94,10 +94,10 @@ pub fn random_fractions(
 /// The basin fractions among `replicates` low-discrepancy sets of `count` points each, with Student's 95 %
 /// intervals over the replicates.
 ///
-/// A set is a golden rotation, x_k = x₀ + k (√5 − 1)/2 mod 1, with a random x₀. For basins of few intervals the
-/// error falls like 1/`count`; that of independent points falls like 1/√`count`. A label with few points has
-/// Wilson's interval if that is wider. A label that no point has is not in the result: its fraction is
-/// [`wilson_interval`]`(0, count * replicates)`.
+/// A set is a golden rotation, x_k = x₀ + k (√5 − 1)/2 mod 1, with a random x₀. For basins of few intervals the error
+/// falls like 1/`count`; the error of independent points falls like 1/√`count`. A label with few points has Wilson's
+/// interval if Wilson's is wider. A label without points is not in the result: its fraction is [`wilson_interval`]`(0,
+/// count * replicates)`.
 ///
 /// # Errors
 /// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] for a `count` of 0.
@@ -119,8 +119,8 @@ pub fn low_discrepancy_fractions(
         .map(|replicate| {
             let start = random.uniform(replicate as u64);
             let at = |k| {
-                let turn = start + INVERSE_GOLDEN_RATIO * k as f64;
-                window.left + window.length() * (turn - turn.floor())
+                let rotated = start + INVERSE_GOLDEN_RATIO * k as f64;
+                window.left + window.length() * (rotated - rotated.floor())
             };
             tally(&labels(count, at, &label))
         })
@@ -137,11 +137,11 @@ pub fn low_discrepancy_fractions(
     Ok(fractions)
 }
 
-/// From this number of points with a label, and of points without it, the spread over replicates measures the
-/// error. The number was chosen; with it the intervals cover as they should in `tests/confidence_intervals.rs`.
+/// From this number of points with a label, and of points without it, the spread over replicates measures the error.
+/// The number was chosen: with it the intervals cover as often as stated in `tests/confidence_intervals.rs`.
 const ENOUGH_POINTS: usize = 100;
 
-/// A Student interval, widened to Wilson's if `found` of `all` points are few, or all but few.
+/// A Student interval, widened to Wilson's if few of `all` points have the label, or few do not.
 ///
 /// The replicates may then agree by chance: if all of them have 0 points, or 1, Student's interval has length 0.
 fn widened_for_few_points(

@@ -7,7 +7,7 @@ pub enum Image {
     Point(f64),
     /// The map has no value: the orbit ends here.
     Stops,
-    /// The map could not be evaluated. The map's own error says why.
+    /// The map could not be evaluated. The map's own error has the reason.
     Undecided,
 }
 

@@ -17,12 +17,12 @@ pub struct SplitMix64 {
     state: u64,
 }
 
-/// The state advances by this odd number: 2⁶⁴ divided by the golden ratio. Odd, it takes the state through
-/// all 2⁶⁴ values before one repeats.
+/// The state advances by this odd number, 2⁶⁴ divided by the golden ratio. Because it is odd, the state takes all 2⁶⁴
+/// values before one repeats.
 const INCREMENT: u64 = 0x9e37_79b9_7f4a_7c15;
 
 impl SplitMix64 {
-    /// The generator with this state, as others publish it.
+    /// The generator with this state, as in published implementations.
     ///
     /// States that differ by a small multiple of 0x9e3779b97f4a7c15 give shifted copies of one sequence.
     /// [`from_seed`](Self::from_seed) avoids this.
@@ -42,7 +42,7 @@ impl SplitMix64 {
 
     /// Number k as a uniform number in [0, 1): a multiple of 2⁻⁵³.
     pub fn uniform(&self, k: u64) -> f64 {
-        // An f64 has 53 significant bits. More bits of the number would round, to 1 at worst.
+        // An f64 has 53 significant bits. With more bits the number would be rounded, possibly to 1.
         (self.bits(k) >> 11) as f64 / (1u64 << 53) as f64
     }
 }

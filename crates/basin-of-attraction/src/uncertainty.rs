@@ -1,4 +1,4 @@
-//! How often a perturbation ε of the start changes the fate.
+//! The fraction of starts whose fate a perturbation ε changes.
 
 use crate::bounds::Bounds;
 use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
@@ -44,8 +44,8 @@ fn check_perturbation(epsilon: f64) -> Result<(), Error> {
 impl IntervalBasins {
     /// The fraction of the window within ε of the boundary between basins.
     ///
-    /// The lower bound counts only points that are within ε of a boundary wherever the boundary lies in its
-    /// gap. The upper bound counts every undecided gap longer than `resolution` as boundary, all of it.
+    /// The lower bound counts only points within ε of every possible boundary in a gap. The upper bound counts every
+    /// undecided gap longer than `resolution` as boundary, over its whole length.
     ///
     /// # Errors
     /// [`Error::BadPerturbation`] unless `epsilon` is positive and finite.

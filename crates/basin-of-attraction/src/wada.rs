@@ -6,7 +6,7 @@
 use crate::error::Error;
 use crate::raster::LabelImage;
 
-/// How far apart the boundaries of the basins are.
+/// The largest distance between the boundaries of the basins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WadaTest {
     /// The distance tested, in steps along rows and columns.
@@ -35,7 +35,7 @@ impl LabelImage {
             boundaries.iter().map(|boundary| self.distances(boundary)).collect();
         let (mut of_image, mut of_boundary) = (0.0f64, 0.0f64);
         for (one, boundary) in boundaries.iter().enumerate() {
-            // With three labels every label has a boundary. The 1 only keeps the division below safe.
+            // With three labels every label has a boundary. The 1 only guards the division below.
             let own = boundary.iter().filter(|&&on| on).count().max(1);
             for other in (0..labels.len()).filter(|&other| other != one) {
                 let far = boundary
@@ -50,7 +50,7 @@ impl LabelImage {
         Ok(WadaTest { distance, far_image_fraction: of_image, far_boundary_fraction: of_boundary })
     }
 
-    /// The pixels on either side of the border of a label: one of the pixel and its neighbour has the label.
+    /// The pixels on either side of the border of a label: of the pixel and a neighbour exactly one has the label.
     fn boundary_of(&self, label: u16) -> Vec<bool> {
         let inside = |at: usize| self.labels[at] == label;
         let borders = |at: usize| self.neighbours(at).any(|next| inside(next) != inside(at));

@@ -26,13 +26,15 @@ fn cantor_label(x: f64, colours: u16) -> u16 {
 
 /// Of 1000 intervals of 95 %, 930 to 970 contain the true fraction.
 #[test]
-fn intervals_cover_as_often_as_stated() {
+fn intervals_contain_the_true_fraction_as_often_as_stated() {
     let unit = interval(0.0, 1.0);
     let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
     let wide = interval(-1.5, 0.5);
     type Label<'a> = &'a (dyn Fn(f64) -> u16 + Sync);
-    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] =
-        [("B1", unit, &|x| cantor_label(x, 2), 0, 0.6), ("B4", wide, &step, 1, 0.5)];
+    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] = [
+        ("Cantor basin", unit, &|x| cantor_label(x, 2), 0, 0.6),
+        ("one-sided fixed point", wide, &step, 1, 0.5),
+    ];
     for (name, window, label, basin, truth) in cases {
         let covered = |fraction: &dyn Fn(u64) -> ConfidenceInterval| {
             (0..1000).filter(|&seed| fraction(seed).covers(truth)).count()
@@ -47,7 +49,7 @@ fn intervals_cover_as_often_as_stated() {
 }
 
 #[test]
-fn intervals_of_rare_labels_cover_too() {
+fn intervals_of_rare_labels_contain_the_true_fraction_as_often_as_stated() {
     // One point in fifty thousand lies in the basin. Most replicates have none; all together often have one.
     let unit = interval(0.0, 1.0);
     let truth = 2e-5;

@@ -1,4 +1,5 @@
-//! Basins that are known exactly, each with the name of its test case (b1, b2, …).
+//! Basins that are known exactly: known answers from the literature, and from the test suites of other projects
+//! (Attractors.jl).
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -40,7 +41,7 @@ fn cantor_levels(depth: usize) -> IntervalBasins {
     interval_basins(&map, &[gap], &branches, interval(0.0, 1.0), refinement).unwrap()
 }
 
-/// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the length before.
+/// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the length of the level before.
 fn extrapolated(levels: &IntervalBasins, colours: usize, label: usize) -> f64 {
     let lengths: Vec<f64> = levels.levels(0).values().map(|(_, length)| *length).collect();
     // Twelve levels: the rounding errors of further ones exceed their length.
@@ -51,7 +52,7 @@ fn extrapolated(levels: &IntervalBasins, colours: usize, label: usize) -> f64 {
 }
 
 #[test]
-fn b1_two_colour_cantor_basin() {
+fn fractions_and_boxes_of_a_cantor_basin_of_two_colours_are_exact() {
     let levels = cantor_levels(16);
     assert!((extrapolated(&levels, 2, 0) - 0.6).abs() < 1e-12);
     assert!((extrapolated(&levels, 2, 1) - 0.4).abs() < 1e-12);
@@ -66,7 +67,7 @@ fn b1_two_colour_cantor_basin() {
     let law = power_law(&points).unwrap();
     assert!((law.exponent.value + 2f64.ln() / 3f64.ln()).abs() < 1e-12);
     assert_eq!(law.warning, None);
-    // The uncertainty exponent is the dimension of the line less that of the boundary.
+    // The uncertainty exponent is the dimension of the line minus the dimension of the boundary.
     assert!((1.0 + law.exponent.value - 0.369_070_246_428_543).abs() < 1e-12);
     let fractions = [extrapolated(&levels, 2, 0), extrapolated(&levels, 2, 1)];
     assert!((entropy(fractions) - 0.673_011_667_009_256_5).abs() < 1e-12);
@@ -77,7 +78,7 @@ fn b1_two_colour_cantor_basin() {
 }
 
 #[test]
-fn b1_leaves_a_cantor_set() {
+fn the_middle_third_leaves_a_cantor_set() {
     let map = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * x - 2.0 });
     let branches = [
         Branch { domain: interval(0.0, THIRD), at_left: 0.0, at_right: 1.0 },
@@ -106,9 +107,9 @@ fn b1_leaves_a_cantor_set() {
     assert!((law.exponent.value + 0.630_929_753_571_457).abs() < 1e-12, "{law:?}");
 }
 
-/// The map of case b4 has two intervals in every level, so that no Cantor set remains.
+/// The map x + x² of `a_fixed_point_that_attracts_from_one_side_has_its_basin` has two intervals in every level, so that no Cantor set remains.
 #[test]
-fn b4_leaves_a_countable_set() {
+fn a_fixed_point_that_attracts_from_one_side_leaves_a_countable_set() {
     let map = |x: f64| Some(x + x * x);
     let branches = [
         Branch { domain: interval(-1.0, -0.5), at_left: 0.0, at_right: -0.25 },
@@ -139,7 +140,7 @@ fn coloured(levels: &IntervalBasins, colours: usize) -> IntervalBasins {
 }
 
 #[test]
-fn b2_three_colour_cantor_basin() {
+fn fractions_and_boxes_of_a_cantor_basin_of_three_colours_are_exact() {
     let levels = cantor_levels(18);
     let exact = [9.0 / 19.0, 6.0 / 19.0, 4.0 / 19.0];
     let fractions = [0, 1, 2].map(|label| extrapolated(&levels, 3, label));
@@ -164,7 +165,7 @@ fn b2_three_colour_cantor_basin() {
 }
 
 #[test]
-fn b4_one_way_fixed_point() {
+fn a_fixed_point_that_attracts_from_one_side_has_its_basin() {
     let map = |x: f64| (x.abs() < 10.0).then_some(x + x * x);
     let traps = TrapSet::new(vec![(interval(-0.5, 0.0), 1)]).unwrap();
     let label = |x: f64| u16::from(classify(&map, &traps, x, 100_000).0 == Fate::Trapped(1));
@@ -199,7 +200,7 @@ fn stripes() -> LabelImage {
 }
 
 #[test]
-fn b6_stripes() {
+fn entropies_and_wada_fractions_of_stripes_are_exact() {
     let image = stripes();
     let boxes = image.boxes(3).unwrap();
     assert!((boxes.basin_entropy() - 0.318_257_084_147_406_4).abs() < 1e-15);
@@ -214,7 +215,7 @@ fn b6_stripes() {
 
 /// The mean entropy of a ball that a smooth boundary cuts at a random distance from its middle.
 #[test]
-fn b7_smooth_boundaries() {
+fn entropies_of_smooth_boundaries_are_exact() {
     // The fraction of a unit ball in one, two and three dimensions beyond a cut at distance t from its middle.
     let one = |t: f64| 0.5 * (1.0 - t);
     let two = |t: f64| (t.acos() - t * (1.0 - t * t).sqrt()) / std::f64::consts::PI;
@@ -251,7 +252,7 @@ fn b7_smooth_boundaries() {
 /// The map θ → θ + a sin 2θ − b sin 4θ − x sin θ, x → −J cos θ. The label says whether the orbit ends at θ = 0 or
 /// at θ = π.
 #[test]
-fn b8_grebogi_mcdonald_ott_yorke() {
+fn the_map_of_grebogi_mcdonald_ott_and_yorke_has_its_uncertainty_exponent() {
     const A: f64 = 1.32;
     const B: f64 = 0.9;
     const J: f64 = 0.3;
@@ -282,7 +283,7 @@ fn b8_grebogi_mcdonald_ott_yorke() {
 }
 
 #[test]
-fn b9_newtons_method_for_three_roots() {
+fn the_basins_of_newtons_method_share_one_boundary() {
     let label = |x: f64, y: f64| {
         let (mut x, mut y) = (x, y);
         for _ in 0..60 {
@@ -353,7 +354,7 @@ fn the_cubes_of_one_over_k_have_dimension_one_quarter() {
 
 /// The points within ε of the two ends of [−1, 0] are 2ε of a window of length 2.
 #[test]
-fn uncertain_fractions_of_an_interval() {
+fn the_uncertain_fraction_of_an_interval_is_exact() {
     let traps = [
         (interval(-1.5, -1.0), 0),
         (interval((-1.0f64).next_up(), 0.0), 1),
@@ -372,7 +373,7 @@ fn uncertain_fractions_of_an_interval() {
 }
 
 #[test]
-fn open_boxes_are_counted() {
+fn boxes_with_an_undecided_part_are_counted() {
     // The label is known on [0, 0.1] and [0.9, 1] only. The sixteen boxes of 0.05 between them are open.
     let traps = [(interval(0.0, 0.1), 1), (interval(0.9, 1.0), 2)];
     let no_map = |_: f64| None;

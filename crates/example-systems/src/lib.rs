@@ -4,6 +4,6 @@
 //! |---|---|---|
 //! | [`valve`] | a pressure relief valve whose disc hits its seat | an example and a benchmark of `return-map`, a figure of `hopper-paper` |
 //!
-//! Systems that only one place needs stand in the `examples` folder of their crate.
+//! A system that is needed in only one place is in the `examples` folder of its crate.
 
 pub mod valve;

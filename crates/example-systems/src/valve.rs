@@ -35,7 +35,7 @@ pub enum Surface {
     /// y₁ = 0: the disc hits its seat.
     Seat,
     /// y₂ = 0, falling: a turning point, where the disc is farthest from its seat.
-    Turn,
+    TurningPoint,
     /// y₃ = δ: the pressure lifts the disc off its seat.
     Release,
 }
@@ -73,7 +73,9 @@ impl HybridSystem<3> for Valve {
 
     fn guards(&self, mode: Mode) -> &[Guard<Surface>] {
         match mode {
-            Mode::Open => const { &[Guard::falling(Surface::Seat), Guard::falling(Surface::Turn)] },
+            Mode::Open => {
+                const { &[Guard::falling(Surface::Seat), Guard::falling(Surface::TurningPoint)] }
+            }
             Mode::Closed => const { &[Guard::rising(Surface::Release)] },
         }
     }
@@ -81,7 +83,7 @@ impl HybridSystem<3> for Valve {
     fn guard_value(&self, surface: Surface, y: &State<3>) -> f64 {
         match surface {
             Surface::Seat => y[0],
-            Surface::Turn => y[1],
+            Surface::TurningPoint => y[1],
             Surface::Release => y[2] - LOAD,
         }
     }
@@ -89,7 +91,7 @@ impl HybridSystem<3> for Valve {
     fn reset(&self, _: Mode, surface: Surface, y: &State<3>) -> Reset<Mode, 3> {
         let state = match surface {
             Surface::Seat => Vector3::new(0.0, -RESTITUTION * y[1], y[2]),
-            Surface::Turn => *y,
+            Surface::TurningPoint => *y,
             Surface::Release => Vector3::new(0.0, 0.0, LOAD),
         };
         Reset::Jump { mode: Mode::Open, state }
@@ -125,14 +127,15 @@ impl HybridSystem<3> for Valve {
 
 /// The section of the turning points, with displacement and pressure as coordinates, as in the tutorial.
 #[derive(Debug, Clone, Copy)]
-pub struct Turns;
+pub struct TurningPoints;
 
-impl Section<Valve, 3, 2> for Turns {
+impl Section<Valve, 3, 2> for TurningPoints {
     fn point(&self, y: &SVector<f64, 2>) -> (Mode, State<3>) {
         (Mode::Open, Vector3::new(y[0], 0.0, y[1]))
     }
     fn coordinates(&self, event: &Event<Mode, Surface, 3>) -> Option<SVector<f64, 2>> {
-        (event.surface == Surface::Turn).then(|| Vector2::new(event.before[0], event.before[2]))
+        (event.surface == Surface::TurningPoint)
+            .then(|| Vector2::new(event.before[0], event.before[2]))
     }
 }
 
@@ -141,30 +144,34 @@ pub const START: Vector2<f64> = Vector2::new(0.2, 0.0);
 
 /// Limits for an orbit of this number of turning points. The time and the number of events between two turning
 /// points stay far below them for all flow rates of the diagram.
-fn limits(turns: usize) -> Limits {
-    Limits::new(1000.0 * (1 + turns) as f64, 10_000 * (1 + turns))
+fn limits(turning_points: usize) -> Limits {
+    Limits::new(1000.0 * (1 + turning_points) as f64, 10_000 * (1 + turning_points))
 }
 
 /// The displacements at `kept` turning points, after `transient` turning points that are left out.
 ///
 /// The orbit may contain Zeno limits and rests on the seat.
-pub fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
+pub fn turning_points(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
     let valve = Valve { flow_rate };
-    let (mode, start) = Turns.point(&START);
+    let (mode, start) = TurningPoints.point(&START);
     let mut found = Vec::with_capacity(kept);
-    let mut turn = 0;
+    let mut turning_point = 0;
     for arc in Execution::new(&valve, mode, start, limits(transient + kept)) {
         let arc = arc?;
-        let Some(at) = arc.event().and_then(|event| Turns.coordinates(event)) else { continue };
-        if turn >= transient {
+        let Some(at) = arc.event().and_then(|event| TurningPoints.coordinates(event)) else {
+            continue;
+        };
+        if turning_point >= transient {
             found.push(at[0]);
         }
-        turn += 1;
+        turning_point += 1;
         if found.len() == kept {
             return Ok(found);
         }
     }
-    let reason =
-        format!("{turn} turning points were found where {} were asked for", transient + kept);
+    let reason = format!(
+        "{turning_point} turning points were found where {} were asked for",
+        transient + kept
+    );
     Err(Error::Model { reason })
 }

@@ -3,9 +3,9 @@
 use crate::error::Error;
 use passive_hopper::{MassRatio, alpha_star};
 
-/// The λ of the paper, or the corrected one.
+/// The λ of the paper, or the corrected λ.
 ///
-/// The paper's Eqs. (18)–(20) drop a term of the same order as the one they keep. With t = β δ^{1/3},
+/// The paper's Eqs. (18)–(20) drop a term of the same order as the term they keep. With t = β δ^{1/3},
 ///
 /// ```text
 ///   α'² − α² = 2αμ [α t⁴/24 − (2α − sin 2α) δ t]
@@ -46,7 +46,7 @@ impl Coefficients {
         }
         // From tan α* = α* follows sin 2α* = 2α*/(1+α*²), and therefore
         //   2α* − sin 2α* = 2α*³/(1+α*²)      β³ = 12α*²/(1+α*²)
-        // Neither cancels, and neither needs a sine.
+        // Both forms need no sine and do not cancel.
         let alpha_star = alpha_star(n);
         let square = alpha_star * alpha_star;
         let double_minus_sine = 2.0 * alpha_star * (square / (1.0 + square));
@@ -59,7 +59,7 @@ impl Coefficients {
         Ok(Coefficients { n, alpha_star, beta, lambda })
     }
 
-    /// Δ = λ⁻³, the leading estimate of the length of the trapping region (Eq. 20).
+    /// Δ = λ⁻³, the leading estimate of the length of the trap (Eq. 20).
     ///
     /// It is the δ at which the leading-order map gives δ′ = δ − λ δ^{4/3} = 0.
     pub fn trap_length(&self) -> f64 {

@@ -26,16 +26,16 @@ pub struct Decay {
     pub inverse: f64,
 }
 
-/// Bound on r/((1+λ)³ δ₀^{2/3}) times the neglected terms of a difference of K. Measured for n = 1…1000,
-/// M = 10⁻⁴…10³: at most 0.08. Outside that range the error may be larger than stated.
+/// Bound on r/((1+λ)³ δ₀^{2/3}) times the neglected terms of a difference of K. The largest measured value for n =
+/// 1…1000, M = 10⁻⁴…10³ is 0.08. Outside that range the error may be larger than stated.
 const NEGLECTED: f64 = 0.1;
 
 /// The smallest λ. The number of hops is about 3u/λ, and u reaches 10¹⁰⁸ for the smallest positive δ, so that the
 /// number is at most 10²⁵⁹ here. For λ under 10⁻²⁰⁰ it could exceed the range of `f64`.
 const SMALLEST_LAMBDA: f64 = 1e-150;
 
-/// Most Newton steps of [`Decay::offset_after`]. K is nearly linear, so that a few suffice; the limit only makes sure
-/// that the loop ends.
+/// Most Newton steps of [`Decay::offset_after`]. K is nearly linear, so that a few steps suffice. The limit only
+/// guarantees that the loop ends.
 const NEWTON_STEPS: usize = 60;
 
 /// Larger than ln(u₁/u₀) for any two positive `f64`: u lies between 1 and 10¹⁰⁸, and ln 10¹⁰⁸ = 249.
@@ -48,8 +48,8 @@ impl Decay {
     /// The law at α*_n.
     ///
     /// # Errors
-    /// [`Error::Index`] for n = 0; [`Error::OutsideRange`] with λ if it is under 10⁻¹⁵⁰, where numbers of hops
-    /// could overflow.
+    /// [`Error::Index`] for n = 0; [`Error::OutsideRange`] with λ if λ is under 10⁻¹⁵⁰, where numbers of hops could
+    /// overflow.
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
         let right = RightExpansion::new(n, mass_ratio)?;
         let (lambda, [l5, l6, ..]) = (right.lambda, right.coefficients);
@@ -67,7 +67,7 @@ impl Decay {
 
     /// The largest offset for which the law has values: 0.1, or 10⁻³ λ⁻³ if that is less.
     ///
-    /// 10⁻³ λ⁻³ is about a thousandth of the trapping region. The error was measured up to it.
+    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error was measured up to it.
     pub fn range(&self) -> f64 {
         let lambda = 3.0 * self.rate;
         RIGHT_RANGE.min(1e-3 / (lambda * lambda * lambda))
@@ -115,7 +115,7 @@ impl Decay {
         }
         let u0 = 1.0 / pxfm::f_cbrt(start);
         // Newton's method on r (K(u) − K(u₀)) = r · hops. The slope of r K is near 1 throughout the range, so that the
-        // leading term is a good start. u only grows, so that no step may fall below u₀.
+        // leading term is a good start. u never decreases, so that no step may fall below u₀.
         let mut u = u0 + self.rate * hops;
         for _ in 0..NEWTON_STEPS {
             let sum = (u - u0) - self.logarithm * pxfm::f_log(u / u0)
@@ -123,7 +123,7 @@ impl Decay {
             let slope = 1.0 - self.logarithm / u - self.inverse / (u * u);
             let step = (sum - self.rate * hops) / slope;
             u = (u - step).max(u0);
-            // Two ulps are the rounding of u. A NaN ends the loop too.
+            // Two ulps are the rounding of u. A NaN also ends the loop.
             if !(step.abs() > 2.0 * f64::EPSILON * u) {
                 break;
             }
@@ -149,7 +149,7 @@ impl Decay {
         Ok(ExpansionValue { value, error: self.rate * hops.error, ..hops })
     }
 
-    /// Refuses a start outside the range.
+    /// Returns an error for a start outside the range.
     fn check(&self, start: f64) -> Result<(), Error> {
         let right = self.range();
         if start > 0.0 && start <= right {

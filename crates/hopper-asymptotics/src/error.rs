@@ -1,4 +1,4 @@
-//! Input that the expansions refuse.
+//! Errors of the expansions.
 
 use thiserror::Error;
 
@@ -10,13 +10,13 @@ pub enum Error {
     /// [`small_hop_loss`](crate::small_hop_loss).
     #[error("an expansion about the fixed point α*_{n}: the index must be at least 1")]
     Index {
-        /// The index given.
+        /// The given index.
         n: u64,
     },
     /// An offset, a speed, a number of hops, or λ, outside the range in which the error was measured.
     #[error("{value} is outside the range of the expansion: it holds from {left} to {right}")]
     OutsideRange {
-        /// The value given.
+        /// The given value.
         value: f64,
         /// Lower end of the range.
         left: f64,

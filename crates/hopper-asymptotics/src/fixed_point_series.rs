@@ -5,7 +5,7 @@ use crate::expansion_value::ExpansionValue;
 
 /// α*_n = q − q⁻¹ − ⅔q⁻³ − (13/15)q⁻⁵ − (146/105)q⁻⁷ − (781/315)q⁻⁹ + O(q⁻¹¹), q = (n+½)π.
 ///
-/// The neglected exponent is that of q. [`passive_hopper::alpha_star`] gives the value itself, rounded from 100
+/// The neglected exponent is the exponent of q. [`passive_hopper::alpha_star`] gives the value itself, rounded from 100
 /// bits; the series is for analysis.
 ///
 /// # Errors

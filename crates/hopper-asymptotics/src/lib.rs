@@ -6,8 +6,8 @@
 //!   λ = ¾ β μ (2α* − sin 2α*),   β = [6 (2α* − sin 2α*)/α*]^{1/3},   Δ ≈ λ⁻³
 //! ```
 //!
-//! Δ is the length of the trapping region [α*, α* + Δ], from which no orbit escapes. The paper calls it the interval
-//! of attraction. All numbers are dimensionless, as in `passive-hopper`.
+//! Δ is the length of the trap [α*, α* + Δ], from which no orbit escapes. The paper calls it the interval of
+//! attraction; the usual name is trapping region. All numbers are dimensionless, as in `passive-hopper`.
 //!
 //! | item | role |
 //! |---|---|

@@ -2,10 +2,10 @@
 
 use crate::coefficients::Coefficients;
 
-/// The loss of a hop on the left of a fixed point, relative to that on the right at the same |δ|.
+/// The loss of a hop on the left of a fixed point, relative to the loss on the right at the same |δ|.
 ///
-/// On the right a hop has one landing. On the left the first landing is followed by a sudden lift-off. The second
-/// landing has three times the closing speed of the first. The losses go with the squares: 1 + 3² = 10.
+/// On the right a hop has one landing. On the left the first landing is followed by a sudden lift-off, and the second
+/// landing has three times the closing speed of the first. The losses are proportional to the squares: 1 + 3² = 10.
 pub const LEFT_FACTOR: f64 = 10.0;
 
 impl Coefficients {

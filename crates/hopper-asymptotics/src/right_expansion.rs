@@ -33,8 +33,8 @@ pub struct RightExpansion {
 /// The largest δ for which the error was measured, and for which [`RightExpansion`] has values.
 pub const RIGHT_RANGE: f64 = 0.1;
 
-/// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|. Measured against the exact map for n = 1…100, M = 10⁻³…10³, δ up to
-/// [`RIGHT_RANGE`]: at most 0.44. Outside that range the error may be larger than stated.
+/// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|. The largest measured value, against the exact map for n = 1…100, M = 10⁻³…10³, δ up
+/// to [`RIGHT_RANGE`], is 0.44. Outside that range the error may be larger than stated.
 const NEGLECTED: f64 = 0.5;
 
 impl RightExpansion {

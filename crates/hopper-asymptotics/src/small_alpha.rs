@@ -7,8 +7,8 @@ use passive_hopper::MassRatio;
 /// The largest α for which the error was measured, and for which [`small_hop_loss`] has a value.
 pub const SMALL_ALPHA_RANGE: f64 = 0.3;
 
-/// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + …. Measured against the exact map for all μ (at most
-/// ¼) and α up to [`SMALL_ALPHA_RANGE`]: at most 4.3.
+/// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + …. The largest measured value, against the exact map for
+/// all μ (at most ¼) and α up to [`SMALL_ALPHA_RANGE`], is 4.3.
 const NEGLECTED: f64 = 5.0;
 
 /// The loss α − f(α) = (32/9) μ α⁵ [1 − (8/5) α²] + O(α⁹) of a small hop.

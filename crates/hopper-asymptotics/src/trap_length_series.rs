@@ -1,4 +1,4 @@
-//! The length Δ_n of the trapping region for large λ.
+//! The length Δ_n of the trap for large λ.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;
@@ -14,13 +14,13 @@ pub const SMALLEST_LAMBDA: f64 = 3.0;
 /// `tests/against_reference.rs` compares all reference values of Δ with λ ≥ 3.
 const NEGLECTED: f64 = 6.0;
 
-/// Δ_n = λ⁻³ [1 − 3ℓ₅/λ + (9ℓ₅² − 3ℓ₆)/λ²] + O(λ⁻⁶), the length of the trapping region [α*_n, α*_n + Δ_n].
+/// Δ_n = λ⁻³ [1 − 3ℓ₅/λ + (9ℓ₅² − 3ℓ₆)/λ²] + O(λ⁻⁶), the length of the trap [α*_n, α*_n + Δ_n].
 ///
-/// Δ solves δ′ = 0. With v = δ^{1/3} and the [`RightExpansion`] this is λv (1 + ℓ₅v + ℓ₆v² + …) = 1, solved in
-/// powers of 1/λ. The neglected exponent is that of λ. The leading term is 2(1+α*²)⁴/(81 μ³ α*¹¹).
+/// Δ solves δ′ = 0. With v = δ^{1/3} and the [`RightExpansion`] this is λv (1 + ℓ₅v + ℓ₆v² + …) = 1, solved in powers
+/// of 1/λ. The neglected exponent is the exponent of λ. The leading term is 2(1+α*²)⁴/(81 μ³ α*¹¹).
 ///
 /// # Errors
-/// [`Error::Index`] for n = 0; [`Error::OutsideRange`] with λ if it is under [`SMALLEST_LAMBDA`].
+/// [`Error::Index`] for n = 0; [`Error::OutsideRange`] with λ if λ is under [`SMALLEST_LAMBDA`].
 pub fn trap_length_series(n: u64, mass_ratio: MassRatio) -> Result<ExpansionValue, Error> {
     let right = RightExpansion::new(n, mass_ratio)?;
     let lambda = right.lambda;

@@ -243,7 +243,7 @@ fn remainders_of_the_other_expansions_have_the_stated_exponents() {
     let rest = |n: u64| (fixed_point_series(n).unwrap().value - alpha_star(n)).abs();
     let slope = (rest(2) / rest(1)).ln() / (2.5f64 / 1.5).ln();
     assert!((slope - fixed_point_series(1).unwrap().neglected_exponent).abs() < 1.0, "{slope}");
-    // Numbers of hops: in the start's offset. The orbit is so long that its end no longer matters.
+    // Numbers of hops: in the start's offset. The orbit is so long that its end has no effect.
     let law = Decay::new(1, MassRatio::ONE).unwrap();
     let map = LiftOffMap::new(MassRatio::ONE);
     let rest = |start: f64| {
@@ -255,7 +255,7 @@ fn remainders_of_the_other_expansions_have_the_stated_exponents() {
     };
     let slope = (rest(1e-5) / rest(1e-7)).ln() / 100f64.ln();
     assert!((slope - Decay::NEGLECTED_EXPONENT).abs() < 0.06, "{slope}");
-    // Length of the trapping region: in λ, at one fixed point.
+    // Length of the trap: in λ, at one fixed point.
     let rows: Vec<Row> = rows(REFERENCE).collect();
     let point = |m: &str| {
         let row =

@@ -33,14 +33,14 @@ pub enum Error {
         /// The highest speed whose fixed point has a label.
         largest: f64,
     },
-    /// A range of columns that the raster does not have.
+    /// A range of columns that lies outside the raster.
     #[error("the raster has {columns} columns; the range {first}..{end} lies outside")]
     ColumnRange {
         /// The number of columns of the raster.
         columns: usize,
-        /// The first column asked for.
+        /// The first requested column.
         first: usize,
-        /// The end of the range, one past the last column asked for.
+        /// The end of the range, one past the last requested column.
         end: usize,
     },
     /// Basin fractions need at least one point.
@@ -50,7 +50,7 @@ pub enum Error {
         from: u64,
         /// The index of the last fixed point.
         to: u64,
-        /// The number of points asked for on each interval.
+        /// The requested number of points on each interval.
         points: usize,
     },
     /// An index for which the quantity is not defined or not resolved.
@@ -67,7 +67,7 @@ pub enum Error {
     /// points.
     #[error("cannot scan a length of {length} at a spacing of {spacing}")]
     Spacing {
-        /// The spacing asked for.
+        /// The requested spacing.
         spacing: f64,
         /// The length to be scanned.
         length: f64,

@@ -9,7 +9,7 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`Trap`] | Δ_n, and why the trap ends there |
+//! | [`Trap`] | the trap of α*_n: its length Δ_n, and the kind of its end |
 //! | [`crisis`], [`grounding`] | mass ratios from which orbits of a hump fall below its fixed point, or to the ground |
 //! | [`immediate_basin`], [`ImmediateBasin`] | the trap continued into the sudden window, by a scan of stated spacing |
 //! | [`upper_crisis_bracket`] | the mass ratio above 1 from which no orbit of a hump falls, by such scans |
@@ -32,9 +32,9 @@
 //! ```
 //!
 //! # Accuracy
-//! Traps decide fates; closeness to a fixed point decides none. A fate that the budget of hops or the precision of
-//! `f64` leaves open is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles (canards) narrower
-//! than any spacing of `f64`. A scan there finds what is wider than its spacing.
+//! Only traps and grounding decide a fate; closeness to a fixed point does not. If the budget of hops or the precision
+//! of `f64` does not suffice, the fate is [`HopperFate::Undecided`], with the reason. For M ≳ 10 the map has needles
+//! (canards) narrower than any spacing of `f64`. A scan there finds only needles wider than its spacing.
 //!
 //! # Not here
 //! Dimensions, entropies and fractions with confidence intervals are in the generic crate `basin_of_attraction`,

@@ -45,7 +45,7 @@ fn crises_agree_with_thirty_digits() {
 }
 
 #[test]
-fn grounding_opens_where_theory_says() {
+fn grounding_begins_at_the_mass_ratio_of_theory() {
     let known = [
         (0, 0.327_498_113_640_356_01),
         (1, 0.626_355_616_933_350_12),
@@ -103,7 +103,7 @@ fn tiny_traps_have_all_their_digits() {
     assert!(Trap::new(u64::MAX, MassRatio::ONE).is_err());
 }
 
-/// For tiny M no hop loses enough to pass a fixed point, and the fate is known without a hop.
+/// For tiny M no hop loses enough to pass a fixed point, and the fate is known without computing a hop.
 #[test]
 fn tiny_mass_ratios_are_decided_at_once() {
     for m in [1e-300, 1e-9, 1e-3] {
@@ -111,7 +111,7 @@ fn tiny_mass_ratios_are_decided_at_once() {
         let below = passive_hopper::alpha_star(3) - 1e-9;
         assert_eq!(fates.fate_within(below, 0).unwrap().0, HopperFate::Incessant { n: 2 });
     }
-    // The bound is true: every sampled image of the sudden window lies above the fixed point.
+    // Check of the bound: every sampled image of the sudden window lies above the fixed point.
     for m in [0.005, 0.01, 0.02] {
         let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
         for n in (1..6).filter(|&n| fates.trap(n).unwrap().edge == TrapEdge::NextFixedPoint) {
@@ -226,7 +226,7 @@ fn immediate_basins_in_the_sudden_windows() {
     );
 }
 
-/// On two humps level k of the tree has 2k − 1 intervals; on three the number grows like k². What remains is countable.
+/// On two humps level k of the tree has 2k − 1 intervals; on three the number grows like k². The residual set is countable.
 #[test]
 fn the_residual_set_of_the_preimage_tree_is_countable() {
     let fates = fates(0.2);
@@ -260,9 +260,9 @@ fn grounding_is_not_found_below_its_onset() {
     }
 }
 
-/// Each reason has a label, and so have fixed points beyond the labels.
+/// Each reason has a label, and fixed points beyond the labels have one too.
 #[test]
-fn labels_tell_the_reason() {
+fn every_fate_has_a_label_of_its_own() {
     use basin_of_attraction::UndecidedReason;
     let labels = [
         HopperFate::Undecided(UndecidedReason::Budget),
@@ -279,7 +279,8 @@ fn labels_tell_the_reason() {
         assert!(labels.iter().skip(k + 1).all(|other| *other != label));
         assert!(!HopperFate::label_name(label).is_empty());
     }
-    // An ulp left of a fixed point an orbit stands still in f64; from a little farther it takes long.
+    // An ulp left of a fixed point an orbit repeats its speed in f64; from a little farther left it needs many hops to
+    // leave.
     let fates = fates(0.2);
     let alpha = alpha_star(2).next_down();
     let (fate, _) = fates.fate_within(alpha, 5).unwrap();
@@ -297,7 +298,7 @@ fn upper_crises_depend_on_the_width() {
     assert!(9.665 < coarse.1 && coarse.1 < fine.1, "{coarse:?} {fine:?}");
 }
 
-/// Each wrong argument has an error of its own.
+/// Each wrong argument has its own error.
 #[test]
 fn errors_name_the_wrong_argument() {
     use hopper_basin::Error;

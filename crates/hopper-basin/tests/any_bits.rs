@@ -11,7 +11,8 @@ mod body {
 fn word() -> impl Strategy<Value = u64> {
     prop_oneof![
         any::<u64>(),
-        // Most bit patterns are numbers far from 1. So numbers of ordinary size and small integers are drawn as well.
+        // Most bit patterns are numbers far from 1. Therefore numbers of ordinary size and small integers are drawn as
+        // well.
         (-4.0..4.0f64, any::<bool>()).prop_map(|(exponent, negative)| {
             let size = 10f64.powf(exponent);
             (if negative { -size } else { size }).to_bits()

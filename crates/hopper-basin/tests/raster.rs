@@ -50,7 +50,7 @@ fn check_speeds(m: f64, speeds: &[f64]) {
     }
 }
 
-/// Speeds in any order, repeated ones, some beyond all tables, some next to a fixed point.
+/// The speeds are in any order; some are repeated, some lie beyond all tables, some next to a fixed point.
 #[test]
 fn labels_of_unsorted_speeds_agree_with_single_fates() {
     let star = alpha_star(2);

@@ -86,6 +86,53 @@ fn a_limit_that_allows_everything_or_nothing_is_refused_with_the_range() {
     std::fs::remove_file(&path).unwrap();
 }
 
+/// A wrong α′ in a line that states an error so large that every answer is within it.
+#[test]
+fn a_line_that_allows_every_answer_is_no_comparison() {
+    let line = |next: &str, more: &str| {
+        format!(r#"{{"mass_ratio": 1, "alpha": 100, "sudden": 0, "alpha_next": "{next}"{more}}}"#)
+    };
+    for (name, text, words) in [
+        ("tiny", line("1e-300", ""), "1 errors over K"),
+        ("subnormal", line("5e-324", ""), "1 errors over K"),
+        ("slope", line("20", r#", "dalpha_next_dalpha": "1e308""#), "no digit was compared"),
+        ("slope_m", line("20", r#", "dalpha_next_dM": 1e20"#), "no digit was compared"),
+    ] {
+        let path = file(name, &text);
+        let output = check(&[], &[&path]);
+        assert_eq!(output.status.code(), Some(1), "{name}");
+        assert!(errors(&output).contains(words), "{name}: {}", errors(&output));
+        std::fs::remove_file(&path).unwrap();
+    }
+    // Beside a line with digits, such a line is counted.
+    let mixed =
+        file("mixed", &format!("{GOOD}\n{}", line("20", r#", "dalpha_next_dalpha": "1e308""#)));
+    let output = check(&[], &[&mixed]);
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(text.contains("1 of them without a digit to compare"), "{text}");
+    std::fs::remove_file(&mixed).unwrap();
+}
+
+#[test]
+fn the_largest_whole_numbers_are_wrong_verdicts() {
+    for (name, text) in [
+        (
+            "n",
+            r#"{"n": 18446744073709551615, "mass_ratio": 1, "offset": "1e-5", "sudden": 0, "offset_next": "1e-5"}"#,
+        ),
+        (
+            "sudden",
+            r#"{"n": 1, "mass_ratio": 1, "offset": "1e-5", "sudden": 18446744073709551615, "offset_next": "1e-5"}"#,
+        ),
+    ] {
+        let path = file(name, text);
+        let output = check(&[], &[&path]);
+        assert_eq!(output.status.code(), Some(1), "{name}: {}", errors(&output));
+        assert!(errors(&output).contains("1 wrong verdicts"), "{name}: {}", errors(&output));
+        std::fs::remove_file(&path).unwrap();
+    }
+}
+
 #[test]
 fn the_summary_tells_the_values_compared_in_each_file() {
     let two = file("two.jsonl", &format!("{GOOD}\n\n{GOOD}\n"));

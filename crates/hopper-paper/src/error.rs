@@ -35,11 +35,11 @@ pub enum Error {
     /// A name that does not exist.
     #[error("there is no {kind} '{name}'; there are: {known}")]
     UnknownName {
-        /// The kind of thing that the name should name.
+        /// The kind of thing that the name was taken for.
         kind: &'static str,
         /// The name given.
         name: String,
-        /// Those that exist.
+        /// The names that exist.
         known: String,
     },
     /// A fate or a basin could not be computed.

@@ -10,15 +10,15 @@ use std::path::{Path, PathBuf};
 pub struct Job {
     scans: PathBuf,
     /// Two runs in one folder would remove each other's rows at their end.
-    _lock: Lock,
+    lock: Lock,
 }
 
 impl Job {
     /// A run that keeps its scans in a folder beside its results, which exists. Each build of the program has a
     /// folder of its own. While the run lasts, another one with the same results folder is an error.
     pub fn new(results: &Path) -> Result<Self, Error> {
-        let _lock = Lock::take(results, "scans")?;
-        Ok(Job { scans: results.join("scans").join(program_digest()?), _lock })
+        let lock = Lock::take(results, "scans")?;
+        Ok(Job { scans: results.join("scans").join(program_digest()?), lock })
     }
 
     /// `count` rows of numbers. Rows that an earlier run finished are read; the others are computed.
@@ -36,6 +36,8 @@ impl Job {
                 Some(bytes) => bytes,
                 None => {
                     let bytes: Vec<u8> = row(k)?.iter().flat_map(|x| x.to_le_bytes()).collect();
+                    // Without its lock this run would write among the rows of another run.
+                    self.lock.confirm()?;
                     kept.write(k, &bytes)?;
                     bytes
                 }
@@ -50,6 +52,7 @@ impl Job {
 
     /// Removes the finished rows. To be called when all results are written.
     pub fn done(self) -> Result<(), Error> {
+        self.lock.confirm()?;
         match std::fs::remove_dir_all(&self.scans) {
             Err(source) if source.kind() != std::io::ErrorKind::NotFound => {
                 return Err(Error::File { path: self.scans, source });

@@ -133,6 +133,52 @@ fn a_stopped_run_keeps_its_folder_and_ends_well() {
     folder.remove();
 }
 
+/// The folder of a stopped run is removed, and a second run begins there anew with another window.
+#[test]
+fn a_run_whose_folder_was_removed_leaves_the_next_run_alone() {
+    let folder = Folder::new("removed");
+    let other = |out: &Path| {
+        let mut command = raster(out);
+        command.args(["--speed", "4.5", "20"]);
+        command
+    };
+    assert!(other(&folder.0).status().unwrap().success());
+    let whole = folder.results();
+    std::fs::remove_dir_all(&folder.0).unwrap();
+    let first = raster(&folder.0).spawn().unwrap();
+    folder.wait_for_a_tile();
+    signal(&first, "-STOP");
+    std::thread::sleep(Duration::from_millis(50)); // its threads stop one after another
+    std::fs::remove_dir_all(&folder.0).unwrap();
+    let second = other(&folder.0).spawn().unwrap();
+    folder.wait_for_a_tile();
+    signal(&second, "-STOP");
+    signal(&first, "-CONT");
+    let output = first.wait_with_output().unwrap();
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains(&folder.0.display().to_string()), "{text}");
+    signal(&second, "-CONT");
+    let output = second.wait_with_output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(folder.results() == whole);
+    folder.remove();
+}
+
+#[test]
+fn a_name_that_no_result_can_have_is_an_error_before_the_computation() {
+    for name in ["basin.npy", "basin.png", "legend.json", "basin-raster.lock"] {
+        let folder = Folder::new("names");
+        std::fs::create_dir_all(folder.0.join(name)).unwrap();
+        let output = raster(&folder.0).output().unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(text.contains(name) && text.contains("remove it"), "{text}");
+        assert_eq!(folder.names(), [name]);
+        folder.remove();
+    }
+}
+
 #[test]
 fn after_a_kill_the_next_run_goes_on_and_cleans_up() {
     let (whole, folder) = (undisturbed("killed_whole"), Folder::new("killed"));

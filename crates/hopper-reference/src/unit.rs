@@ -8,7 +8,9 @@ pub const UNITS_PER_FLIGHT: f64 = 4.0;
 
 /// The unit of the error of `next` = α′: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
 ///
-/// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³. A slope that the reference does not have counts as zero,
+/// It is ε (α′ + |∂α′/∂α| α + |∂α′/∂M| M + α²/α′) with ε = 2⁻⁵³, but for a very small α′. An error h = εα² of α² moves α′ by
+/// √(α′² + h) − α′, which is below h/(2α′) and below √h. Near α′ = 0 only the second bound is finite, so that the last term
+/// is at most √h/ε. A slope that the reference does not have counts as zero,
 /// which makes the unit smaller. Zero if the hopper is grounded (`None`): then there is no α′ to compare.
 pub fn error_unit(
     next: Option<f64>,
@@ -16,10 +18,12 @@ pub fn error_unit(
     (mass_ratio, slope_mass_ratio): (f64, f64),
 ) -> f64 {
     let scale = next.map_or(0.0, |next| {
-        // α (α/α′) does not overflow where α² does.
+        // √(ε/2) α in units of ε/2 is α √(2/ε), ε here the spacing of numbers at 1. α (α/α′) does not overflow where α²
+        // does.
+        let most = (2.0 / f64::EPSILON).sqrt();
         next + slope_alpha.abs() * alpha
             + slope_mass_ratio.abs() * mass_ratio
-            + alpha * (alpha / next)
+            + alpha * (alpha / next).min(most)
     });
     0.5 * f64::EPSILON * scale
 }
@@ -33,6 +37,8 @@ mod tests {
         let half_ulp = 0.5 * f64::EPSILON;
         assert_eq!(error_unit(Some(2.0), (4.0, 0.0), (1.0, 0.0)), 10.0 * half_ulp);
         assert_eq!(error_unit(Some(2.0), (4.0, -3.0), (1.0, -5.0)), 27.0 * half_ulp);
+        let tiny = error_unit(Some(1e-300), (4.0, 0.0), (1.0, 0.0));
+        assert!(tiny > 0.0 && tiny < 4.1 * (0.5 * f64::EPSILON).sqrt(), "{tiny}");
         assert_eq!(error_unit(None, (4.0, 1.0), (1.0, 1.0)), 0.0);
     }
 }

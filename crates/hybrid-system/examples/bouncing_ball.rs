@@ -1,7 +1,7 @@
 //! A ball that bounces with any restitution, and rests after the Zeno limit of its bounces.
 //!
-//! Rest is a mode of its own: the floor carries the ball as long as its force is positive. A fixed floor carries it for
-//! ever. A table that shakes with more than the acceleration of gravity throws it.
+//! Rest is a separate mode: the floor carries the ball as long as its force is positive. A fixed floor carries the ball
+//! for ever. A table that shakes with more than the acceleration of gravity throws the ball.
 //!
 //! Run with `cargo run -p hybrid-system --example bouncing_ball`.
 

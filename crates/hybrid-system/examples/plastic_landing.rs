@@ -1,8 +1,8 @@
 //! Two masses on a spring that land without a bounce, stay on the floor, and lift off. This is the model of issue
 //! 647 of `DifferentialEquations.jl`, whose program crashed.
 //!
-//! Contact is a mode: it lasts while the force of the floor is positive, and ends where that force vanishes. At
-//! that instant the lower mass has neither velocity nor acceleration. So it leaves the floor like t³.
+//! Contact is a mode. It lasts as long as the force of the floor is positive, and ends where that force vanishes. At
+//! that instant the lower mass has neither velocity nor acceleration. Therefore it leaves the floor like t³.
 //!
 //! Run with `cargo run -p hybrid-system --example plastic_landing`.
 
@@ -178,7 +178,7 @@ mod tests {
 
     /// The published answers have thirty digits; here they are rounded.
     #[test]
-    fn sciml_647() {
+    fn times_and_states_are_those_of_sciml_647() {
         let start = Vector4::new(5.0, 6.0, 0.0, 0.0);
         let arcs: Vec<_> = Execution::new(&ISSUE_647, Mode::Flight, start, Limits::new(5.0, 4))
             .collect::<Result<_, _>>()

@@ -19,7 +19,7 @@ pub struct Event<M, S, const N: usize> {
     pub before: State<N>,
     /// Mode and state after the jump, (m⁺, x⁺); `None` if the execution ends here.
     pub after: Option<(M, State<N>)>,
-    /// How sure it is that no event came before.
+    /// How certain it is that no event came before.
     pub certainty: Certainty,
 }
 
@@ -28,11 +28,11 @@ pub struct Event<M, S, const N: usize> {
 pub enum ArcEnd<M, S, const N: usize> {
     /// The arc ends in an event.
     Event(Event<M, S, N>),
-    /// The arc ends in a Zeno limit. It stands for infinitely many arcs, each shorter than the one before.
+    /// The arc ends in a Zeno limit. It replaces infinitely many arcs, each shorter than the one before.
     Zeno {
         /// Time and state of the limit.
         limit: ZenoLimit<N>,
-        /// Mode and state after the limit; `None` if the model names none.
+        /// Mode and state after the limit; `None` if the model gives none.
         after: Option<(M, State<N>)>,
     },
     /// The arc reaches the limit on time, without an event. Whether an event may have been missed depends on how the

@@ -50,8 +50,8 @@ pub enum Error {
         /// The time up to which the guards are searched.
         horizon: f64,
     },
-    /// A guard starts at zero and is beyond its surface a little later. It may have crossed at once, or it may have
-    /// left to the other side and come back, within a sampling interval or within rounding.
+    /// A guard starts at zero and is beyond its surface a little later. The guard may have crossed at once, or it may
+    /// have left to the other side and come back, within a sampling interval or within rounding.
     #[error(
         "guard {surface} is zero at the start and beyond its surface {interval} later: sample more often, or \
          solve this crossing in the model"
@@ -62,8 +62,8 @@ pub enum Error {
         /// The sampling interval, or the time up to which rounding hides the guard.
         interval: f64,
     },
-    /// A guard under bounds starts at zero, and rounding hides to which side it leaves: lower derivatives that may
-    /// be zero could outweigh the first one that is not.
+    /// A guard under bounds starts at zero, and rounding hides to which side it leaves: lower derivatives that may be
+    /// zero could outweigh the first derivative that is not zero.
     #[error(
         "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}"
     )]

@@ -42,7 +42,7 @@ pub enum Stop {
     Terminal,
     /// No event follows, and there is no limit on time.
     NoFurtherEvent,
-    /// The events have a Zeno limit, and the model names no mode after it.
+    /// The events have a Zeno limit, and the model gives no mode after it.
     Zeno,
     /// An error was returned.
     Failed,
@@ -50,8 +50,8 @@ pub enum Stop {
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
-/// The iterator ends at a limit, at a terminal event, at a Zeno limit after which the model names no mode, when no
-/// event can follow, or after an error. [`stop`](Self::stop) tells which.
+/// The iterator ends at a limit, at a terminal event, at a Zeno limit after which the model gives no mode, when no
+/// event can follow, or after an error. [`stop`](Self::stop) returns which.
 #[derive(Debug, Clone)]
 pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     system: &'a T,
@@ -64,12 +64,12 @@ pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
     history: History<N>,
     /// Number of events in a row between which no time passed.
     timeless: usize,
-    /// Surfaces that the state reached at the same instant as the last one crossed.
+    /// Surfaces that the state reached at the same instant as the last crossed surface.
     pending: Vec<T::Surface>,
 }
 
-/// Most events in a row without time passing. A few are normal where several guards are crossed together; more mean
-/// that the resets lead back to each other. The execution then ends with [`Error::TimelessChain`].
+/// Most events in a row without time passing. A few are normal where several guards are crossed together. With more
+/// events the resets lead back to each other. The execution then ends with [`Error::TimelessChain`].
 const MOST_TIMELESS: usize = 1000;
 
 impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
@@ -95,7 +95,7 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         self.stop
     }
 
-    /// The next arc, and the state moved to its end.
+    /// The next arc. The state of the execution moves to the end of the arc.
     fn arc(&mut self) -> Result<Arc<T::Mode, T::Surface, N>, Error> {
         if !(self.limits.time >= 0.0) {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
@@ -109,7 +109,8 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         let crossing = match self.at_same_instant(horizon) {
             Some(crossing) => Some(crossing),
             None => match self.search(horizon) {
-                // After many short bounces rounding hides the next one: a Zeno limit, if the durations say so.
+                // After many short bounces rounding hides the next one. If the durations form a geometric series, this
+                // is a Zeno limit.
                 Err(
                     hidden @ (Error::UndecidedStart { .. }
                     | Error::UndecidedSign { .. }
@@ -121,7 +122,7 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
                 other => other?,
             },
         };
-        // A model's own `first_crossing` may return anything.
+        // The `first_crossing` of a model may return any time.
         if let Some(crossing) = crossing.filter(|crossing| !(crossing.time >= 0.0)) {
             return Err(Error::BadLimit { what: "the time of a crossing", value: crossing.time });
         }
@@ -140,7 +141,7 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
                     self.pending =
                         also_at_surface(self.system, &arc, crossing.surface, &crossing.state);
                 } else {
-                    // An event at the same instant as the last one: the other surfaces still wait.
+                    // This event is at the same instant as the last one: the other surfaces stay pending.
                     self.pending.retain(|&surface| surface != crossing.surface);
                 }
                 let time = self.time + crossing.time;
@@ -195,8 +196,8 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
         surface.map(|surface| Crossing { surface, time: 0.0, state, certainty })
     }
 
-    /// The arc that stands for infinitely many events up to their limit. The execution continues after it if the model
-    /// names a mode.
+    /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
+    /// gives a mode.
     fn zeno_arc(&mut self, limit: ZenoLimit<N>) -> Arc<T::Mode, T::Surface, N> {
         if limit.time > self.limits.time {
             self.stop = Some(Stop::TimeLimit);

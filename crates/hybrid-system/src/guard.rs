@@ -1,4 +1,4 @@
-//! Guards: which surface is watched, and from which side a crossing counts.
+//! Guards: the surfaces that a mode searches, and the side from which a crossing counts.
 
 /// The side from which a crossing counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -10,7 +10,7 @@
 //! |---|---|
 //! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
 //! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
-//! | [`Crossing`], [`Certainty`] | the first crossing, and how sure it is: exact, certain, interpolated or sampled |
+//! | [`Crossing`], [`Certainty`] | the first crossing, and how certain it is: exact, certain, interpolated or sampled |
 //! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times sines and cosines; their first crossing, with certainty |
 //! | [`Enclosure`] | bounds on a guard, given by the model |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
@@ -69,16 +69,16 @@
 //! released.
 //!
 //! # Accuracy
-//! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard
-//! given as a [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed. A start at
-//! zero is left by its derivatives. If rounding hides the answer, the result is an error. Along integrated flows
-//! guards are searched on polynomials, to the tolerances of the flow. A crossing found by sampling says so in its
-//! [`Certainty`].
+//! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
+//! as a [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed. If a guard starts at
+//! zero, its derivatives decide to which side it leaves. If rounding hides the result, the search returns an error.
+//! Along integrated flows guards are searched on polynomials, to the tolerances of the flow. The [`Certainty`] of a
+//! crossing states whether it was found by sampling.
 //!
 //! # Speed
-//! Executions of fixed dimension with integrated modes allocate nothing, up to eight guards a mode.
-//! Quasi-polynomials allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost
-//! of an event for each kind of guard.
+//! Executions of fixed dimension with integrated modes allocate no memory, up to eight guards a mode. Quasi-polynomials
+//! allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost of an event for each
+//! kind of guard.
 //!
 //! # Not here
 //! Stiff integrators, differential-algebraic equations, sliding along surfaces (a model can have a mode for that). The

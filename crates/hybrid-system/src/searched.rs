@@ -1,4 +1,4 @@
-//! A system whose crossings are searched for, although it could solve them.
+//! A system whose crossings are found by sampling, although it could solve for them.
 
 use crate::guard::Guard;
 use crate::state::State;
@@ -6,9 +6,9 @@ use crate::system::{HybridSystem, Reset};
 
 /// A system with its flows, guards and resets only.
 ///
-/// Crossings that the system solves itself, quasi-polynomials and enclosures of its guards, and rest after infinitely many
-/// events are hidden: an execution samples the guards. A test that compares it with the system itself checks the
-/// hidden parts against a search that knows none of their theory.
+/// This type hides the system's own solutions for crossings, the quasi-polynomials and enclosures of its guards, and
+/// its rest after infinitely many events: an execution samples the guards. A test that compares it with the system
+/// itself checks the hidden parts against a search that uses none of their theory.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Searched<T>(pub T);
 

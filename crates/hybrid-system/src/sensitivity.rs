@@ -1,4 +1,4 @@
-//! How a small change of the start is carried through arcs and events: state transition and saltation matrices.
+//! How a small change of the start propagates through arcs and events: state transition and saltation matrices.
 //!
 //! Along an arc δx(t) = Φ(t) δx₀. An orbit with another start reaches the surface of an event earlier or later.
 //! Compared at the same time after the event,
@@ -38,8 +38,8 @@ pub trait Differentiable<const N: usize>: VectorField<N> {
 /// [`Error::GrazingSensitivity`].
 const SMALLEST_RATE: f64 = 1e-12;
 
-/// The matrix from a small change of the start of `arc` to the change after the event that ends the arc, compared
-/// at the same time. If no event ends the arc, the change at its end.
+/// The matrix from a small change of the start of `arc` to the change after the event that ends the arc, compared at
+/// the same time. If no event ends the arc, it is the matrix to the change at the end of the arc.
 ///
 /// ```
 /// use hybrid_system::*;
@@ -109,7 +109,8 @@ where
     let Some((mode, after)) = event.after else { return Ok(along) };
     let (field_before, arrival) = arrival(system, arc.mode, event)?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
-    // Ξ = DR − (f⁺ − DR f⁻) ∂τ/∂x⁻: an arrival later by δτ spends δτ more before the event and less after it.
+    // Ξ = DR − (f⁺ − DR f⁻) ∂τ/∂x⁻: if the orbit arrives later by δτ, it moves longer by δτ before the event and
+    // shorter by δτ after it.
     let jump = system.vector_field(mode, &after) - reset * field_before;
     Ok((reset - jump * arrival) * along)
 }
@@ -119,7 +120,7 @@ where
 /// event, not at the same time.
 ///
 /// # Errors
-/// Those of [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the event ends the
+/// The errors of [`arc_sensitivity`], and [`Error::NoSensitivity`] if no event ends the arc, or the event ends the
 /// execution.
 pub fn event_sensitivity<T, const N: usize>(
     system: &T,
@@ -177,7 +178,7 @@ where
 /// The matrix from a small change of the start of the first of `arcs` to the change at the end of the last one.
 ///
 /// # Errors
-/// Those of [`arc_sensitivity`].
+/// The errors of [`arc_sensitivity`].
 pub fn sensitivity<T, const N: usize>(
     system: &T,
     arcs: &[Arc<T::Mode, T::Surface, N>],

@@ -1,8 +1,8 @@
 //! Events at the same instant.
 //!
-//! Of guards that are crossed together, the one listed first is the event. The state after its reset decides about
-//! the others. A guard that is still at its surface, and goes on through it to the other side, is an event at the
-//! same instant. A guard that the reset turned back is none. This is statement (9) of
+//! Of guards that are crossed together, the one listed first is the event. The state after its reset decides about the
+//! others. A guard that is still at its surface, and passes through it to the other side, is an event at the same
+//! instant. A guard whose direction the reset reversed is no event. This is statement (9) of
 //! [mathematics](crate::mathematics).
 
 use crate::arc::Arc;
@@ -11,9 +11,9 @@ use crate::guard::Direction;
 use crate::state::State;
 use crate::system::HybridSystem;
 
-/// Two events are at the same instant if their times differ by this many ulps at most. A crossing is moved up to
-/// some ulps past its root, and each guard has its own rounding. A larger number would join events that are
-/// distinct; a smaller one would lose an event: the next arc would start beyond its surface.
+/// Two events are at the same instant if their times differ by this many ulps at most. A crossing is moved up to some
+/// ulps past its root, and each guard has its own rounding. A larger number would join events that are distinct. With a
+/// smaller number an event could be lost, because the next arc would start beyond its surface.
 const SAME_INSTANT_ULPS: f64 = 16.0;
 
 /// Largest value of a guard at the end of an arc, relative to its values at both ends, for which the flow is
@@ -21,12 +21,12 @@ const SAME_INSTANT_ULPS: f64 = 16.0;
 /// its mean slope.
 const NEAR_SURFACE: f64 = 1e-6;
 
-/// Number of times at which a guard is looked at after a reset, to see to which side it goes: LONGEST_LOOK · 2⁻³⁹,
+/// Number of times after a reset at which a guard is evaluated, to find the side to which it goes: LONGEST_LOOK · 2⁻³⁹,
 /// 2⁻³⁸, … 1. The shortest, 2·10⁻¹², is near the rounding of a guard that moves at a rate of 1.
 const LOOKS: i32 = 40;
 
-/// The longest of these times, if the limit on time is not before it: one unit of time, because the scale of the
-/// model is not known.
+/// The longest of these times, unless the limit on time comes earlier: one unit of time, because the scale of the model
+/// is not known.
 const LONGEST_LOOK: f64 = 1.0;
 
 /// A guard has left its surface when its value is this many times its rounding error.
@@ -48,7 +48,7 @@ where
         let value = |state: &State<N>| system.guard_value(guard.surface, state);
         let (before, now) = (value(&arc.start), value(end));
         let rounding = guard_rounding(end, &end.abs(), value);
-        // The usual case, far from its surface, needs no evaluation of the flow.
+        // The usual case, a guard far from its surface, needs no evaluation of the flow.
         if !(now.abs() <= NEAR_SURFACE * (before.abs() + now.abs()) + rounding) {
             return false;
         }
@@ -56,7 +56,7 @@ where
         let change = (value(&system.flow(arc.mode, &arc.start, earlier)) - now).abs();
         now.abs() <= change + rounding && may_cross_from(guard.direction, before)
     });
-    // An empty list allocates nothing.
+    // An empty list needs no allocation.
     at_surface.map(|guard| guard.surface).collect()
 }
 
@@ -65,8 +65,8 @@ fn may_cross_from(direction: Direction, value: f64) -> bool {
     direction.admits(value, -value)
 }
 
-/// The next event at the same instant: the first of the `pending` surfaces, in the order of the guards of `mode`,
-/// that the state is still on and goes through; `None` if there is none.
+/// The next event at the same instant: the first of the `pending` surfaces, in the order of the guards of `mode`, on
+/// which the state still is and through which it passes; `None` if there is none.
 pub(crate) fn next_at_same_instant<T, const N: usize>(
     system: &T,
     mode: T::Mode,
@@ -82,7 +82,7 @@ where
         let value = |state: &State<N>| system.guard_value(guard.surface, state);
         let now = value(state);
         let rounding = SAME_INSTANT_ULPS * guard_rounding(state, &state.abs(), value);
-        // The reset, or the step past the root, has moved it off its surface already.
+        // The reset, or the step past the root, has already moved the state off this surface.
         if now.abs() > rounding {
             return guard.direction.leads_to(now);
         }

@@ -22,10 +22,10 @@ pub enum Reset<M, const N: usize> {
 
 /// A hybrid dynamical system.
 ///
-/// In mode m the state follows x(t) = φ_m(t; x₀). When a guard of the mode is crossed, a reset gives the next mode
-/// and state. Four methods are required; parameters are fields of the implementing type. A model that can solve its
-/// own crossings overrides [`first_crossing`](Self::first_crossing) and says in the result how sure it is. In a
-/// mode without closed form, `integrated_flow` and `integrated_crossing` (feature `ode`) provide both methods.
+/// In mode m the state follows x(t) = φ_m(t; x₀). When a guard of the mode is crossed, a reset gives the next mode and
+/// state. Four methods are required; parameters are fields of the implementing type. A model that can solve for its own
+/// crossings overrides [`first_crossing`](Self::first_crossing), and states in the result how certain it is. In a mode
+/// without closed form, `integrated_flow` and `integrated_crossing` (feature `ode`) provide both methods.
 pub trait HybridSystem<const N: usize> {
     /// The discrete states.
     type Mode: Copy + Eq + Debug;
@@ -36,10 +36,10 @@ pub trait HybridSystem<const N: usize> {
     /// defined.
     fn flow(&self, mode: Self::Mode, start: &State<N>, time: f64) -> State<N>;
 
-    /// The guards watched in `mode`.
+    /// The guards of `mode`: only these surfaces are searched.
     ///
-    /// Of guards that are crossed at the same instant, within a few ulps, the one listed first is the event.
-    /// Another one is an event at the same instant, after it, if the state after the first reset goes on through
+    /// Of guards that are crossed at the same instant, within a few ulps, the one listed first is the event. Another
+    /// guard is an event at the same instant, after the first one, if the state after the first reset passes through
     /// its surface.
     fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
 
@@ -54,10 +54,10 @@ pub trait HybridSystem<const N: usize> {
         before: &State<N>,
     ) -> Reset<Self::Mode, N>;
 
-    /// Mode and state after the Zeno limit of infinitely many events in `mode`: a ball after its bounces is at rest.
-    /// `limit` is the state at the limit.
+    /// Mode and state after the Zeno limit of infinitely many events in `mode`. Example: after its bounces a ball is at
+    /// rest. `limit` is the state at the limit.
     ///
-    /// Provided: `None`, and the execution ends at the limit.
+    /// Default: `None`, and the execution ends at the limit.
     fn rest(&self, mode: Self::Mode, limit: &State<N>) -> Option<(Self::Mode, State<N>)> {
         let _ = (mode, limit);
         None
@@ -66,7 +66,7 @@ pub trait HybridSystem<const N: usize> {
     /// The guard along the flow from `start`, g(φ(t; x₀)), as a quasi-polynomial in t: a sum of polynomials times sines
     /// and cosines. Its crossings are then found with certainty.
     ///
-    /// Provided: `None`.
+    /// Default: `None`.
     fn guard_quasi_polynomial(
         &self,
         mode: Self::Mode,
@@ -77,13 +77,13 @@ pub trait HybridSystem<const N: usize> {
         None
     }
 
-    /// An interval that holds dᵏ/dtᵏ g(φ(t; x₀)), k = `order`, at all times in [`from`, `to`], roundings included.
-    /// Order 0 is the guard itself.
+    /// An interval that contains dᵏ/dtᵏ g(φ(t; x₀)), k = `order`, at all times in [`from`, `to`], including rounding
+    /// errors. Order 0 is the guard itself.
     ///
     /// Bounds of orders 0 and 1 for every interval are enough to find crossings with certainty. Order 2 makes the
     /// search faster. A start at which the derivatives below order k are zero needs the orders up to k.
     ///
-    /// Provided: `None`.
+    /// Default: `None`.
     fn guard_enclosure(
         &self,
         mode: Self::Mode,
@@ -99,11 +99,11 @@ pub trait HybridSystem<const N: usize> {
     /// The first crossing of a guard of `mode` strictly after `start`, no later than `horizon`. The horizon may be
     /// infinite for a model that solves its crossings.
     ///
-    /// Provided: each guard is searched by the strongest means that the model gives. A guard with a
+    /// Default: each guard is searched with the strongest information that the model gives. A guard with a
     /// [quasi-polynomial](Self::guard_quasi_polynomial) or with [enclosures](Self::guard_enclosure) is searched with
     /// certainty up to a finite horizon. Every other guard is sampled at `sampling_interval`, and a change of sign is
-    /// refined to full precision. Sampling does not see two crossings of one guard between two samples, nor a touch
-    /// without a change of sign; a zero at a sample counts once. If any guard was sampled, the result says
+    /// refined to full precision. Sampling misses two crossings of one guard between two samples, and a touch without a
+    /// change of sign; a zero at a sample counts once. If any guard was sampled, the result has
     /// [`Certainty::Sampled`](crate::Certainty::Sampled).
     ///
     /// # Errors
@@ -122,7 +122,7 @@ pub trait HybridSystem<const N: usize> {
     }
 }
 
-/// The flow of a system in one mode from one start, as a search for crossings sees it.
+/// The flow of a system in one mode from one start, in the form that the searches for crossings need.
 struct FlowFrom<'a, T: HybridSystem<N> + ?Sized, const N: usize> {
     system: &'a T,
     mode: T::Mode,

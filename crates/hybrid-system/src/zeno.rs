@@ -1,26 +1,26 @@
 //! Infinitely many events in finite time (Zeno): recognised by the durations of the last arcs, with their limit.
 //!
-//! Statement (8) of [mathematics](crate::mathematics): the durations are taken for a geometric series, possibly with a
+//! Statement (8) of [mathematics](crate::mathematics): the durations are treated as a geometric series, possibly with a
 //! period of several events.
 
 use crate::state::State;
 
 /// The limit of infinitely many events in finite time.
-///
-/// An execution recognises it by the durations of its last arcs. Over five periods the durations must shrink by the
-/// same factor, to one per cent of the factor, and the sum of all further durations must be below 10⁻¹² of the time
-/// so far. If rounding hides the next event, two periods, ten per cent and 10⁻⁵ are enough. The limit is that of
+/// An execution recognises the limit by the durations of its last arcs. Over five periods the durations must shrink by
+/// the same factor, to one per cent of the factor, and the sum of all further durations must be below 10⁻¹² of the time
+/// so far. If rounding hides the next event, two periods, ten per cent and 10⁻⁵ suffice. The limit is the limit of the
+/// geometric series.
 /// the geometric series.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ZenoLimit<const N: usize> {
     /// Time of the limit: the sum of all durations.
     pub time: f64,
-    /// Bound on the error of `time`, if all further factors lie between the smallest and the largest one seen, and each
-    /// event was accurate to an ulp.
+    /// Bound on the error of `time`. It holds if all further factors lie between the smallest and the largest of the
+    /// known factors, and each event was accurate to an ulp.
     pub time_error: f64,
     /// The state at the limit, extrapolated.
     pub state: State<N>,
-    /// How far the state moved over the last period, divided by 1 − factor: an estimate of the error of `state`.
+    /// The change of the state over the last period, divided by 1 − factor: an estimate of the error of `state`.
     pub state_error: f64,
     /// The factor by which durations shrink in one period.
     pub ratio: f64,
@@ -38,24 +38,25 @@ struct Criterion {
     remainder: f64,
 }
 
-/// The usual case. The remainder is the error of stopping early: far below every tolerance of the model, and far above
-/// the rounding of the time, 10⁻¹⁶. Five factors within one per cent are unlikely by chance.
+/// The usual case. The remainder is the error of stopping early. It is far below every tolerance of the model, and far
+/// above the rounding of the time, 10⁻¹⁶. Five factors within one per cent are unlikely by chance.
 const USUAL: Criterion = Criterion { periods: 5, spread: 0.01, remainder: 1e-12 };
 
-/// If rounding hides the next event, the execution cannot continue in any other way. The last durations are rounded
-/// then, and so the factors differ more. A guard at a surface of size 1 hides a bounce of duration t if its height,
-/// of order t², is below 10⁻¹⁶: the remainder may be as large as about 10⁻⁷, for large coordinates more.
+/// If rounding hides the next event, the execution cannot continue in any other way. The last durations have rounding
+/// errors then, so that the factors differ more. A guard at a surface of size 1 hides a bounce of duration t if its
+/// height, of order t², is below 10⁻¹⁶. The remainder may therefore be as large as about 10⁻⁷, and larger for large
+/// coordinates.
 const NEXT_EVENT_HIDDEN: Criterion = Criterion { periods: 2, spread: 0.1, remainder: 1e-5 };
 
-/// Longest period that is looked for, in events. A longer one costs more arcs before the limit is recognised, and a
-/// longer history.
+/// Longest period that is tested, in events. With a longer period more arcs would be needed before the limit is
+/// recognised, and a longer history.
 const LONGEST_PERIOD: usize = 4;
 
-/// Number of arcs kept: one period more than the factors that must agree, because a factor compares two periods.
+/// Number of stored arcs: one period more than the factors that must agree, because a factor compares two periods.
 const KEPT: usize = (USUAL.periods + 1) * LONGEST_PERIOD;
 
-/// The longest last arc, relative to the time so far, that may be followed by a Zeno limit. This test makes the
-/// usual arc cheap; it only delays the recognition of a limit whose factor is below 10⁻⁹.
+/// The longest last arc, relative to the time so far, that may be followed by a Zeno limit. With this test the usual
+/// arc costs little. It only delays the recognition of a limit whose factor is below 10⁻⁹.
 const LONGEST_LAST_ARC: f64 = 1e-3;
 
 /// The last arcs: their durations, and the states after them, the newest last.
@@ -63,7 +64,7 @@ const LONGEST_LAST_ARC: f64 = 1e-3;
 pub(crate) struct History<const N: usize> {
     durations: [f64; KEPT],
     states: [State<N>; KEPT],
-    /// Number of arcs seen, up to `KEPT`.
+    /// Number of arcs so far, up to `KEPT`.
     arcs: usize,
 }
 
@@ -83,10 +84,10 @@ impl<const N: usize> History<N> {
         self.arcs = 0;
     }
 
-    /// The Zeno limit that the last arcs lead to; `None` if they do not.
+    /// The Zeno limit of the last arcs; `None` if their durations form no geometric series.
     ///
-    /// `time` is the time of the last event, `events` the number of all events so far. `next_event_hidden` says
-    /// that the search for the next event failed because of rounding.
+    /// `time` is the time of the last event, `events` the number of all events so far. `next_event_hidden` is true if
+    /// the search for the next event failed because of rounding.
     pub(crate) fn zeno_limit(
         &self,
         time: f64,
@@ -99,7 +100,7 @@ impl<const N: usize> History<N> {
         let criterion = if next_event_hidden { &NEXT_EVENT_HIDDEN } else { &USUAL };
         let mut limit = (1..=LONGEST_PERIOD)
             .find_map(|period| self.limit_with_period(period, time, criterion))?;
-        // Every event may have rounded the time by an ulp, and its state by an ulp, which changes the next duration.
+        // Every event may round the time by an ulp, and the state by an ulp, which changes the next duration.
         limit.time_error += 2.0 * f64::EPSILON * time * (1 + events) as f64;
         Some(limit)
     }

@@ -1,4 +1,4 @@
-//! Executions with integrated modes allocate nothing, with and without events.
+//! Executions with integrated modes allocate no memory, with and without events.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]

@@ -1,13 +1,13 @@
-//! Systems whose guards have bounds and are not sampled. Names of tests say where a case comes from.
+//! Systems whose guards have bounds and are not sampled. The names of tests give the source of a case.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
 use nalgebra::Vector2;
 
-/// E11: ẋ = 1, and x → x − 2 where x + y ≥ 0. After t = 2 the state is the start again.
+/// ẋ = 1, and x → x − 2 where x + y ≥ 0. After t = 2 the state is the start again.
 #[test]
-fn e11_constant_flow() {
+fn a_constant_flow_with_jumps_returns_to_its_start() {
     struct Saw;
     impl HybridSystem<2> for Saw {
         type Mode = ();
@@ -41,7 +41,7 @@ fn e11_constant_flow() {
 
 /// The last event is exactly at the end time: it has both one-sided states.
 #[test]
-fn diffeqgpu_540_at_the_end_time() {
+fn an_event_at_the_end_time_has_both_states_as_in_diffeqgpu_540() {
     struct Elastic;
     impl HybridSystem<2> for Elastic {
         type Mode = ();
@@ -77,7 +77,7 @@ fn diffeqgpu_540_at_the_end_time() {
 /// A guard e^(−t) − 1/10 with enclosures, alone, and together with a guard that must be sampled: the weaker
 /// certainty counts.
 #[test]
-fn the_weakest_certainty_counts() {
+fn the_certainty_is_that_of_the_weakest_guard() {
     struct Decay {
         sampled: bool,
     }
@@ -138,9 +138,9 @@ fn a_small_oscillation_never_crosses() {
     assert_eq!(force.first_crossing(Direction::Falling, 1e6).unwrap(), FirstCrossing::Never);
 }
 
-/// H4: an elastic ball whose guard is a quasi-polynomial, without a sampling interval.
+/// An elastic ball whose guard is a quasi-polynomial, without a sampling interval.
 #[test]
-fn drake_elastic_ball_by_bounds() {
+fn the_elastic_ball_of_drake_needs_no_sampling() {
     struct Elastic;
     impl HybridSystem<2> for Elastic {
         type Mode = ();

@@ -1,4 +1,4 @@
-//! Crossings under bounds: all are found, and no others. Names of tests say where a case comes from.
+//! Crossings under bounds: all are found, and no others. The names of tests give the source of a case.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -7,7 +7,8 @@ use nalgebra::Vector2;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Times of all crossings. After each one the search starts again from `shift(time)`, the function seen from there.
+/// Times of all crossings. After each crossing the search starts again with `shift(time)`, the function shifted to
+/// start there.
 fn crossings(
     function: &QuasiPolynomial,
     shift: impl Fn(f64) -> QuasiPolynomial,
@@ -37,7 +38,7 @@ fn with_roots(roots: &[f64], shift: f64) -> QuasiPolynomial {
 
 /// y = x³ + 6x² − 4x − 24 from x = −8 has its zeros at −6, −2 and 2. `SciPy` finds one of them (issue 9228).
 #[test]
-fn scipy_9228_all_three_zeros() {
+fn all_three_zeros_of_scipy_9228_are_found() {
     let at = |t: f64| {
         let x = t - 8.0;
         QuasiPolynomial::polynomial(&[
@@ -75,7 +76,7 @@ fn each_root_of_a_polynomial_is_found() {
 }
 
 #[test]
-fn oscillator_zeros_in_each_direction() {
+fn the_zeros_of_an_oscillator_are_found_in_each_direction() {
     let cosine = QuasiPolynomial::cosine(1.0, 1.0);
     for (direction, zero) in [
         (Direction::Falling, PI / 2.0),
@@ -89,9 +90,9 @@ fn oscillator_zeros_in_each_direction() {
     assert_eq!(cosine.first_crossing(Direction::Falling, 1.5).unwrap(), FirstCrossing::Never);
 }
 
-/// E7: the guard y₀ − x² along ẋ = 1 from x = −1 stays away, touches, or crosses.
+/// The guard y₀ − x² along ẋ = 1 from x = −1 stays away, touches, or crosses.
 #[test]
-fn e7_tangency() {
+fn a_parabola_misses_touches_or_crosses() {
     let guard = |y0: f64| QuasiPolynomial::polynomial(&[y0 - 1.0, 2.0, -1.0]);
     assert_eq!(guard(-1e-9).first_crossing(Direction::Either, 3.0).unwrap(), FirstCrossing::Never);
     let FirstCrossing::Grazing { time, value } =

@@ -1,5 +1,5 @@
-//! Events along integrated flows: each is found once, without a limit on the size of steps. Names of tests say
-//! where a case comes from.
+//! Events along integrated flows: each is found once, without a limit on the size of steps. The names of tests give the
+//! source of a case.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -71,9 +71,9 @@ fn events<T: HybridSystem<N, Mode = (), Surface = usize>, const N: usize>(
         .collect()
 }
 
-/// E2: y₁ = t/(t+10), y₂ = 10t/(t+10)² from t = 5; two guards with powers of the state.
+/// y₁ = t/(t+10), y₂ = 10t/(t+10)² from t = 5; two guards with powers of the state.
 #[test]
-fn e2_scipy_test_events() {
+fn both_events_of_the_test_suite_of_scipy_are_found() {
     let field = |x: &State<3>| {
         let [t, y1, y2] = [x[0], x[1], x[2]];
         Vector3::new(1.0, y2 / t, y2 * (y1 + 2.0 * y2 - 1.0) / (t * (y1 - 1.0)))
@@ -91,15 +91,15 @@ fn e2_scipy_test_events() {
     assert!((times[0].1 - 5.55057576624077608).abs() < 1e-12, "{times:?}");
     assert!((times[1].1 - 7.5487766624669276).abs() < 1e-12, "{times:?}");
     assert!(found.iter().all(|event| event.certainty == Certainty::Interpolated));
-    // In the opposite directions there is no event.
+    // In the opposite direction of each guard there is no event.
     let guards = [Guard::falling(0), Guard::rising(1)];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     assert!(events(&system, start, 3.0).is_empty());
 }
 
-/// E8: the next crossing of z = 27 from above by the Lorenz system, half of a symmetric orbit.
+/// The next crossing of z = 27 from above by the Lorenz system, half of a symmetric orbit.
 #[test]
-fn e8_lorenz_section() {
+fn the_lorenz_system_returns_to_its_section_at_the_known_time() {
     let field = |x: &State<3>| {
         Vector3::new(
             10.0 * (x[1] - x[0]),
@@ -120,7 +120,7 @@ fn e8_lorenz_section() {
 
 /// y′ = 3x² + 12x − 4 on (−8, 4): `SciPy` finds one zero of three (issue 9228).
 #[test]
-fn scipy_9228_all_three_zeros() {
+fn all_three_zeros_of_scipy_9228_are_found() {
     let field = |x: &State<2>| Vector2::new(1.0, (3.0 * x[0] + 12.0) * x[0] - 4.0);
     let values = |_: usize, x: &State<2>| x[1];
     let guards = [Guard::either(0)];
@@ -136,7 +136,7 @@ fn scipy_9228_all_three_zeros() {
 }
 
 #[test]
-fn oscillator_zeros() {
+fn the_zeros_of_an_oscillator_are_found() {
     let field = |x: &State<2>| Vector2::new(x[1], -x[0]);
     let values = |_: usize, x: &State<2>| x[0];
     let guards = [Guard::either(0)];
@@ -148,9 +148,9 @@ fn oscillator_zeros() {
     }
 }
 
-/// E4 and E7 on ẋ = 1, where each step is ten times as long as the one before.
+/// Nine roots, and a parabola that misses, touches or crosses, on ẋ = 1, where each step is ten times as long as the one before.
 #[test]
-fn e4_e7_roots_within_long_steps_and_tangency() {
+fn roots_and_touches_within_long_steps_are_found() {
     let field = |_: &State<1>| Vector1::new(1.0);
     let product =
         |_: usize, x: &State<1>| (1..10).map(|k| x[0] - f64::from(k) / 10.0).product::<f64>();
@@ -175,7 +175,7 @@ fn e4_e7_roots_within_long_steps_and_tangency() {
 
 /// The guard starts at a zero of order 1 to 4, leaves it, and has one crossing later.
 #[test]
-fn starts_at_zero_are_left() {
+fn a_guard_that_starts_at_zero_has_one_later_crossing() {
     let field = |_: &State<1>| Vector1::new(1.0);
     for order in 1..=4 {
         for sign in [1.0, -1.0] {
@@ -190,7 +190,7 @@ fn starts_at_zero_are_left() {
 }
 
 #[test]
-fn kinks_tiny_values_and_many_guards() {
+fn each_of_many_guards_with_kinks_or_tiny_values_is_crossed_once() {
     let field = |_: &State<1>| Vector1::new(1.0);
     // |x − 1| − ½ is not smooth at x = 1; the values of 1e-166 (x − 0.37) are tiny.
     let values = |surface: usize, x: &State<1>| match surface {
@@ -209,7 +209,7 @@ fn kinks_tiny_values_and_many_guards() {
 }
 
 #[test]
-fn a_flow_that_does_not_exist_is_an_error() {
+fn a_flow_that_ends_in_finite_time_is_an_error() {
     let field = |x: &State<1>| Vector1::new(x[0] * x[0]);
     let values = |_: usize, x: &State<1>| x[0] - 1e300;
     let guards = [Guard::rising(0)];
@@ -252,7 +252,7 @@ proptest! {
                 Ok(arc) => match arc.event() {
                     Some(event) => {
                         let at = event.before[0];
-                        // A root next to one that was found may be within the rounding of the new start.
+                        // A root next to one that has been found may be within the rounding of the new start.
                         while ahead.next_if(|root| (at - root).abs() > 1e-10 && root - last < 1e-6).is_some() {}
                         last = ahead.next().unwrap();
                         prop_assert!((at - last).abs() < 1e-10, "{} {}", at, last);

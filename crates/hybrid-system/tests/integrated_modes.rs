@@ -82,7 +82,8 @@ impl HybridSystem<2> for Trampoline {
     }
 }
 
-/// Through air and spring in turn, against the closed form v² = (1 − e^(−2kh))/k of each fall from height h.
+/// Alternately through air and onto the spring, against the closed form v² = (1 − e^(−2kh))/k of each fall from height
+/// h.
 #[test]
 fn one_mode_integrated_and_one_in_closed_form() {
     let ball = Trampoline { drag: 0.3 };

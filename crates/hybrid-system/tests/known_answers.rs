@@ -1,4 +1,4 @@
-//! Systems with known solutions: balls, oscillators, polynomials. Names of tests say where a case comes from.
+//! Systems with known solutions: balls, oscillators, polynomials. The names of tests give the source of a case.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
@@ -77,7 +77,7 @@ fn impacts(ball: &Ball, height: f64, limits: Limits) -> Vec<Event<(), Surface, 2
 }
 
 #[test]
-fn fmi_reference_ball() {
+fn the_fmi_reference_ball_bounces_at_its_known_times() {
     let ball = Ball { gravity: 9.81, restitution: 0.7 };
     let exact = [
         0.451_523_640_985_730_9,
@@ -94,7 +94,7 @@ fn fmi_reference_ball() {
 }
 
 #[test]
-fn drake_elastic_ball() {
+fn the_elastic_ball_of_drake_ends_in_its_known_state() {
     let ball = Ball { gravity: 9.81, restitution: 1.0 };
     let mut execution =
         Execution::new(&ball, (), Vector2::new(1.0, 0.0), Limits::sampled(10.0, 100, 1e-2));
@@ -108,7 +108,7 @@ fn drake_elastic_ball() {
 }
 
 #[test]
-fn diffeqgpu_540_both_sides_at_the_end_time() {
+fn an_event_at_the_end_time_has_both_states_as_in_diffeqgpu_540() {
     let ball = Ball { gravity: 10.0, restitution: 1.0 };
     let found = impacts(&ball, 45.0, Limits::sampled(15.0, 100, 0.25));
     let times: Vec<f64> = found.iter().map(|event| event.time).collect();
@@ -121,7 +121,7 @@ fn diffeqgpu_540_both_sides_at_the_end_time() {
 }
 
 #[test]
-fn oscillator_zeros() {
+fn the_zeros_of_an_oscillator_are_found() {
     let zeros = crossings(|x| x.cos(), Guard::either(Surface), 12.0, 0.1);
     let exact = [0.5, 1.5, 2.5, 3.5].map(|k| k * std::f64::consts::PI);
     assert_eq!(zeros.len(), 4);
@@ -132,7 +132,7 @@ fn oscillator_zeros() {
 }
 
 #[test]
-fn scipy_9228_three_zeros() {
+fn all_three_zeros_of_scipy_9228_are_found() {
     // y = x³ + 6x² − 4x − 24 from −8, shifted by 8: zeros at −6, −2, 2.
     let y = |t: f64| {
         let x = t - 8.0;
@@ -159,12 +159,12 @@ fn each_root_is_found_once_at_and_between_samples() {
 }
 
 #[test]
-fn a_touch_is_not_a_crossing_for_samples() {
+fn samples_report_no_crossing_at_a_touch() {
     assert!(crossings(|x| (x - 0.5) * (x - 0.5), Guard::either(Surface), 1.0, 0.25).is_empty());
 }
 
 #[test]
-fn sundials_57_tiny_values_still_cross() {
+fn tiny_values_cross_as_in_sundials_57() {
     let zeros = crossings(|x| 1e-166 * (x - 0.37), Guard::rising(Surface), 1.0, 0.1);
     assert_eq!(zeros.len(), 1);
     assert_relative_eq!(zeros[0], 0.37, max_relative = 1e-15);

@@ -13,12 +13,12 @@ const END: f64 = 4.0;
 /// A root must be found exactly once if it is farther than this from all other roots, from the start and from the end.
 const ALONE: f64 = 0.05;
 
-/// A grazing or an undecided sign is accepted only if two roots, or an end, lie within this distance. It leaves
-/// room: five close roots make a guard like x⁵, which is below a rounding of 1e-13 only for |x| < 3e-3.
+/// A grazing or an undecided sign is accepted only if two roots, or an end, lie within this distance. The value has a
+/// margin: five close roots make a guard like x⁵, which is below a rounding of 1e-13 only for |x| < 3e-3.
 const CROWD: f64 = 0.2;
 
-/// Largest distance of an event from a root that is alone. The coefficients are rounded to about 1e-14, and the
-/// slope at the root is at least about ALONE⁴ = 6e-6.
+/// Largest distance of an event from a root that is alone. The coefficients are rounded to about 1e-14. The slope at
+/// the root is at least about ALONE⁴ = 6e-6.
 const KNOWN: f64 = 1e-6;
 
 /// Largest distance of an event from the nearest root of a crowd: the fifth root of a rounding of 1e-13 is 3e-3.
@@ -217,16 +217,16 @@ fn run(seed: u64, cases: usize, form: Form) {
 }
 
 #[test]
-fn polynomials() {
+fn roots_of_polynomials_are_found_once() {
     run(1, 600_000, Form::Polynomial);
 }
 
 #[test]
-fn sums_of_sines() {
+fn roots_of_sums_of_sines_are_found_once() {
     run(2, 200_000, Form::Trigonometric);
 }
 
 #[test]
-fn enclosures() {
+fn roots_of_guards_with_enclosures_are_found_once() {
     run(3, 200_000, Form::Enclosed);
 }

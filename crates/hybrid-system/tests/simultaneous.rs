@@ -60,7 +60,7 @@ fn run(corner: &Corner, start: State<4>) -> (Vec<Wall>, State<4>) {
 /// From many places on the diagonal of the corner, with rounded numbers: both walls reverse the point, the left one
 /// first.
 #[test]
-fn both_walls_of_a_corner() {
+fn both_walls_reverse_a_point_in_the_corner() {
     for bounds in [true, false] {
         for k in 1..200 {
             let (x, v) = (0.01 * f64::from(k), 0.7 + 0.013 * f64::from(k));
@@ -73,7 +73,7 @@ fn both_walls_of_a_corner() {
     }
 }
 
-/// If the first reset turns the point away from the other wall, there is no second event.
+/// If the first reset reverses the point away from the other wall, there is no second event.
 #[test]
 fn the_first_reset_may_prevent_the_second_event() {
     let corner = Corner { bounds: true, left_reverses_both: true };
@@ -84,7 +84,7 @@ fn the_first_reset_may_prevent_the_second_event() {
 
 /// Two walls that are reached a little apart give two events at different times.
 #[test]
-fn walls_reached_a_little_apart() {
+fn walls_reached_a_little_apart_give_two_events() {
     let corner = Corner { bounds: true, left_reverses_both: false };
     for offset in [1e-15, 1e-12, 1e-6] {
         for sign in [1.0, -1.0] {

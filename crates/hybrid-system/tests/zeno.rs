@@ -1,4 +1,7 @@
 //! Infinitely many events in finite time, rest after them, and chains of events without time.
+//!
+//! A test with the name of another project has its known answer from that project's test suite or issues: SciML, and the
+//! FMI reference FMUs. A number is that of the issue.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
@@ -67,7 +70,7 @@ fn arcs(ball: &Ball, start: State<2>, time: f64) -> (Vec<Arc<Mode, Floor, 2>>, O
 }
 
 #[test]
-fn sciml_696_restitution_one_half() {
+fn a_ball_of_restitution_one_half_rests_as_in_sciml_696() {
     let ball = Ball { gravity: 9.8, floor: -1.0, restitution: 0.5 };
     let (arcs, stop) = arcs(&ball, Vector2::new(0.0, 1.0), 100.0);
     let first = arcs[0].event().unwrap();
@@ -78,7 +81,7 @@ fn sciml_696_restitution_one_half() {
     assert!(limit.time_error < 1e-11 && (limit.ratio - 0.5).abs() < 1e-3 && limit.period == 1);
     assert!((limit.state - Vector2::new(-1.0, 0.0)).amax() <= limit.state_error);
     assert_eq!(after, Some((Mode::Resting, Vector2::new(-1.0, 0.0))));
-    // It rests up to the limit on time. Other software lets it fall through the floor.
+    // The ball rests up to the limit on time. Other software lets it fall through the floor.
     let last = arcs.last().unwrap();
     assert_eq!((last.mode, stop), (Mode::Resting, Some(Stop::TimeLimit)));
     assert_eq!(last.state(&ball, last.duration).unwrap(), Vector2::new(-1.0, 0.0));
@@ -86,7 +89,7 @@ fn sciml_696_restitution_one_half() {
 }
 
 #[test]
-fn sciml_696_restitution_zero() {
+fn a_ball_of_restitution_zero_rests_as_in_sciml_696() {
     let ball = Ball { gravity: 9.8, floor: -1.0, restitution: 0.0 };
     let (arcs, stop) = arcs(&ball, Vector2::new(0.0, 1.0), 1e6);
     assert_eq!((arcs.len(), stop), (2, Some(Stop::TimeLimit)));
@@ -94,7 +97,7 @@ fn sciml_696_restitution_zero() {
 }
 
 #[test]
-fn fmi_reference_ball_to_its_end() {
+fn the_fmi_reference_ball_rests_at_its_known_time() {
     let ball = Ball { gravity: 9.81, floor: 0.0, restitution: 0.7 };
     let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 10.0);
     let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
@@ -104,13 +107,13 @@ fn fmi_reference_ball_to_its_end() {
 
 /// For every restitution e the limit is at t₁ (1+e)/(1−e), t₁ the time of the first landing.
 #[test]
-fn every_restitution_has_its_limit() {
+fn the_limit_of_every_restitution_is_at_its_exact_time() {
     for restitution in [0.01, 0.1, 0.3, 0.9, 0.99] {
         let ball = Ball { gravity: 2.0, floor: 0.0, restitution };
         let (arcs, _) = arcs(&ball, Vector2::new(1.0, 0.0), 1e4);
         let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
         let exact = (1.0 + restitution) / (1.0 - restitution);
-        // The roundings of thousands of bounces come on top of the limit's own error.
+        // The roundings of thousands of bounces are added to the limit's own error.
         let rounding = 1e-15 * arcs.len() as f64 * exact;
         assert!(
             (limit.time - exact).abs() <= limit.time_error + rounding,
@@ -123,9 +126,9 @@ fn every_restitution_has_its_limit() {
     assert_eq!((arcs.len(), stop), (501, Some(Stop::TimeLimit)));
 }
 
-/// If the model names no mode after the limit, the execution ends there, with that reason.
+/// If the model gives no mode after the limit, the execution ends there, with that reason.
 #[test]
-fn a_zeno_limit_without_rest_ends_the_execution() {
+fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
     struct Restless(Ball, bool);
     impl HybridSystem<2> for Restless {
         type Mode = Mode;
@@ -176,7 +179,7 @@ fn a_zeno_limit_without_rest_ends_the_execution() {
 
 /// Resets that lead back to each other without time passing.
 #[test]
-fn a_chain_without_time_is_an_error() {
+fn endless_events_at_one_instant_are_an_error() {
     struct Circle;
     impl HybridSystem<1> for Circle {
         type Mode = ();

@@ -82,7 +82,7 @@ impl Frame {
         )
     }
 
-    /// Draws, cut off at the edges of the frame.
+    /// Draws with the parts outside the frame cut off.
     pub fn clipped(&self, svg: &mut Svg, draw: impl FnOnce(&mut Svg)) {
         svg.clipped(self.left, self.top, self.width, self.height, draw);
     }
@@ -100,7 +100,7 @@ impl Frame {
 
     /// The box, the ticks with their labels, and the names of the axes.
     ///
-    /// An empty `y_label` leaves no room for it: two frames may then share one axis.
+    /// With an empty `y_label` no room is left for it: two frames may then share one axis.
     pub fn axes(
         &self,
         svg: &mut Svg,
@@ -130,7 +130,8 @@ impl Frame {
         if y_label.is_empty() {
             return;
         }
-        // A character of a tick label is about 5 points wide at [`TICK_SIZE`]: the name of the axis clears the widest.
+        // A character of a tick label is about 5 points wide at [`TICK_SIZE`]. The name of the axis is placed beside
+        // the widest label.
         let away = 5.0 * widest as f64 + 16.0;
         svg.rotated_text(
             self.left - away,
@@ -156,12 +157,14 @@ pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
     let step = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
         .map(|m| m * unit)
-        // A step that is exactly the rough one may be rounded below it: a thousandth less still counts.
+        // A step that equals the rough step may be rounded below it. Therefore a step smaller by a thousandth also
+        // counts.
         .find(|&s| s >= rough * 0.999)
         .unwrap_or(unit);
-    // An f64 has 17 digits: more decimals would be noise.
+    // An f64 has 17 digits: further decimals would be noise.
     let decimals = (-pxfm::f_log10(step).floor()).clamp(0.0, 17.0) as usize;
-    // An end that is a multiple of the step gets its tick, although the quotient is rounded: hence 1e-9.
+    // An end that is a multiple of the step gets its tick, although the quotient is rounded. The 1e-9 allows for this
+    // rounding.
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
     (first..=last)

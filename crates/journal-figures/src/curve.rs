@@ -41,8 +41,8 @@ pub fn smooth(points: &[(f64, f64)]) -> Path {
 
 /// The graph of a function between neighbouring cuts, as pieces of `count` + 1 points each.
 ///
-/// Where the function has no value there is no graph: the edges are found to an ulp. Points crowd
-/// towards the ends of a piece like squares, which straightens square-root edges.
+/// Where the function has no value there is no graph: the edges are found to an ulp. Towards the ends of a piece the
+/// distances of the points shrink like squares, which straightens square-root edges.
 pub fn graph_pieces(
     value: impl Fn(f64) -> Option<f64>,
     cuts: &[f64],
@@ -52,8 +52,8 @@ pub fn graph_pieces(
     for pair in cuts.windows(2) {
         for (left, right) in valued(&value, pair[0], pair[1]) {
             let piece = (0..=count).filter_map(|k| {
-                let turn = std::f64::consts::PI * (k as f64 / count as f64);
-                let x = left + (right - left) * (0.5 - 0.5 * pxfm::f_cos(turn));
+                let angle = std::f64::consts::PI * (k as f64 / count as f64);
+                let x = left + (right - left) * (0.5 - 0.5 * pxfm::f_cos(angle));
                 value(x).map(|y| (x, y))
             });
             pieces.push(piece.collect());
@@ -64,7 +64,7 @@ pub fn graph_pieces(
 
 /// The parts of [left, right] on which `value` exists. A gap or a part shorter than a 64th may be missed.
 fn valued(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Vec<(f64, f64)> {
-    /// A piece of a drawing has some hundred points: a gap between two probes is a few points wide at most.
+    /// A piece of a drawing has some hundred points. A gap between two probes is therefore at most a few points wide.
     const PROBES: usize = 64;
     let at = |k: usize| left + (right - left) * (k as f64 / PROBES as f64);
     let mut parts = Vec::new();
@@ -86,7 +86,7 @@ fn valued(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Vec<(f6
 
 /// The last point with a value on the way from `inside` to `outside`.
 fn edge(value: &impl Fn(f64) -> Option<f64>, mut outside: f64, mut inside: f64) -> f64 {
-    // 54 halvings reach neighbouring f64 if both ends are of one size; the rest serves a bracket with an end near 0.
+    // 54 halvings reach neighbouring f64 if both ends are of one size. The others are for a bracket with an end near 0.
     for _ in 0..80 {
         let middle = 0.5 * (inside + outside);
         if value(middle).is_some() { inside = middle } else { outside = middle }

@@ -13,7 +13,7 @@ pub struct DataFile {
 
 /// A CSV file of numbers; `None` becomes an empty field.
 ///
-/// Numbers have the fewest digits that give the same `f64` back.
+/// Each number has the fewest digits that identify its `f64`.
 pub fn csv_file(
     name: &str,
     header: &[&str],

@@ -1,4 +1,4 @@
-//! The reasons why a figure cannot be made.
+//! Errors of figures.
 
 use thiserror::Error;
 
@@ -11,7 +11,7 @@ pub enum Error {
     Render {
         /// Name of the drawing or file.
         what: String,
-        /// Message of the library that refused.
+        /// The message of the library.
         reason: String,
     },
 }

@@ -1,4 +1,4 @@
-//! The font that is shipped: from text to placed glyphs and their outlines.
+//! The built-in font: from text to placed glyphs and their outlines.
 
 use crate::path::{Path, Point, Segment};
 use std::sync::LazyLock;
@@ -33,7 +33,7 @@ pub(crate) struct Font {
 }
 
 impl Font {
-    /// The font that is shipped, parsed once.
+    /// The built-in font, parsed once.
     pub(crate) fn shipped() -> Result<&'static Font, FontError> {
         static SHIPPED: LazyLock<Result<Font, FontError>> = LazyLock::new(|| Font::parse(STIX));
         SHIPPED.as_ref().map_err(|&error| error)
@@ -69,7 +69,7 @@ impl Font {
         let glyphs = self.glyphs(text)?;
         for (k, &glyph) in glyphs.iter().enumerate() {
             let mut pen = GlyphPen { path, scale, origin: (x, start.1), at: (0.0, 0.0) };
-            // A space has no outline; its `None` is no error.
+            // A space has no outline. This `None` is no error.
             let _ = self.face.outline_glyph(glyph, &mut pen);
             let advance = self.face.glyph_hor_advance(glyph).unwrap_or(0);
             let kern = glyphs.get(k + 1).map_or(0, |&next| self.kern(glyph, next));
@@ -92,7 +92,7 @@ impl Font {
         Ok(glyphs)
     }
 
-    /// The ligature that starts with `first`, and the number of glyphs of `after` that it takes in.
+    /// The ligature that starts with `first`, and the number of glyphs of `after` that it replaces.
     ///
     /// The font lists longer ligatures first, so that "ffi" is found before "ff".
     fn ligature(&self, first: GlyphId, after: &[GlyphId]) -> Option<(GlyphId, usize)> {
@@ -124,8 +124,8 @@ impl Font {
     }
 }
 
-/// The subtables of a feature for Latin text in no special language: others have ligatures such
-/// as the Dutch ij.
+/// The subtables of a feature for Latin text in no special language. Other languages have ligatures such as the Dutch
+/// ij.
 fn subtables<T: LookupSubtable<'static>>(
     table: Option<LayoutTable<'static>>,
     feature: &[u8; 4],
@@ -175,7 +175,8 @@ impl OutlineBuilder for GlyphPen<'_> {
         self.path.push(Segment::Line(point));
     }
 
-    /// A parabola is a cubic piece whose control points lie two thirds of the way to its own.
+    /// A parabola is a cubic piece. The control points of the cubic piece lie at two thirds of the way from its ends to
+    /// the control point of the parabola.
     fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
         let (x1, y1) = (f64::from(x1), f64::from(y1));
         let towards = |(x, y): Point| (x + (x1 - x) * 2.0 / 3.0, y + (y1 - y) * 2.0 / 3.0);

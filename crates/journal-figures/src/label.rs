@@ -12,7 +12,7 @@ const DOWN: f64 = 0.25;
 /// Distance by which superscripts are raised, in units of the font size. TeX has 0.413.
 const UP: f64 = 0.4;
 
-/// Where a piece of a label stands.
+/// The vertical position of a piece of a label.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Level {
     Line,
@@ -41,7 +41,7 @@ pub(crate) fn outline(markup: &str, size: f64) -> Result<(Path, f64), FontError>
             Level::Subscript => (SCRIPT * size, DOWN * size),
             Level::Superscript => (SCRIPT * size, -UP * size),
         };
-        // A subscript goes back to the start of the superscript before it, which may be the longer one.
+        // A subscript starts where the superscript before it starts. The label is as wide as the longer of the two.
         let back = superscript.filter(|_| level == Level::Subscript);
         let start = back.unwrap_or(end);
         superscript = (level == Level::Superscript).then_some(start);
@@ -148,7 +148,7 @@ mod tests {
                 (")", Level::Line)
             ]
         );
-        // The parenthesis reaches lowest, and as low as without the superscript before it.
+        // The parenthesis is the lowest character, and is as low as without the superscript before it.
         let bottom = |markup| outline(markup, 10.0).unwrap().0.limits_of_ends()[3];
         assert_eq!(bottom("x^{n})"), bottom(")"));
     }

@@ -11,7 +11,7 @@ pub struct Color {
 
 /// Green, red, blue, purple and two near blacks, for categories in order.
 ///
-/// Their lightness L* falls, 61, 48, 34, 19, 5, 0, so that the order survives grey print.
+/// Their lightness L* falls, 61, 48, 34, 19, 5, 0, so that the order is visible in grey print.
 pub const ORDERED: [Color; 6] = [
     Color { css: "#22a672", rgb: [0x22, 0xa6, 0x72] },
     Color { css: "#d03a2b", rgb: [0xd0, 0x3a, 0x2b] },
@@ -27,7 +27,7 @@ pub const WHITE: Color = Color { css: "#ffffff", rgb: [0xff, 0xff, 0xff] };
 /// A light grey: L* = 80, lighter than all of [`ORDERED`].
 pub const GREY: Color = Color { css: "#c8c8c0", rgb: [0xc8, 0xc8, 0xc0] };
 
-/// A yellow that no other colour here resembles, for what needs attention.
+/// A yellow that no other colour here resembles, for parts that need attention.
 pub const YELLOW: Color = Color { css: "#ffd400", rgb: [0xff, 0xd4, 0x00] };
 
 #[cfg(test)]

@@ -26,8 +26,8 @@ pub struct Path {
 
 /// Distance of the control points from the ends of a quarter circle, in units of the radius.
 ///
-/// With this value the middle of the cubic piece lies on the circle; elsewhere the piece is too far
-/// out by 3 parts in 10 000 of the radius at most, which cannot be seen.
+/// With this value the middle of the cubic piece lies on the circle. Elsewhere the piece lies outside it by 3 parts in
+/// 10 000 of the radius at most, which is not visible.
 const QUARTER: f64 = 4.0 / 3.0 * (std::f64::consts::SQRT_2 - 1.0);
 
 impl Path {
@@ -133,7 +133,7 @@ fn points(d: &mut String, letter: char, points: &[Point]) {
     }
 }
 
-/// Writes a number with three decimals at most: a thousandth of a point cannot be seen.
+/// Writes a number with three decimals at most: a thousandth of a point is not visible.
 pub(crate) fn number(out: &mut String, value: f64) {
     let start = out.len();
     let _ = write!(out, "{value:.3}");

@@ -7,7 +7,7 @@ use tiny_skia::{
     SpreadMode, Stroke, StrokeDash, Transform,
 };
 
-/// Draws `svg` at `scale` pixels a point. The reason is returned if this is not possible.
+/// Draws `svg` at `scale` pixels a point. If this is not possible, the error is the reason.
 pub(crate) fn rasterize(svg: &Svg, scale: f64) -> Result<Pixmap, String> {
     let (width, height) = ((svg.width * scale).ceil(), (svg.height * scale).ceil());
     let pixmap = Pixmap::new(width as u32, height as u32)
@@ -85,7 +85,7 @@ impl Canvas {
             .ok_or_else(|| format!("no image of size {width} × {height} at ({x}, {y})"))?;
         let (columns, rows) = (image.width() as f32, image.height() as f32);
         let placed = Transform::from_row(width / columns, 0.0, 0.0, height / rows, x, y);
-        // Nearest: pixels are labels, of which no mixture exists.
+        // The nearest pixel: pixels are labels, which cannot be averaged.
         let (spread, quality) = (SpreadMode::Pad, FilterQuality::Nearest);
         let shader = Pattern::new(image.as_ref(), spread, quality, 1.0, placed);
         let paint = Paint { shader, ..Paint::default() };
@@ -144,7 +144,7 @@ fn rgb(css: &str) -> Option<[u8; 3]> {
     let byte = |shift: u32| (value >> shift) as u8;
     match digits.len() {
         6 => Some([byte(16), byte(8), byte(0)]),
-        // A digit stands for two equal ones: 17 = 0x11.
+        // A digit stands for two equal digits: 17 = 0x11.
         3 => Some([8, 4, 0].map(|shift| (byte(shift) & 0xf) * 17)),
         _ => None,
     }

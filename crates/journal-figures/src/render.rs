@@ -11,7 +11,7 @@ const POINTS_PER_PIXEL: f64 = 0.75;
 /// A drawing in both forms.
 #[derive(Debug, Clone)]
 pub struct Rendered {
-    /// The SVG, its labels turned into outlines: it looks the same wherever it is opened.
+    /// The SVG. Its labels are outlines, so that it looks the same on every computer.
     pub svg: String,
     /// The PNG.
     pub png: Vec<u8>,
@@ -19,7 +19,7 @@ pub struct Rendered {
 
 /// Renders a drawing; the PNG has `scale` pixels for each CSS pixel of the SVG.
 ///
-/// An error names the first label that cannot be set, such as one with a character that the font lacks.
+/// The error has the first label that cannot be set, for example one with a character that the font lacks.
 pub fn render(name: &str, svg: &Svg, scale: f64) -> Result<Rendered, Error> {
     let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
     if let Some((label, error)) = &svg.failure {
@@ -117,7 +117,7 @@ mod tests {
     #[test]
     fn a_label_turned_to_the_left_reads_upwards() {
         let mut svg = Svg::new(100.0, 100.0);
-        // The minus is 0.557 em wide and stands a quarter em above its line.
+        // The minus is 0.557 em wide and lies a quarter em above its line.
         svg.rotated_text(50.0, 100.0, -90.0, Anchor::Start, 100.0, "−");
         assert_eq!(pixel(&svg, 25, 65), [0; 3]);
         assert_eq!(pixel(&svg, 75, 65), [255; 3]);

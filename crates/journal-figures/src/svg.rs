@@ -4,14 +4,14 @@ use crate::font::FontError;
 use crate::label::outline;
 use crate::path::{Path, Point};
 
-/// A line's look.
+/// The style of a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pen {
     /// Colour, as CSS: `#rgb` or `#rrggbb`.
     pub color: &'static str,
     /// Width in points.
     pub width: f64,
-    /// Lengths of dashes and gaps in turn, separated by spaces; empty for a solid line.
+    /// Lengths of dashes and gaps, alternating and separated by spaces; empty for a solid line.
     pub dash: &'static str,
 }
 
@@ -37,7 +37,7 @@ pub enum Anchor {
     End,
 }
 
-/// A thing that is drawn; later ones cover earlier ones.
+/// An element of a drawing. Later elements cover earlier ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Element {
     /// A path, filled first, then stroked.
@@ -50,7 +50,7 @@ pub(crate) enum Element {
     Clipped { inside: Path, elements: Vec<Element> },
 }
 
-/// Rim that keeps symbols apart where they touch.
+/// White rim that separates symbols where they touch.
 const WHITE_RIM: Pen = Pen::solid("#fff", 0.6);
 
 /// A drawing, in points, y downwards.
@@ -59,8 +59,8 @@ pub struct Svg {
     pub(crate) width: f64,
     pub(crate) height: f64,
     pub(crate) elements: Vec<Element>,
-    /// The first label that could not be set, and the reason. The methods that draw return nothing;
-    /// [`crate::render::render`] reports it.
+    /// The first label that could not be set, and the reason. The drawing methods have no return value;
+    /// [`crate::render::render`] returns this error.
     pub(crate) failure: Option<(String, FontError)>,
 }
 
@@ -94,7 +94,8 @@ impl Svg {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = pxfm::f_hypot(dx, dy).max(1e-9);
         let (ux, uy) = (dx / length, dy / length);
-        // Length and half width of the head, chosen by eye; both grow with the pen, so that thick arrows stay arrows.
+        // Length and half width of the head, chosen by eye. Both grow with the pen, so that thick arrows still look
+        // like arrows.
         let head = 3.0 + 2.5 * pen.width;
         let base = (to.0 - head * ux, to.1 - head * uy);
         self.line(from, base, pen);
@@ -176,7 +177,7 @@ impl Svg {
         self.elements.push(Element::Image { corner: (x, y), size: (width, height), png });
     }
 
-    /// Draws what `draw` draws, cut off outside a rectangle.
+    /// Draws the elements that `draw` draws, cut off outside a rectangle.
     pub fn clipped(
         &mut self,
         x: f64,

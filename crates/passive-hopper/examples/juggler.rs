@@ -2,8 +2,8 @@
 //! throws it again.
 //!
 //! The model has hand, ball, spring and gravity in SI units, two modes and two guards, and uses no formula of the
-//! hopper. Its map from one throw to the next is the hopper's all the same: α′ = f(α; M) with M = m_h/m_b, where α is
-//! the speed of the throw over g √(m_h/k).
+//! hopper. Nevertheless its map from one throw to the next is the map of the hopper: α′ = f(α; M) with M = m_h/m_b,
+//! where α is the speed of the throw over g √(m_h/k).
 //!
 //! Run with `cargo run -p passive-hopper --example juggler`.
 
@@ -54,7 +54,7 @@ impl Juggler {
         -self.ball * self.gravity / self.stiffness
     }
 
-    /// Height at which the spring is relaxed: hand and ball fall freely there, and the ball leaves.
+    /// Height at which the spring is relaxed. Hand and ball fall freely there, and the ball leaves the hand.
     fn throw_height(&self) -> f64 {
         self.hand * self.gravity / self.stiffness
     }
@@ -155,11 +155,11 @@ impl Section<Juggler, 4, 1> for Throws {
     }
 }
 
-/// The α of the next throw after one with `alpha`; `None` if the ball stays in the hand.
+/// The α of the throw after a throw with `alpha`; `None` if the ball stays in the hand.
 fn next_throw(juggler: Juggler, alpha: f64) -> Result<Option<f64>, return_map::Error> {
     let section = Throws(juggler);
-    // A flight takes about 2α units of time, and the ball stays in the hand for less than a swing of both,
-    // 2π √(1 + m_b/m_h) units. The limit is far above.
+    // A flight takes about 2α units of time. The ball stays in the hand for less than a swing of both, 2π √(1 +
+    // m_b/m_h) units. The limit is far above these times.
     let unit = 1.0 / juggler.free_frequency();
     let limits = Limits::new((10.0 * alpha + 1000.0) * unit, 10_000);
     let map = ReturnMap::new(&juggler, &section, limits);
@@ -188,7 +188,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 mod tests {
     use super::*;
 
-    /// In any units, throws at once after a catch and balls that stay in the hand included.
+    /// The map is the same in any units, also for throws at once after a catch and for balls that stay in the hand.
     #[test]
     fn the_map_from_throw_to_throw_is_that_of_the_hopper() {
         let mut stays = 0;

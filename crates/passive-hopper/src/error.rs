@@ -9,21 +9,21 @@ pub enum Error {
     /// The mass ratio is not a positive number with a representable inverse.
     #[error("the mass ratio must be positive and finite, with a finite inverse, not {value}")]
     MassRatio {
-        /// The value given.
+        /// The given value.
         value: f64,
     },
     /// A dimensional parameter is not positive and finite.
     #[error("{name} must be positive and finite, not {value}")]
     Parameter {
-        /// Its symbol.
+        /// The symbol of the parameter.
         name: &'static str,
-        /// The value given.
+        /// The given value.
         value: f64,
     },
     /// The lift-off speed is not positive and finite.
     #[error("the lift-off speed must be positive and finite, not {value}")]
     LiftOffSpeed {
-        /// The value given.
+        /// The given value.
         value: f64,
     },
     /// The lift-off speed is so large that an ulp of it is too coarse for the spring's phase.
@@ -31,9 +31,9 @@ pub enum Error {
         "the lift-off speed {value} is over {largest}, above which an f64 does not resolve the motion"
     )]
     LiftOffSpeedTooLarge {
-        /// The value given.
+        /// The given value.
         value: f64,
-        /// The largest accepted.
+        /// The largest accepted value.
         largest: f64,
     },
     /// The offset from a fixed point reaches beyond nπ or (n+1)π, or is too small to be resolved.
@@ -44,7 +44,7 @@ pub enum Error {
     Offset {
         /// Index of the fixed point.
         n: u64,
-        /// The offset given.
+        /// The given offset.
         delta: f64,
         /// nπ − α*_n.
         left: f64,
@@ -57,9 +57,9 @@ pub enum Error {
          does not resolve the motion"
     )]
     MotionTooLarge {
-        /// The coordinate or rate, in the model's units; times 1+M for those of the height.
+        /// The coordinate or rate, in the model's units; coordinates and rates of the height are multiplied by 1+M.
         value: f64,
-        /// The largest accepted.
+        /// The largest accepted value.
         largest: f64,
     },
     /// A state with the lower mass below the ground.
@@ -78,8 +78,8 @@ pub enum Error {
         /// Its velocity.
         velocity: f64,
     },
-    /// A decision of the hop (sudden or not, on which branch, grounded or not) depends on a number smaller than the
-    /// bound on its error in 1024 bits, or in fewer bits if more would take minutes.
+    /// A decision of the hop (sudden or not, on which branch, grounded or not) depends on a number that is smaller than
+    /// the bound on its error. The bound is for 1024 bits, or for fewer bits if more would take minutes.
     #[error(
         "the hop from {alpha}, with about {sudden} sudden lift-offs, cannot be decided with 1024 bits \
          in some seconds"
@@ -90,12 +90,12 @@ pub enum Error {
         /// Sudden lift-offs that were computed; the true number may differ.
         sudden: usize,
     },
-    /// A number that must be finite is not.
+    /// A number is not finite, but must be.
     #[error("{name} must be finite, not {value}")]
     NotFinite {
-        /// Its name.
+        /// The name of the number.
         name: &'static str,
-        /// The value given.
+        /// The given value.
         value: f64,
     },
     /// More sudden lift-offs in one hop than the budget allows; the computation stops before the hop ends.

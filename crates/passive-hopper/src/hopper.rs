@@ -30,10 +30,10 @@ pub enum HopperSurface {
 
 /// The passive hopper with state (y₁, ẏ₁, y₂, ẏ₂).
 ///
-/// Landings and lift-offs are solved for in closed form; no integrator steps to them. After a collision the spring pulls
-/// the lower mass off again at once (a sudden lift-off: the event leads back to flight), or the contact phase follows.
-/// Energy never grows at an event by more than rounding: by some 10⁻¹⁵ of it, and from speeds of 10¹¹ on, where an ulp of
-/// the time is no small angle, by the square of that ulp.
+/// Landings and lift-offs are solved for in closed form, not searched by an integrator. After a collision the spring
+/// may pull the lower mass off again at once (a sudden lift-off: the event leads back to flight). Otherwise the contact
+/// phase follows. At an event the energy never grows by more than rounding. The rounding is some 10⁻¹⁵ of the energy.
+/// For speeds from 10¹¹ on, where an ulp of the time is no small angle, it is the square of that ulp.
 ///
 /// ```
 /// use hybrid_system::{Execution, Limits};
@@ -108,7 +108,7 @@ impl Hopper {
         }))
     }
 
-    /// The first landing; at time zero if the lower mass is on the ground and not leaving it.
+    /// The first landing. It is at time zero if the lower mass is on the ground and does not leave it.
     fn landing(&self, start: &HopperState) -> Result<Crossing<HopperSurface, 4>, Error> {
         if start.lower_position < 0.0 {
             return Err(refused(crate::error::Error::BelowGround { height: start.lower_position }));
@@ -125,11 +125,13 @@ impl Hopper {
             self.landing_from_ground(TakeOff { excess, velocity })
         } else {
             let time = landing_time(&flight)?;
-            // On the ground y₁ is the stretch itself. Computed from P, which may be huge, it would lose digits.
+            // On the ground y₁ is the stretch itself. If y₁ were computed from P, which may be huge, it would lose
+            // digits.
             let upper_position = flight.stretch(time).0;
             (time, HopperState { upper_position, lower_position: 0.0, ..flight.state(time) })
         };
-        // Certain: theory gives a bracket with the first landing alone, and the search refines it.
+        // The result is certain: theory gives a bracket that contains only the first landing, and the search refines
+        // it.
         Ok(Crossing {
             surface: HopperSurface::Landing,
             time,

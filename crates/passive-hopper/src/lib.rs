@@ -19,7 +19,7 @@
 //! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the map by the paper's Eqs. (6)–(8), for comparison |
-//! | [`alpha_star`], [`FixedPointSpeed`], [`index_below`] | the fixed points tan α* = α*; the same to 100 bits; the index of the fixed point below a speed |
+//! | [`alpha_star`], [`FixedPointSpeed`], [`index_below`] | the fixed points tan α* = α*, as `f64` and to 100 bits; the index of the fixed point below a speed |
 //! | [`Hopper`], [`Phase`], [`HopperSurface`], [`HopperState`] | both masses, as a [`hybrid_system::HybridSystem`] |
 //! | [`Flight`], [`HalfFlight`], [`contact_flow`], [`contact_time`], [`lift_off_energy`] | flight and contact in closed form |
 //! | [`energy`], [`landing_loss`] | energy, and the loss of a landing |
@@ -39,21 +39,21 @@
 //! ```
 //!
 //! # Accuracy
-//! Theory gives each landing an interval with no other root. The solver finds it in half the time of flight, to about an
-//! ulp as a backward error in the speed. 3222 reference hops have 40 digits: random ones, extreme ones, and ones within
-//! 2⁻⁴⁸ of a change of branch. Against them the error of α′ is at most 4 (1 + sudden lift-offs) units of
-//! ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³ (`cargo xtask check-reference`).
+//! For each landing theory gives an interval with no other root. The solver finds the landing in half the time of
+//! flight, to about an ulp as a backward error in the speed. 3222 reference hops have 40 digits: random ones, extreme
+//! ones, and ones within 2⁻⁴⁸ of a change of branch. Against these references the error of α′ is at most 4 (1 + sudden
+//! lift-offs) units of ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³ (`cargo xtask check-reference`).
 //!
-//! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. If 53 bits do
-//! not decide it, 106 and then up to 1024 bits are used. [`Hop::certain`] is false for a hop that needs more.
+//! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. If 53 bits
+//! do not suffice for it, 106 and then up to 1024 bits are used. [`Hop::certain`] is false for a hop that needs more.
 //!
 //! Near a fixed point [`LiftOffMap::hop_near_fixed_point`] gives δ′ to 8 ulps of δ′ itself. Sines and cosines come from
 //! `pxfm`, correctly rounded, or from the kernel, to 1.2 ulps. Results have the same bits on every x86-64 machine.
 //!
 //! # Speed
-//! A hop of the paper's window takes as long as eight `f64::sin_cos`, or a quarter of that among many hops;
-//! `cargo xtask speed` measures it. The first hop in an interval (nπ, (n+1)π) takes some milliseconds more: it makes
-//! the table of that interval.
+//! A hop of the paper's window takes as long as eight `f64::sin_cos`, or a quarter of that among many hops; `cargo
+//! xtask speed` measures it. The first hop in an interval (nπ, (n+1)π) takes some milliseconds more, because it
+//! computes the table of that interval.
 //!
 //! # Not here
 //! Integrators (every phase has a closed form), basins (`hopper-basin`), expansions (`hopper-asymptotics`), lift-off

@@ -63,7 +63,8 @@ fn a_search_on_samples_finds_the_same_map() {
                     );
                     compared += 1;
                 }
-                // A flight shorter than the sampling interval, or one that is below the ground between samples only.
+                // A flight shorter than the sampling interval, or a flight that is below the ground only between
+                // samples.
                 Err(return_map::Error::Execution(hybrid_system::Error::UndecidedStart {
                     ..
                 })) => undecided += 1,
@@ -90,8 +91,8 @@ fn the_return_map_is_the_lift_off_map() {
             let image = returns.image(alpha).unwrap();
             assert_eq!(image.is_some(), hop.next.is_some(), "M = {m}, α = {alpha}");
             if let (Some(image), Some(next)) = (image, hop.next) {
-                // Near grounding the square root magnifies rounding by α²/α'². Each of many sudden lift-offs magnifies
-                // it too; the slope says how much.
+                // Near grounding the square root magnifies rounding by α²/α'. Each of many sudden lift-offs magnifies
+                // it too; the slope gives the factor.
                 let scale = (alpha / next).powi(2).max(1.0) * (1 + hop.sudden) as f64;
                 let slope = exact.slopes(alpha).unwrap().unwrap().by_speed.abs();
                 let magnified = 16.0 * f64::EPSILON * slope * alpha * (1 + hop.sudden) as f64;

@@ -8,7 +8,8 @@ use passive_hopper::{Error, FixedPointSpeed, LiftOffMap, MassRatio, alpha_star, 
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// Compares every hop of a reference file: its verdicts are right and its α′ is within [`UNITS_PER_FLIGHT`] a flight.
+/// Compares every hop of a reference file: its decisions are right, and the error of its α′ is within
+/// [`UNITS_PER_FLIGHT`] a flight.
 fn check_hops(text: &str) {
     for row in rows(text) {
         let sudden = row.integer("sudden") as usize;
@@ -41,16 +42,16 @@ fn extreme_hops_are_right_to_four_units_a_flight() {
     check_hops(include_str!("data/hops_extreme.jsonl"));
 }
 
-/// Hops with verdicts that earlier error bounds got wrong: flights that seem to touch a maximum in 53 bits, chains at
-/// speeds of 10¹², seven thousand sudden lift-offs.
+/// Hops whose decisions were wrong with earlier error bounds: flights that seem to touch a maximum in 53 bits, chains
+/// at speeds of 10¹², seven thousand sudden lift-offs.
 #[test]
-fn hard_verdicts_are_right() {
+fn hard_decisions_are_right() {
     check_hops(include_str!("data/hops_hard_verdicts.jsonl"));
 }
 
-/// Verdicts that 53 bits cannot give: α is one rounding away from a change of branch.
+/// Decisions for which 53 bits do not suffice: α is one rounding away from a change of branch.
 #[test]
-fn verdicts_within_one_rounding_of_a_change_of_branch_are_right() {
+fn decisions_within_one_rounding_of_a_change_of_branch_are_right() {
     // At M = 1 and α = nπ, α′² is zero. The f64 nearest to π lies 1.2e-16 below π.
     let grounded = map(1.0).hop(PI).unwrap();
     assert!(grounded.next.is_none() && grounded.certain);
@@ -75,7 +76,8 @@ fn the_loss_of_tiny_hops_keeps_its_digits() {
     for row in rows(include_str!("data/losses_tiny.jsonl")) {
         let hop = row.map().hop(row.input("alpha")).unwrap();
         let error = (hop.loss.unwrap() / row.result("loss").unwrap() - 1.0).abs();
-        // The loss is proportional to μα⁵: half an ulp of α, of M and of the loss itself make 3.5 ulps.
+        // The loss is proportional to μα⁵: the roundings of α, of M and of the loss itself, half an ulp each, make 3.5
+        // ulps.
         assert!(error <= 4.0 * 3.5 * f64::EPSILON, "{row}: {error:e}");
     }
     for alpha in [1e-20f64, 1e-60] {
@@ -91,8 +93,8 @@ fn every_fixed_point_is_kept() {
         for m in [1e-3, 0.2, 1.0, 7.0] {
             let star = alpha_star(n);
             let image = map(m).image(star).unwrap().unwrap();
-            // The nearest f64 is off by δ, at most half an ulp. The loss is λ δ^{4/3} on the right and ten times as
-            // large on the left, with λ < 3.5 μ α.
+            // The nearest f64 differs from α*_n by δ, at most half an ulp. The loss is λ δ^{4/3} on the right and ten
+            // times as large on the left, with λ < 3.5 μ α.
             let delta = 0.5 * f64::EPSILON * star;
             let lambda = 3.5 * MassRatio::new(m).unwrap().mu() * star;
             let allowed = delta + 10.0 * lambda * delta.powf(4.0 / 3.0) + f64::EPSILON * star;
@@ -123,8 +125,8 @@ fn bad_speeds_are_errors_with_the_value() {
     assert!(map(1.0).image(f64::MIN_POSITIVE / 8.0).unwrap().is_some());
 }
 
-/// Thousands of sudden lift-offs in one hop: theory bounds their number. Beyond the budget the hop is an error that
-/// holds the last state on the ground.
+/// Thousands of sudden lift-offs in one hop: theory bounds their number. Beyond the budget the hop is an error with the
+/// last state on the ground.
 #[test]
 fn hops_at_huge_mass_ratios_end() {
     for (m, alpha) in [(1e4, 3.6), (1e5, 3.6), (1e6, 3.2)] {
@@ -199,7 +201,7 @@ proptest! {
     #[test]
     fn printed_and_stable_forms_agree(alpha in 0.5..40f64, e in -1.5..0.0f64) {
         let ratio = MassRatio::new(10f64.powf(e)).unwrap();
-        // Within 1e-9 of a branch change the two may differ in their verdict.
+        // Within 1e-9 of a branch change the two forms may decide differently.
         let near = |x: f64| (alpha - x).abs() < 1e-9;
         prop_assume!((0..14).all(|n| !near(n as f64 * PI) && !near(alpha_star(n))));
         let stable = LiftOffMap::new(ratio).hop(alpha).unwrap();
@@ -214,7 +216,7 @@ proptest! {
 
     /// α' dα'/dα = α (1 − 4μW), against a central difference.
     #[test]
-    fn the_slope_on_the_contact_intervals(n in 1u64..8, part in 0.1..0.9f64, m in 0.05..1f64) {
+    fn the_slope_on_the_contact_intervals_agrees_with_a_central_difference(n in 1u64..8, part in 0.1..0.9f64, m in 0.05..1f64) {
         let star = alpha_star(n);
         let alpha = star + part * ((n + 1) as f64 * PI - star);
         let hop = map(m).hop(alpha).unwrap();

@@ -1,4 +1,4 @@
-//! Many hops at once are the single hops, bit for bit.
+//! Many hops at once have the same bits as single hops.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -6,7 +6,7 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// The images one by one, which `images` must give too, and whether one of them is an error.
+/// The images one by one, which `images` must reproduce, and whether one of them is an error.
 fn one_by_one(map: &LiftOffMap, speeds: &[Option<f64>]) -> (Vec<Option<f64>>, bool) {
     let mut failed = false;
     let image = |speed: &Option<f64>| {
@@ -34,7 +34,7 @@ fn check_images(m: f64, speeds: &[Option<f64>]) {
     assert_eq!(bits(&found), bits(&expected), "M = {m}");
 }
 
-/// The same for `images_of_pairs`, each speed with one of the mass ratios in turn.
+/// As [`check_images`], for `images_of_pairs`. The mass ratios are assigned to the speeds cyclically.
 fn check_images_of_pairs(ratios: &[f64], speeds: &[Option<f64>]) {
     let maps: Vec<_> =
         ratios.iter().map(|&m| LiftOffMap::new(MassRatio::new(m).unwrap())).collect();
@@ -50,7 +50,7 @@ fn check_images_of_pairs(ratios: &[f64], speeds: &[Option<f64>]) {
     }
 }
 
-/// Speeds of the paper's window, of the tables, of any size, next to α*_n and nπ; and `None`.
+/// Speeds of the paper's window, of the tables, of any size, and next to α*_n and nπ; also `None`.
 fn speed() -> impl Strategy<Value = Option<f64>> {
     let near = |point: f64, exponent: f64, sign: bool| {
         let step = 10f64.powf(-exponent);

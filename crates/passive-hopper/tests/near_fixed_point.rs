@@ -6,7 +6,7 @@
 use hopper_reference::{map, rows};
 use passive_hopper::Error;
 
-/// Largest error of δ′, in ulps: what the crate's documentation promises.
+/// Largest error of δ′, in ulps, as stated in the crate's documentation.
 const ULPS: f64 = 8.0;
 
 #[test]
@@ -23,7 +23,7 @@ fn hops_near_fixed_points_are_right_to_eight_ulps() {
         if let Some(next) = hop.next {
             let error = (next / row.result("offset_next").unwrap() - 1.0).abs();
             assert!(error <= ULPS * f64::EPSILON, "{row}: {next:e}");
-            // The loss is computed by itself, not as the difference δ − δ′. It agrees with this difference to the
+            // The loss is computed separately, not as the difference δ − δ′. It agrees with this difference to the
             // rounding of the difference.
             let loss = delta - next;
             assert!(
@@ -38,9 +38,18 @@ fn hops_near_fixed_points_are_right_to_eight_ulps() {
     }
 }
 
-/// The ends of a cell lie between two `f64`. Offsets two ulps inside are accepted, and offsets outside are errors.
 #[test]
-fn offsets_are_accepted_up_to_the_ends_of_the_cell() {
+fn the_largest_index_is_an_error() {
+    for n in [u64::MAX, u64::MAX - 1, 1 << 63] {
+        let error = map(1.0).hop_near_fixed_point(n, 1e-5).unwrap_err();
+        assert!(matches!(error, Error::Offset { .. }), "{error}");
+    }
+}
+
+/// The ends nπ and (n+1)π of the interval of a fixed point lie between two `f64`. Offsets two ulps inside
+/// are accepted, and offsets outside are errors.
+#[test]
+fn offsets_are_accepted_up_to_the_ends_of_the_interval_of_the_fixed_point() {
     for n in [1u64, 1000, 100_000, 1 << 40] {
         let error = |delta: f64| map(3.0).hop_near_fixed_point(n, delta).unwrap_err();
         let Error::Offset { left, right, .. } = error(4.0) else { panic!() };
@@ -82,8 +91,7 @@ fn orbits_follow_the_reference() {
     }
 }
 
-/// The approach δ_k ≈ (3/(λk))³ goes on without end. In α it would stand still at δ ≈ 3e-12, where the loss is below
-/// an ulp.
+/// The approach δ_k ≈ (3/(λk))³ goes on without end. In α it would stop at δ ≈ 3e-12, where the loss is below an ulp.
 #[test]
 fn orbits_approach_without_stagnating() {
     let (map, mut delta) = (map(1.0), 1e-3);
@@ -93,7 +101,7 @@ fn orbits_approach_without_stagnating() {
         assert!(delta < last && delta > 0.0, "{k}");
         last = delta;
     }
-    // δ^{−1/3} = λk/3 + (β/α* + 2λ/3) ln k + C: the logarithm is 1e-4 of the rest.
+    // δ^{−1/3} = λk/3 + (β/α* + 2λ/3) ln k + C: the logarithm is 1e-4 of the other terms.
     let leading = (3.0 / (3.616_949_794_602_146 * 1e6f64)).powi(3);
     assert!((delta / leading - 1.0).abs() < 2e-3, "{delta:e} {leading:e}");
 }

@@ -58,7 +58,7 @@ fn slopes_next_to_fixed_points() {
     assert_eq!(map(1.0).slopes(PI).unwrap(), None);
 }
 
-/// Where plain `f64` finds other landings than longer arithmetic, the slopes follow the latter.
+/// Where plain `f64` finds other landings than longer arithmetic, the slopes follow the longer arithmetic.
 #[test]
 fn slopes_follow_the_decided_landings() {
     let (m, alpha) = (1.979_049_840_015_386, 4_619_303.598_589_695);

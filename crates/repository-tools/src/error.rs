@@ -1,4 +1,4 @@
-//! The reasons why reading or writing a file of the repository fails.
+//! Errors in reading and writing the repository's files.
 
 use std::path::PathBuf;
 use thiserror::Error;
@@ -22,10 +22,10 @@ pub enum Error {
         path: PathBuf,
         /// The line, from one.
         line: usize,
-        /// The defect.
+        /// The reason.
         reason: String,
     },
-    /// A file of reference values that holds none, or none that can be compared.
+    /// A file without a reference value, or without one that can be compared.
     #[error("{path}: this file holds no reference value; a check of it would check nothing")]
     NoReference {
         /// The file.

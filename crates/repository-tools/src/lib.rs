@@ -1,5 +1,5 @@
-//! What the programs of this repository share: where its files are, how results are written, what a
-//! terminal is told.
+//! The code that the programs of this repository share: the place of its files, the writing of results, and the output
+//! on a terminal.
 //!
 //! | item | role |
 //! |---|---|

@@ -1,7 +1,7 @@
 //! Folders for results, and files to read.
 
 use crate::error::Error;
-use resumable_job::{AtomicFile, remove_leftovers, write_atomically};
+use resumable_job::{AtomicFile, make_folder, remove_leftovers, write_atomically};
 use std::path::{Path, PathBuf};
 
 /// The root of the repository: the folder above `crates` in which this library was built.
@@ -23,8 +23,7 @@ impl Folder {
     /// Makes the folder if it does not exist, and tries to write a file in it: a command then fails before its
     /// computation and not after it. Removes temporary files of killed runs.
     pub fn open(path: &Path) -> Result<Self, Error> {
-        std::fs::create_dir_all(path)
-            .map_err(|source| Error::File { path: path.into(), source })?;
+        make_folder(path)?;
         // The trial file is dropped unfinished, which removes it.
         drop(AtomicFile::create(&path.join(".writable"))?);
         let folder = Folder(path.to_path_buf());

@@ -1,4 +1,4 @@
-//! Output on the terminal, and the exit status of a program.
+//! The output of a program on the terminal, and its exit status.
 
 use crate::error::Error;
 use std::fmt::Display;
@@ -18,7 +18,7 @@ pub fn exit_code<E: Display>(result: Result<(), E>) -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            // A closed standard error leaves the status as the only message.
+            // If standard error is closed, the exit status is the only message.
             let _ = writeln!(std::io::stderr(), "error: {error}");
             ExitCode::FAILURE
         }

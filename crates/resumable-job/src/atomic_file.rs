@@ -11,13 +11,13 @@ use std::io::{BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The end of every temporary name.
+/// The ending of every temporary name.
 const SUFFIX: &str = ".partial.tmp";
 
 /// Temporary files that this process has begun.
 static BEGUN: AtomicU64 = AtomicU64::new(0);
 
-/// A file under construction; [`AtomicFile::finish`] gives it its name. Dropped before, it leaves nothing behind.
+/// A file under construction; [`AtomicFile::finish`] gives it its name. If it is dropped before, no file remains.
 #[derive(Debug)]
 pub struct AtomicFile {
     file: BufWriter<File>,
@@ -28,7 +28,14 @@ pub struct AtomicFile {
 
 impl AtomicFile {
     /// Begins a file that will be named `path`, in a folder that exists.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the file cannot be created, or if `path` is a folder, which no file can replace.
     pub fn create(path: &Path) -> Result<Self, Error> {
+        if path.is_dir() && !path.is_symlink() {
+            let reason = "this is a folder, and a file is to have this name; remove it, or give another folder";
+            return Err(Error::at(path)(std::io::Error::new(ErrorKind::IsADirectory, reason)));
+        }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         loop {
             let count = BEGUN.fetch_add(1, Ordering::Relaxed);
@@ -37,8 +44,8 @@ impl AtomicFile {
             let new = OpenOptions::new().read(true).write(true).create_new(true).open(&temporary);
             let file = match new {
                 Ok(file) => file,
-                // The number of a process is used again after its end, and in another container at the same
-                // time. The name then belongs to somebody else: the next count is tried.
+                // The number of a process is used again after its end, and in another container at the same time. The
+                // name then belongs to another process: the next count is tried.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
                 Err(error) => return Err(Error::at(&temporary)(error)),
             };
@@ -67,8 +74,8 @@ impl AtomicFile {
         self.finish_if(|_| Ok(()))
     }
 
-    /// The same, if `check` accepts the file. It receives the flushed file, at its start; after an error of `check`
-    /// the file that had the name before is untouched.
+    /// As [`finish`](Self::finish), if `check` accepts the file. `check` receives the flushed file, at its start. After
+    /// an error of `check`, the file that had the name before is unchanged.
     pub fn finish_if<E: From<Error>>(
         mut self,
         check: impl FnOnce(&mut File) -> Result<(), E>,
@@ -90,33 +97,53 @@ impl AtomicFile {
 impl Drop for AtomicFile {
     fn drop(&mut self) {
         if !self.has_its_name {
-            // An earlier error is the one to tell; if this fails too, `remove_leftovers` removes the file later.
+            // An earlier error is reported. If this removal fails too, `remove_leftovers` removes the file later.
             let _ = std::fs::remove_file(&self.temporary);
         }
     }
 }
 
-/// Writes a whole file: who looks finds the old bytes or the new ones.
+/// Writes a whole file: a reader finds either the old bytes or the new ones.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     let mut file = AtomicFile::create(path)?;
     file.append(bytes)?;
     file.finish()
 }
 
-/// Removes from a folder the temporary files of [`AtomicFile`]s whose process no longer runs.
+/// Makes a folder with its parents. A folder that exists stays as it is.
 ///
-/// Files of running or stopped processes stay, since these hold their locks. Where files cannot be locked or read,
-/// they stay too: a leftover costs room and does no other harm, so no failure is reported.
+/// # Errors
+/// [`Error::File`] with the answer of the system; with the reason if a file, or a link that leads nowhere, has this name.
+pub fn make_folder(folder: &Path) -> Result<(), Error> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        let error = if error.kind() == ErrorKind::AlreadyExists {
+            let reason = "this is a file, or a link that leads to no folder; remove it, or give another folder";
+            std::io::Error::new(ErrorKind::NotADirectory, reason)
+        } else {
+            error
+        };
+        Error::at(folder)(error)
+    })
+}
+
+/// Removes from a folder the temporary files of [`AtomicFile`]s whose process no longer runs.
+/// Files of running or stopped processes stay, since these processes hold their locks. Files that cannot be locked or
+/// read stay too. Such a leftover only costs disk space, so that no failure is reported.
 pub fn remove_leftovers(folder: &Path) {
     for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
         if !is_temporary(&entry.file_name().to_string_lossy()) {
             continue;
         }
+        // Opening a named pipe would wait for a reader.
+        if !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            continue;
+        }
         let path = entry.path();
-        // Opened for writing, because some network file systems lock nothing else.
+        // Opened for writing, because some network file systems lock only files that are open for writing.
         let Ok(file) = OpenOptions::new().write(true).open(&path) else { continue };
         if file.try_lock().is_ok() && is_named(&file, &path).unwrap_or(false) {
-            // The lock is held during the removal: a writer that created this file just now sees it (`create`).
+            // The lock is held during the removal. A writer that created this file just now therefore notices the
+            // removal (`create`).
             let _ = std::fs::remove_file(&path);
         }
     }
@@ -131,8 +158,8 @@ fn is_temporary(name: &str) -> bool {
         .is_some_and(|(process, count)| is_number(process) && is_number(count))
 }
 
-/// Flushes the folder, which holds the name. Some systems cannot flush folders: a name may then be lost when the
-/// power fails, but not when the process is killed, so this is no error.
+/// Flushes the folder, which holds the name. Some systems cannot flush folders. A name may then be lost when the power
+/// fails, but not when the process is killed. Therefore this is no error.
 fn sync_folder_of(path: &Path) {
     let parent = path.parent().filter(|folder| !folder.as_os_str().is_empty());
     let _ = File::open(parent.unwrap_or(Path::new("."))).and_then(|folder| folder.sync_all());
@@ -173,6 +200,26 @@ mod tests {
         drop(dropped);
         assert_eq!(std::fs::read(&path).unwrap(), b"new");
         assert_eq!(names(&folder), ["a"]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_folder_of_this_name_is_an_error_at_the_beginning() {
+        let folder = folder("is_folder");
+        let error = AtomicFile::create(&folder).unwrap_err().to_string();
+        assert!(error.contains("is_folder") && error.contains("this is a folder"), "{error}");
+        assert_eq!(names(&folder), [""; 0]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_file_in_the_place_of_a_folder_is_told() {
+        let folder = folder("make");
+        make_folder(&folder.join("a/b")).unwrap();
+        make_folder(&folder.join("a")).unwrap();
+        std::fs::write(folder.join("c"), b"").unwrap();
+        let error = make_folder(&folder.join("c")).unwrap_err().to_string();
+        assert!(error.contains("this is a file") && error.contains("remove it"), "{error}");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
@@ -235,7 +282,7 @@ mod tests {
     fn a_name_left_by_an_earlier_process_of_the_same_number_is_passed_over() {
         let folder = folder("same_number");
         let next = BEGUN.load(Ordering::Relaxed);
-        // Other tests of this process take counts meanwhile: a range of names is occupied.
+        // Other tests of this process also take counts, so that a range of names is occupied.
         for count in next..next + 50 {
             let name = format!("a.{}-{count}{SUFFIX}", std::process::id());
             std::fs::write(folder.join(name), b"left over").unwrap();

@@ -12,7 +12,7 @@ pub enum Error {
     File {
         /// The file or folder.
         path: PathBuf,
-        /// The answer of the system.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// Another process holds the lock.
@@ -25,8 +25,25 @@ pub enum Error {
         folder: PathBuf,
         /// The part of the folder that is locked.
         part: String,
-        /// The number of the process that holds the lock; `None` if the lock file does not tell it.
+        /// The number of the process that holds the lock; `None` if the lock file does not contain it.
         holder: Option<u32>,
+    },
+    /// The lock file was removed or replaced while its holder was at work.
+    #[error(
+        "{path}: this lock file, or its folder, was removed or replaced during the run, so another run may use the \
+         folder; this run stops; run again when no other run is at work there"
+    )]
+    LockLost {
+        /// The lock file.
+        path: PathBuf,
+    },
+    /// The name of the lock file belongs to a folder, a link or a device.
+    #[error(
+        "{path}: this is no regular file, so it cannot serve as a lock; remove it, or give another folder"
+    )]
+    LockFile {
+        /// The path of the lock file.
+        path: PathBuf,
     },
     /// The file system of this folder has no locks.
     #[error(
@@ -37,7 +54,7 @@ pub enum Error {
     NoLocks {
         /// The folder.
         folder: PathBuf,
-        /// The answer of the system.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// A finished piece cannot be used.
@@ -47,6 +64,15 @@ pub enum Error {
         path: PathBuf,
         /// The defect.
         reason: &'static str,
+    },
+    /// A piece belongs to another job, and its neighbours may do so too.
+    #[error(
+        "{path}: it belongs to another job, or another build of this program; give another folder, or remove the \
+         folder {}", .path.parent().unwrap_or(.path).display()
+    )]
+    ForeignPiece {
+        /// The file of the piece.
+        path: PathBuf,
     },
     /// A piece was finished, and its file is missing now.
     #[error("{path}: this finished piece of the job '{job}' is missing; run again to compute it")]
@@ -66,7 +92,7 @@ pub enum Error {
         path: PathBuf,
         /// The header, a piece with its number, or the end of the file.
         part: String,
-        /// The place in the file at which this part starts.
+        /// The position in the file at which this part starts.
         offset: u64,
     },
 }
@@ -77,7 +103,7 @@ fn process(holder: Option<u32>) -> String {
 }
 
 impl Error {
-    /// Attaches a path to an answer of the system.
+    /// Attaches a path to an error of the system.
     pub(crate) fn at(path: &std::path::Path) -> impl FnOnce(std::io::Error) -> Error {
         move |source| Error::File { path: path.to_path_buf(), source }
     }

@@ -1,5 +1,5 @@
-//! Long jobs on disk: a run that is killed at any instant leaves pieces from which the next run goes on, and
-//! the result has the bytes of an undisturbed run.
+//! Long jobs on disk. A run that is killed at any instant leaves pieces from which the next run continues, and the
+//! result has the bytes of an undisturbed run.
 //!
 //! ```text
 //!   lock the folder ─► compute the missing pieces ─► assemble ─► check ─► rename ─► remove the pieces
@@ -14,6 +14,7 @@
 //! | [`Lock`] | gives one named part of a folder to one process; ends with the process |
 //! | [`Pieces`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
 //! | [`AtomicFile`], [`write_atomically`] | a file that appears under its name complete or not at all |
+//! | [`make_folder`] | makes a folder with its parents, and tells a file that has its name |
 //! | [`remove_leftovers`] | removes temporary files of processes that no longer run |
 //! | [`npy_header`], [`Order`] | the header of a NumPy file for a two-dimensional array of 16-bit labels |
 //! | [`digest`], [`program_digest`] | 64-bit FNV-1a of bytes; of the running program |
@@ -42,16 +43,17 @@
 //! ```
 //!
 //! # Guarantees
-//! - A file name shows the old bytes or the new bytes, never a part of them, whatever kills the process.
+//! - A file name shows the old bytes or the new bytes, never a part of them, however the process ends.
 //! - A process that is killed or stopped never harms another one: temporary names are not shared, and a stopped
 //!   process keeps its lock.
-//! - A lock ends with its process, however that ends. A lock file that is left on disk locks nothing.
-//! - Each file is flushed before it gets its name. A loss of power can therefore lose the newest file, but cannot
-//!   leave it half written; on systems that cannot flush a folder this rests on the file system.
+//! - A lock ends with its process, however the process ends. A lock file that is left on disk locks nothing.
+//! - A lock file that another process removes or replaces is noticed by [`Lock::confirm`].
+//! - Each file is flushed before it gets its name. A loss of power can therefore lose the newest file, but cannot leave
+//!   it half written. On systems that cannot flush a folder this depends on the file system.
 //! - A damaged piece, and a piece of another job or another build, is an error that names its file.
 //!
-//! The check of [`Pieces::assemble`] reads the file through the operating system's cache. It finds what programs do
-//! wrong. It does not find what a disk loses later.
+//! The check of [`Pieces::assemble`] reads the file through the operating system's cache. It finds errors of programs.
+//! It does not find data that a disk loses later.
 //!
 //! # Not here
 //! Threads, progress, printing: the caller computes the pieces, in any order and on any number of threads.
@@ -70,7 +72,7 @@ mod npy;
 mod open_file;
 mod pieces;
 
-pub use atomic_file::{AtomicFile, remove_leftovers, write_atomically};
+pub use atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
 pub use digest::{digest, program_digest};
 pub use error::Error;
 pub use lock::Lock;

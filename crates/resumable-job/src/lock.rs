@@ -1,8 +1,8 @@
 //! A lock on a named part of a folder, which ends with its process.
 //!
-//! The lock belongs to the open file, not to its name: the system removes it when the process ends, by itself or
-//! killed. A lock file left on disk is therefore harmless, and the next process locks it again. A stopped process
-//! keeps its lock.
+//! The lock belongs to the open file, not to its name: the system removes the lock when the process ends, also if it is
+//! killed. A lock file left on disk is therefore harmless, and the next process locks it again. A stopped process keeps
+//! its lock.
 
 use crate::error::Error;
 use crate::open_file::is_named;
@@ -11,12 +11,13 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Time before a refused lock is asked for once more. Between the lock and the line with its number, a holder's file
-/// tells no number or an old one; that takes microseconds. Longer would delay the refusal for no gain.
+/// Time before a refused lock is tried once more. Between taking the lock and writing its number, a holder's file has
+/// no number or an old one. That takes microseconds. A longer time would delay the refusal without a gain.
 const SECOND_TRY_AFTER: Duration = Duration::from_millis(20);
 
-/// Trials to lock a file that its last holder removes meanwhile. Each trial lost needs another process that ended at
-/// that instant, so a few suffice. The limit guards against file systems on which a file never is the one it was.
+/// Trials to lock a file that its last holder removes meanwhile. Each lost trial needs another process that ended at
+/// that instant, so that a few trials suffice. The limit is for file systems on which a name never shows the file that
+/// was opened.
 const TRIALS: usize = 100;
 
 /// The right of one process to write one part of a folder, until it is dropped.
@@ -33,18 +34,23 @@ impl Lock {
     /// the process, for the message of others, and is removed with the lock.
     ///
     /// # Errors
-    /// [`Error::AtWork`] if another process holds the lock, [`Error::NoLocks`] if the file system has no locks, and
-    /// [`Error::File`] if the lock file cannot be opened or written.
+    /// [`Error::AtWork`] if another process holds the lock, [`Error::NoLocks`] if the file system has no locks,
+    /// [`Error::LockFile`] if the name of the lock file belongs to a folder, a link or a device, and [`Error::File`]
+    /// if the lock file cannot be opened or written.
     pub fn take(folder: &Path, part: &str) -> Result<Self, Error> {
         let path = folder.join(format!("{part}.lock"));
         let mut refused = false;
         for _ in 0..TRIALS {
-            // Not truncated: the number in it may be that of the holder.
+            // A link would lead to another file, and the process number would replace its bytes.
+            if std::fs::symlink_metadata(&path).is_ok_and(|data| !data.is_file()) {
+                return Err(Error::LockFile { path });
+            }
+            // The file is not truncated: the number in it may be the number of the holder.
             let mut options = OpenOptions::new();
             options.read(true).write(true).create(true).truncate(false);
             let file = options.open(&path).map_err(Error::at(&path))?;
             match file.try_lock() {
-                // The last holder removed the file after it was opened here: this lock protects nothing.
+                // The last holder removed the file after this process opened it: the lock protects nothing.
                 Ok(()) if !is_named(&file, &path).map_err(Error::at(&path))? => continue,
                 Ok(()) => {
                     let lock = Lock { file, path };
@@ -68,6 +74,22 @@ impl Lock {
         Err(Error::NoLocks { folder: folder.into(), source })
     }
 
+    /// Makes sure that the lock still protects the folder.
+    ///
+    /// Others can remove the lock file, or the whole folder, and the next process then locks a new file. To be
+    /// called before each step that writes into the folder. It shortens the time in which two processes write
+    /// there, and cannot prevent it: others can remove the file just after the call.
+    ///
+    /// # Errors
+    /// [`Error::LockLost`] if the name of the lock file is gone or belongs to another file.
+    pub fn confirm(&self) -> Result<(), Error> {
+        if is_named(&self.file, &self.path).map_err(Error::at(&self.path))? {
+            Ok(())
+        } else {
+            Err(Error::LockLost { path: self.path.clone() })
+        }
+    }
+
     fn tell_process(&self) -> std::io::Result<()> {
         self.file.set_len(0)?; // the number of a killed holder
         (&self.file).write_all(format!("{}\n", std::process::id()).as_bytes())
@@ -76,17 +98,18 @@ impl Lock {
 
 impl Drop for Lock {
     fn drop(&mut self) {
-        // Removed while still locked, so that a process that opened it before finds its name gone (`take`). That
-        // needs inode numbers; elsewhere the file stays. A file put there by others in the meantime stays too.
+        // The file is removed while it is still locked, so that a process that opened it before finds its name gone
+        // (`take`). This needs inode numbers; on other systems the file stays. A file that another process put there in
+        // the meantime stays too.
         if cfg!(unix) && is_named(&self.file, &self.path).unwrap_or(false) {
             let _ = std::fs::remove_file(&self.path);
         }
     }
 }
 
-/// The number in a lock file. `None` if it cannot be read: on Windows a lock keeps others from reading, too.
+/// The number in a lock file. `None` if it cannot be read: on Windows a lock also prevents others from reading.
 ///
-/// The open file is read, not its name: its holder may end just now and remove the name.
+/// The open file is read, not its name: the holder may end just now and remove the name.
 fn holder(mut file: &File) -> Option<u32> {
     let mut text = String::new();
     file.read_to_string(&mut text).ok()?;
@@ -107,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn the_second_is_refused_with_folder_and_process() {
+    fn a_second_lock_is_an_error_that_names_folder_and_process() {
         let folder = folder("second");
         let first = Lock::take(&folder, "job").unwrap();
         let error = Lock::take(&folder, "job").unwrap_err();
@@ -122,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_are_independent() {
+    fn the_parts_of_a_job_have_separate_locks() {
         let folder = folder("parts");
         let parts = ["part-1-of-2", "part-2-of-2"].map(|part| Lock::take(&folder, part).unwrap());
         assert!(Lock::take(&folder, "part-1-of-2").is_err());
@@ -158,9 +181,9 @@ mod tests {
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
-    /// The lock file appears and goes all the time; never do two threads hold the lock.
+    /// The lock file appears and disappears all the time; two threads never hold the lock at once.
     #[test]
-    fn two_threads_never_hold_the_lock_together() {
+    fn two_threads_never_hold_a_lock_at_once() {
         let folder = folder("never");
         let (inside, taken) = (AtomicUsize::new(0), AtomicUsize::new(0));
         std::thread::scope(|scope| {
@@ -183,15 +206,51 @@ mod tests {
         std::fs::remove_dir_all(&folder).unwrap();
     }
 
+    #[cfg(unix)]
     #[test]
-    fn the_error_names_a_folder_without_locks() {
+    fn a_lock_file_that_is_removed_or_replaced_is_noticed() {
+        let folder = folder("lost");
+        let first = Lock::take(&folder, "job").unwrap();
+        first.confirm().unwrap();
+        std::fs::remove_file(folder.join("job.lock")).unwrap();
+        let error = first.confirm().unwrap_err();
+        assert!(matches!(error, Error::LockLost { .. }), "{error}");
+        let second = Lock::take(&folder, "job").unwrap();
+        second.confirm().unwrap();
+        assert!(first.confirm().is_err());
+        // The end of the first one leaves the lock of the second one.
+        drop(first);
+        second.confirm().unwrap();
+        drop(second);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_name_of_a_folder_or_a_link_is_no_lock() {
+        let folder = folder("no_file");
+        let (path, other) = (folder.join("job.lock"), folder.join("other"));
+        std::fs::write(&other, b"contents").unwrap();
+        std::os::unix::fs::symlink(&other, &path).unwrap();
+        let error = Lock::take(&folder, "job").unwrap_err();
+        assert!(matches!(error, Error::LockFile { .. }), "{error}");
+        assert_eq!(std::fs::read(&other).unwrap(), b"contents");
+        std::fs::remove_file(&path).unwrap();
+        std::fs::create_dir(&path).unwrap();
+        let error = Lock::take(&folder, "job").unwrap_err().to_string();
+        assert!(error.contains("job.lock") && error.contains("remove it"), "{error}");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_folder_without_locks_is_an_error_that_names_it() {
         let source = std::io::Error::from(std::io::ErrorKind::Unsupported);
         let text = Error::NoLocks { folder: "/mnt/x".into(), source }.to_string();
         assert!(text.contains("/mnt/x") && text.contains("another file system"), "{text}");
     }
 
     #[test]
-    fn the_error_names_a_missing_folder() {
+    fn a_missing_folder_is_an_error_that_names_it() {
         let error = Lock::take(Path::new("/nowhere/at/all"), "job").unwrap_err();
         assert!(error.to_string().contains("/nowhere/at/all"), "{error}");
     }

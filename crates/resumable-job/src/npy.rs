@@ -25,7 +25,7 @@ pub fn npy_header(order: Order, rows: usize, columns: usize) -> Vec<u8> {
     // Magic (6 bytes), version (2 bytes), and the length of the text (2 bytes).
     const BEFORE_TEXT: usize = 10;
     // The text is a Python dictionary. A comma after its last entry is optional, and readers accept both forms. Each
-    // order keeps the form in which its files were first written, so that their digests stay comparable.
+    // order keeps the form of its first files, so that their digests stay comparable.
     let (fortran, end) = match order {
         Order::C => ("False", "}"),
         Order::Fortran => ("True", ", }"),

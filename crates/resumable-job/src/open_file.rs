@@ -1,7 +1,7 @@
 //! Whether a name still belongs to an open file.
 //!
-//! A process can open a file, and another process can remove or replace it before the first one locks it. The lock
-//! then belongs to a file without a name and protects nothing. Each lock is therefore followed by this question.
+//! A process can open a file, and another process can remove or replace the file before the first one locks it. The
+//! lock then belongs to a file without a name and protects nothing. Therefore the name is checked after each lock.
 
 use std::fs::File;
 use std::io;
@@ -23,7 +23,8 @@ fn is_same(file: &File, named: &std::fs::Metadata) -> io::Result<bool> {
     Ok((open.dev(), open.ino()) == (named.dev(), named.ino()))
 }
 
-/// Without inode numbers the existence of the name must do; lock files are not removed there (`lock.rs`).
+/// Without inode numbers only the existence of the name is checked. Lock files are not removed on such systems
+/// (`lock.rs`).
 #[cfg(not(unix))]
 fn is_same(_: &File, _: &std::fs::Metadata) -> io::Result<bool> {
     Ok(true)

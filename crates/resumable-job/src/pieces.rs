@@ -1,4 +1,4 @@
-//! Finished pieces of a long job, kept on disk until the result is complete.
+//! Finished pieces of a long job, stored on disk until the result is complete.
 //!
 //! A piece carries the digest of its job, its own number and a digest of all its bytes:
 //!
@@ -6,7 +6,7 @@
 //!   magic (8) │ digest of the job (16) │ number of the piece (8) │ payload │ digest of all before (16)
 //! ```
 
-use crate::atomic_file::{AtomicFile, remove_leftovers, write_atomically};
+use crate::atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
 use crate::digest::{digest, program_digest};
 use crate::error::Error;
 use std::fs::File;
@@ -20,8 +20,8 @@ const DIGEST: usize = 16;
 const HEAD: usize = MAGIC.len() + DIGEST + 8;
 
 /// The pieces of one job in one folder.
-///
-/// Two processes that write the same piece at once do no harm, but waste work; a [`crate::Lock`] avoids that, and is
+/// Two processes that write the same piece at once do no harm, but waste work. A [`crate::Lock`] avoids this.
+/// [`Pieces::assemble`] and [`Pieces::remove`] need the lock.
 /// needed for [`Pieces::assemble`] and [`Pieces::remove`].
 #[derive(Debug, Clone)]
 pub struct Pieces {
@@ -32,12 +32,15 @@ pub struct Pieces {
 }
 
 impl Pieces {
-    /// The pieces of the job described, in `folder`, which is made if it does not exist.
+    /// The pieces of the described job in `folder`. The folder is made if it does not exist. Temporary files of killed runs
+    /// are removed from it.
     ///
     /// The running program belongs to the description: another build may compute other bytes.
     pub fn open(folder: &Path, description: &str) -> Result<Self, Error> {
         let description = format!("{description}; program {}", program_digest()?);
-        std::fs::create_dir_all(folder).map_err(Error::at(folder))?;
+        make_folder(folder)?;
+        // Each killed run leaves the pieces it was writing. Many killed runs would fill the disk.
+        remove_leftovers(folder);
         let mut job = [0; DIGEST];
         job.copy_from_slice(digest(description.as_bytes()).as_bytes());
         Ok(Pieces { folder: folder.to_path_buf(), job, description })
@@ -50,45 +53,38 @@ impl Pieces {
     /// The payload of a piece; `None` if the piece is not finished.
     ///
     /// # Errors
-    /// [`Error::Piece`] for a damaged file and for a piece of another job.
+    /// [`Error::Piece`] for a damaged file and for another piece of this job; [`Error::ForeignPiece`] for a piece of
+    /// another job.
     pub fn read(&self, piece: usize) -> Result<Option<Vec<u8>>, Error> {
         let path = self.path(piece);
+        // Asked before the file is opened: opening a named pipe would wait for a writer.
+        match std::fs::metadata(&path) {
+            Ok(data) if data.is_file() => {}
+            Ok(_) => return Err(Error::Piece { path, reason: "it is no regular file" }),
+            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(source) => return Err(Error::File { path, source }),
+        }
         let mut bytes = match std::fs::read(&path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
             Err(source) => return Err(Error::File { path, source }),
         };
-        if let Some(reason) = self.defect(piece, &bytes) {
+        if let Some(reason) = defect(&bytes) {
             return Err(Error::Piece { path, reason });
+        }
+        let (job, number) = bytes[MAGIC.len()..HEAD].split_at(DIGEST);
+        if job != self.job {
+            return Err(Error::ForeignPiece { path });
+        }
+        if number != (piece as u64).to_le_bytes() {
+            return Err(Error::Piece { path, reason: "it is another piece of this job" });
         }
         bytes.truncate(bytes.len() - DIGEST);
         bytes.drain(..HEAD);
         Ok(Some(bytes))
     }
 
-    /// The reason why the contents of a file are not this piece of this job, if there is one.
-    fn defect(&self, piece: usize, bytes: &[u8]) -> Option<&'static str> {
-        let Some((head, rest)) = bytes.split_at_checked(HEAD) else {
-            return Some("it is too short to be a piece");
-        };
-        if !head.starts_with(MAGIC) {
-            return Some("it is no piece of any job");
-        }
-        if rest.len() < DIGEST {
-            return Some("it is cut off");
-        }
-        let (checked, sum) = bytes.split_at(bytes.len() - DIGEST);
-        if sum != digest(checked).as_bytes() {
-            return Some("it is damaged: its digest is not that of its contents");
-        }
-        let (job, number) = head[MAGIC.len()..].split_at(DIGEST);
-        if job != self.job || number != (piece as u64).to_le_bytes() {
-            return Some("it belongs to another job, or another build of this program");
-        }
-        None
-    }
-
-    /// Keeps a finished piece.
+    /// Stores a finished piece.
     pub fn write(&self, piece: usize, payload: &[u8]) -> Result<(), Error> {
         let mut bytes = Vec::with_capacity(HEAD + payload.len() + DIGEST);
         bytes.extend_from_slice(MAGIC);
@@ -108,14 +104,14 @@ impl Pieces {
         })
     }
 
-    /// Writes `header` and the payloads of the pieces 0 … `pieces` − 1 to the file `path`, and compares what was
-    /// written with the pieces before the file gets its name.
+    /// Writes `header` and the payloads of the pieces 0 … `pieces` − 1 to the file `path`. Compares the written bytes
+    /// with the pieces before the file gets its name.
     ///
-    /// Each payload that agrees is handed to `look`, in order, with its number.
+    /// `look` receives each payload that agrees, in order, with its number.
     ///
     /// # Errors
-    /// [`Error::MissingPiece`] if a piece is not finished; [`Error::Differs`] if the file written does not hold the
-    /// bytes of the pieces. Neither touches the pieces, nor a file that had this name before.
+    /// [`Error::MissingPiece`] if a piece is not finished; [`Error::Differs`] if the written file does not have the
+    /// bytes of the pieces. After either error the pieces, and a file that had this name before, are unchanged.
     pub fn assemble(
         &self,
         path: &Path,
@@ -169,7 +165,7 @@ impl Pieces {
         Ok(())
     }
 
-    /// Removes all pieces of a job that is done, and what killed runs left half written.
+    /// Removes all pieces of a finished job, and the half-written files of killed runs.
     pub fn remove(self, pieces: usize) -> Result<(), Error> {
         for piece in 0..pieces {
             let path = self.path(piece);
@@ -181,10 +177,27 @@ impl Pieces {
             }
         }
         remove_leftovers(&self.folder);
-        // A folder that holds other files is not empty: it stays.
+        // A folder with other files is not empty: it stays.
         let _ = std::fs::remove_dir(&self.folder);
         Ok(())
     }
+}
+
+/// The reason why the contents of a file are not a whole piece of any job; `None` if they are one. They then have at
+/// least [`HEAD`] bytes.
+fn defect(bytes: &[u8]) -> Option<&'static str> {
+    let Some((head, rest)) = bytes.split_at_checked(HEAD) else {
+        return Some("it is too short to be a piece");
+    };
+    if !head.starts_with(MAGIC) {
+        return Some("it is no piece of any job");
+    }
+    if rest.len() < DIGEST {
+        return Some("it is cut off");
+    }
+    let (checked, sum) = bytes.split_at(bytes.len() - DIGEST);
+    (sum != digest(checked).as_bytes())
+        .then_some("it is damaged: its digest is not that of its contents")
 }
 
 #[cfg(test)]
@@ -239,6 +252,43 @@ mod tests {
         std::fs::rename(&path, kept.path(1)).unwrap();
         assert!(matches!(kept.read(1), Err(Error::Piece { .. })));
         kept.remove(2).unwrap();
+    }
+
+    #[test]
+    fn a_job_that_is_opened_again_removes_what_killed_runs_left() {
+        let folder = folder("killed");
+        drop(Pieces::open(&folder, "a job").unwrap());
+        let (left, used) =
+            (folder.join("piece_000002.bin.1-7.partial.tmp"), folder.join("piece_000003.bin"));
+        std::fs::write(&left, b"half").unwrap();
+        let writer = AtomicFile::create(&used).unwrap();
+        let kept = Pieces::open(&folder, "a job").unwrap();
+        assert!(!left.exists());
+        // The file of a running writer stays.
+        writer.finish().unwrap();
+        assert!(used.exists());
+        kept.remove(4).unwrap();
+    }
+
+    #[test]
+    fn a_piece_of_another_job_names_the_folder_to_remove() {
+        let folder = folder("foreign");
+        Pieces::open(&folder, "a job").unwrap().write(0, b"bytes").unwrap();
+        let error = Pieces::open(&folder, "another job").unwrap().read(0).unwrap_err();
+        assert!(matches!(error, Error::ForeignPiece { .. }), "{error}");
+        assert!(error.to_string().ends_with(&format!("the folder {}", folder.display())));
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_folder_in_the_place_of_a_piece_is_told() {
+        let folder = folder("no_file");
+        let kept = Pieces::open(&folder, "a job").unwrap();
+        std::fs::create_dir(kept.path(0)).unwrap();
+        let error = kept.read(0).unwrap_err();
+        assert!(matches!(error, Error::Piece { .. }), "{error}");
+        assert!(error.to_string().contains("no regular file; remove it"), "{error}");
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -5,10 +5,10 @@
 #![allow(missing_docs, clippy::unwrap_used)]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use example_systems::valve::turns;
+use example_systems::valve::turning_points;
 use rayon::prelude::*;
 
-/// Returns for each flow rate: enough that the start of an execution costs nothing in comparison.
+/// Returns for each flow rate. Their number is so large that the start of an execution does not matter.
 const RETURNS: usize = 500;
 
 fn valve(criterion: &mut Criterion) {
@@ -17,11 +17,16 @@ fn valve(criterion: &mut Criterion) {
     group.sample_size(10);
     group.throughput(Throughput::Elements((RETURNS * rates.len()) as u64));
     group.bench_function("one thread", |b| {
-        b.iter(|| rates.iter().map(|&q| turns(q, RETURNS - 1, 1).unwrap()[0]).sum::<f64>());
+        b.iter(|| {
+            rates.iter().map(|&q| turning_points(q, RETURNS - 1, 1).unwrap()[0]).sum::<f64>()
+        });
     });
     group.bench_function("all threads", |b| {
         b.iter(|| {
-            rates.par_iter().map(|&q| turns(q, RETURNS - 1, 1).unwrap()[0]).collect::<Vec<_>>()
+            rates
+                .par_iter()
+                .map(|&q| turning_points(q, RETURNS - 1, 1).unwrap()[0])
+                .collect::<Vec<_>>()
         });
     });
     group.finish();

@@ -6,13 +6,13 @@
 
 #![allow(clippy::print_stdout)] // a program
 
-use example_systems::valve::turns;
+use example_systems::valve::turning_points;
 use hybrid_system::Error;
 
 fn main() -> Result<(), Error> {
     println!("{:>4}  displacements at the last turning points", "q");
     for flow_rate in [0.5, 1.0, 2.0, 4.0, 5.0, 6.0, 7.0, 7.5, 8.0, 9.0] {
-        let mut found = turns(flow_rate, 500, 64)?;
+        let mut found = turning_points(flow_rate, 500, 64)?;
         found.sort_by(f64::total_cmp);
         found.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
         let shown: Vec<String> = found.iter().take(8).map(|y| format!("{y:.6}")).collect();
@@ -34,7 +34,7 @@ mod tests {
     #[test]
     fn the_disc_comes_to_rest_at_large_flow_rates() {
         for flow_rate in [9.0, 9.9] {
-            let found = turns(flow_rate, 1500, 1).unwrap()[0];
+            let found = turning_points(flow_rate, 1500, 1).unwrap()[0];
             assert!((found * (found + 10.0).sqrt() - flow_rate).abs() < 1e-6, "{found}");
         }
     }
@@ -81,7 +81,7 @@ mod tests {
     /// At q = 2 the motion is periodic, with one turning point a period.
     #[test]
     fn one_turning_point_a_period() {
-        let found = turns(2.0, 300, 8).unwrap();
+        let found = turning_points(2.0, 300, 8).unwrap();
         assert!(found.windows(2).all(|pair| (pair[0] - pair[1]).abs() < 1e-8), "{found:?}");
         assert!((found[0] - 1.434_55).abs() < 1e-4, "{}", found[0]);
     }

@@ -1,8 +1,8 @@
 //! The rimless wheel (McGeer 1990; Coleman 1998): a point mass on rigid spokes that rolls down a slope.
 //!
-//! On one spoke it is an inverted pendulum, θ̈ = sin θ, with time in units of √(length/gravity). When the spoke is
-//! at the angle γ + α from the vertical, the next spoke hits the ground at γ − α, and the speed is multiplied by cos
-//! 2α. So Ω = θ̇² after a collision is mapped to cos² 2α (Ω + 4 sin γ sin α). Its fixed point is known.
+//! On one spoke it is an inverted pendulum, θ̈ = sin θ, with time in units of √(length/gravity). When the spoke is at
+//! the angle γ + α from the vertical, the next spoke hits the ground at γ − α, and the speed is multiplied by cos 2α.
+//! So Ω = θ̇² after a collision is mapped to cos² 2α (Ω + 4 sin γ sin α). The fixed point of this map is known.
 //!
 //! Run with `cargo run -p return-map --example rimless_wheel`.
 
@@ -202,7 +202,7 @@ mod tests {
         }
     }
 
-    /// From any sufficient speed one step is Ω′ = cos² 2α (Ω + 4 sin γ sin α).
+    /// From any sufficient speed one step gives Ω′ = cos² 2α (Ω + 4 sin γ sin α).
     #[test]
     fn one_step_agrees_with_its_formula() {
         let wheel = Wheel { slope: 0.1, half_angle: 0.3 };
@@ -216,7 +216,7 @@ mod tests {
         }
     }
 
-    /// Below the least speed the wheel never passes the vertical. It rocks, and stands in the end.
+    /// Below the least speed the wheel never passes the vertical. It rocks, and finally rests on two spokes.
     #[test]
     fn too_small_a_speed_ends_at_rest() {
         let wheel = Wheel { slope: 0.02, half_angle: 0.3 };

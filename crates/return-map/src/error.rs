@@ -31,7 +31,7 @@ pub enum Error {
         left: f64,
         /// Right end.
         right: f64,
-        /// Number of samples asked for.
+        /// The requested number of samples.
         samples: usize,
     },
     /// Newton's method found no periodic point.

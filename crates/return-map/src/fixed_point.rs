@@ -25,20 +25,21 @@ pub struct FixedPoint {
     pub intersection: Intersection,
 }
 
-/// The extremum of f(x) − x counts as zero if it is at most this number of ulps of x. Rounding of f and of the
-/// difference makes a few ulps; chosen with some to spare. A larger number would report near misses as tangent points.
+/// The extremum of f(x) − x counts as zero if it is at most this number of ulps of x. The rounding of f and of the
+/// difference makes a few ulps; the value was chosen with a margin. A larger number would report near misses as tangent
+/// points.
 const TANGENT_ULPS: f64 = 8.0;
 
 /// A sign change is a crossing if the residual is at most this part of the point's size. At a jump through the diagonal
-/// the residual keeps the size of the jump; smaller jumps than this are taken for crossings. Chosen.
+/// the residual keeps the size of the jump. Jumps smaller than this are reported as crossings. The value was chosen.
 const CROSSING_RESIDUAL: f64 = 1e-8;
 
 /// The fixed points of `map` that `samples` equally spaced points of [left, right] reveal, from left to right.
 ///
 /// A sign change of f(x) − x between neighbouring samples is refined to full precision. An extremum of f(x) − x is
 /// refined by golden-section search and is a fixed point if it is zero to rounding. Two fixed points between
-/// neighbouring samples may be missed. So may a fixed point beside a gap in the domain of the map, where `map` gives
-/// `None`. A jump through the diagonal is not a fixed point.
+/// neighbouring samples may be missed. A fixed point beside a gap in the domain of the map, where `map` gives `None`,
+/// may be missed too. A jump through the diagonal is not a fixed point.
 ///
 /// ```
 /// use return_map::{Intersection, fixed_points};
@@ -108,7 +109,7 @@ fn fixed_sample(values: &[Option<f64>], k: usize, location: f64) -> FixedPoint {
 fn transverse_point(gap: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<FixedPoint> {
     let location = bracketed_root(|x| gap(x).unwrap_or(f64::NAN), left, right).ok()?;
     let residual = gap(location)?;
-    // A point near 0 is judged by the sample interval: relative to x itself no residual would be small.
+    // For a point near 0 the scale is the sample interval: relative to x itself no residual would be small.
     let scale = left.abs().max(right.abs()).max(right - left);
     (residual.abs() <= CROSSING_RESIDUAL * scale).then_some(FixedPoint {
         location,

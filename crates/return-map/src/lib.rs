@@ -1,4 +1,4 @@
-//! Return maps of hybrid systems, their fixed and periodic points, and the stability of these from either side.
+//! Return maps of hybrid systems, their fixed and periodic points, and the stability of these points from either side.
 //!
 //! ```text
 //!     section ──start──► arc ─event─► arc ─event─► … ─event on the section──► image
@@ -15,7 +15,8 @@
 //! | [`periodic_point`], [`periodic_point_with_derivative`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
 //! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
 //!
-//! A ball that keeps half of its speed at each bounce; the return map takes speed to speed:
+//! A ball keeps half of its speed at each bounce. The return map maps the speed after a bounce to the speed after the
+//! next bounce:
 //!
 //! ```
 //! use hybrid_system::*;
@@ -55,7 +56,7 @@
 //!
 //! # Accuracy
 //! A return is as exact as the crossings that the system computes. Its derivative is as exact as the derivatives of the
-//! system. [`fixed_points`] finds the fixed points that its samples reveal.
+//! system. [`fixed_points`] finds only fixed points that its samples reveal.
 //!
 //! # Poincaré sections of plain flows
 //! A plain flow is a hybrid system with one mode, and a guard whose reset changes nothing. The example `lorenz`

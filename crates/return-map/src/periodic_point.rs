@@ -19,17 +19,17 @@ pub struct PeriodicPoint<const K: usize> {
     pub steps: usize,
 }
 
-/// Most Newton steps. From a good start Newton's method needs five to ten, because the number of right digits doubles
-/// in a step. The limit stops a search that wanders.
+/// Most Newton steps. From a good start Newton's method needs five to ten steps, because each step doubles the number
+/// of right digits. The limit ends a search that does not converge.
 const NEWTON_STEPS: usize = 50;
 
-/// A step is halved at most this number of times until the residual falls: to 10⁻⁹ of its length. If even this does
-/// not help, the direction is wrong, or the residual is the noise of the map.
+/// A step is halved at most this number of times until the residual falls: to 10⁻⁹ of its length. If even this does not
+/// lower the residual, the direction is wrong, or the residual is the noise of the map.
 const HALVINGS: usize = 30;
 
-/// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this,
-/// relative to the point. Chosen for return maps of integrated flows, whose noise is far above an ulp. A larger
-/// value would accept points that are not periodic.
+/// A Newton step that no longer lowers the residual is attributed to the noise of the map if its length, relative to
+/// the point, is at most this. The value was chosen for return maps of integrated flows, whose noise is far above an
+/// ulp. A larger value would accept points that are not periodic.
 const NOISE: f64 = 1e-10;
 
 /// A point of period `period` of `map`, by damped Newton steps from `start`.
@@ -106,17 +106,18 @@ fn newton<const K: usize>(
         return Err(none(f64::NAN, 0));
     }
     let (mut x, mut rest) = (*start, displacement(start)?);
-    // True once no part of a step lowers the residual, and the step is small enough to be noise.
+    // True if no part of a step lowers the residual, and the step is small enough to be noise.
     let mut stuck = false;
     for steps in 0..=NEWTON_STEPS {
         let whole = whole(&x)?;
         let slope = whole - SMatrix::identity();
-        // Sixteen ulps a step of the map, of a point of size 1 at least: below it further Newton steps follow rounding.
+        // Sixteen ulps for each step of the map, of a point of size 1 at least. Below this residual further Newton
+        // steps follow rounding.
         let rounding = 16.0 * f64::EPSILON * period as f64 * (1.0 + x.amax());
         let step = solve(&slope, &rest);
         let tiny = step.is_some_and(|step| step.amax() <= rounding);
-        // At a nearly singular derivative the residual is of rounding size far from the point already. So the next step
-        // must be tiny too, unless the residual is exactly zero or no steps are left.
+        // At a nearly singular derivative the residual is of rounding size even far from the point. Therefore the next
+        // step must be tiny too, unless the residual is exactly zero or no steps are left.
         if stuck || rest.amax() <= rounding && (tiny || rest.amax() == 0.0 || steps == NEWTON_STEPS)
         {
             if !whole.iter().all(|entry| entry.is_finite()) {
@@ -137,7 +138,7 @@ fn newton<const K: usize>(
         let whole_step = step.amax();
         let mut halvings = 0;
         loop {
-            // A step may leave the domain of the map; then it is halved as well.
+            // A step may leave the domain of the map. Then it is halved as well.
             if let Ok(next) = displacement(&(x - step))
                 && (next.amax() < size || size <= rounding)
             {
@@ -147,7 +148,8 @@ fn newton<const K: usize>(
             step *= 0.5;
             halvings += 1;
             if halvings > HALVINGS {
-                // The residual cannot be lowered. If the full step is tiny, the residual is the noise of the map.
+                // No part of the step lowers the residual. If the full step is tiny, the residual is the noise of the
+                // map.
                 if !(whole_step <= NOISE * (1.0 + x.amax())) {
                     return Err(none(size, steps));
                 }
@@ -231,8 +233,8 @@ mod tests {
     proptest! {
         /// A linear map about a planted point has its location and its multipliers.
         #[test]
-        fn planted_points_are_found(a in -5.0..5.0f64, b in -5.0..5.0f64, p in -0.9..0.9f64, q in 1.1..3.0f64, turn in 0.0..3.0f64) {
-            let (sin, cos) = pxfm::f_sincos(turn);
+        fn planted_points_are_found(a in -5.0..5.0f64, b in -5.0..5.0f64, p in -0.9..0.9f64, q in 1.1..3.0f64, angle in 0.0..3.0f64) {
+            let (sin, cos) = pxfm::f_sincos(angle);
             let rotation = SMatrix::<f64, 2, 2>::new(cos, -sin, sin, cos);
             let matrix = rotation * SMatrix::<f64, 2, 2>::new(p, 0.0, 0.0, q) * rotation.transpose();
             let center = Vector2::new(a, b);

@@ -103,7 +103,7 @@ where
             let Some(event) = arc.event() else { continue };
             events += 1;
             let back = self.section.coordinates(event);
-            // A terminal event off the section: the execution ends, and the loop with it.
+            // A terminal event off the section: the execution ends, and this loop ends too.
             if back.is_none() && event.after.is_none() {
                 continue;
             }
@@ -123,8 +123,8 @@ where
     /// The image of a point of a one-dimensional section; `None` if the execution certainly never returns.
     ///
     /// # Errors
-    /// As [`next`](Self::next), but an execution that certainly never returns is no error. An execution that reaches
-    /// a limit may still return later, and is an error.
+    /// As [`next`](Self::next), except that an execution that certainly never returns gives `None`. An execution that
+    /// reaches a limit may still return later, and is an error.
     pub fn image(&self, coordinate: f64) -> Result<Option<f64>, Error>
     where
         C: Section<T, N, 1>,

@@ -1,4 +1,4 @@
-//! Sections: the events between which a return map maps.
+//! Sections: the surfaces that a return map maps to themselves.
 
 use hybrid_system::{Event, HybridSystem, State};
 use nalgebra::{SMatrix, SVector};

@@ -28,8 +28,8 @@ pub struct OneSidedStability {
     pub side: Side,
     /// The stability over all distances.
     pub stability: Stability,
-    /// Pairs (δ, δ − δ′) of a distance and its decrease in one step, negative if it grows. From the largest δ to the
-    /// smallest; points that change sides or have no image are left out.
+    /// Pairs (δ, δ − δ′) of a distance and its decrease in one step; the decrease is negative if the distance grows.
+    /// The pairs run from the largest δ to the smallest. Points that change sides or have no image are left out.
     pub approach: Vec<(f64, f64)>,
 }
 
@@ -50,10 +50,10 @@ impl OneSidedStability {
 
 /// Probes one side of a fixed point.
 ///
-/// `displacement` is the map in the coordinate δ = |x − x*|. It takes a distance to the distance of the image on the
-/// same side, negative if the image is on the other side, `None` if there is no image. A model that knows its map near
-/// the fixed point can compute it without cancellation. `count` distances are probed, `largest` and its halves,
-/// quarters and so on.
+/// `displacement` is the map in the coordinate δ = |x − x*|. It maps a distance to the distance of the image on the
+/// same side. The result is negative if the image is on the other side, and `None` if there is no image. A model that
+/// knows its map near the fixed point can compute it without cancellation. `count` distances are probed: `largest`, its
+/// half, its quarter and so on.
 ///
 /// ```
 /// use return_map::{Side, Stability, one_sided_stability};

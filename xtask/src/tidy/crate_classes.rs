@@ -3,10 +3,10 @@
 use super::breach::Breach;
 use CrateClass::{Computing, Files, Program, TestSupport};
 
-/// The things that a crate may do besides computing.
+/// The actions that a crate may take besides computing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CrateClass {
-    /// Nothing else: the same input gives the same result, on any machine and in a browser.
+    /// No other actions: the same input gives the same result, on any machine and in a browser.
     Computing,
     /// Panic, like the tests that use it.
     TestSupport,
@@ -37,7 +37,7 @@ const CLASSES: [(&str, CrateClass, &str); 13] = [
     ("hopper-measurements", Program, "looks at clocks, and says what it measured"),
 ];
 
-/// Crates that any other system could use: they do not know the hopper.
+/// Crates that any other system could use. They do not contain the word hopper.
 pub(super) const GENERIC: [&str; 5] =
     ["hybrid-system", "return-map", "basin-of-attraction", "journal-figures", "resumable-job"];
 

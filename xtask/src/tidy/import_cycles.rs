@@ -1,10 +1,10 @@
 //! No import cycles between the files of a crate.
 //!
-//! Two files that import each other can only be read together. Without cycles the files of a crate have
-//! layers, and each can be read after those that it imports.
+//! Two files that import each other can only be read together. Without cycles the files of a crate have layers, and
+//! each file can be read after the files that it imports.
 //!
-//! A re-export, `pub use door::Door` in `room/mod.rs`, is no import of its own: it is a table of contents. Who imports
-//! `room::Door` depends on `room/door.rs`.
+//! A re-export, `pub use door::Door` in `room/mod.rs`, is not counted as an import: it is a table of contents. A file
+//! that imports `room::Door` depends on `room/door.rs`.
 
 use super::breach::Breach;
 use super::imports::imports;
@@ -49,7 +49,7 @@ fn is_below(module: &Module, path: &[String]) -> bool {
     path.len() > module.path.len() && module.path.iter().zip(path).all(|(a, b)| a == b)
 }
 
-/// Re-exports of re-exports that are followed. A room inside a room has two; the limit ends a circle of them.
+/// Re-exports of re-exports that are followed. A room inside a room has two. The limit ends a cycle of re-exports.
 const MOST_RE_EXPORTS: usize = 8;
 
 /// The path of the module that defines an item, through the re-exports on the way.

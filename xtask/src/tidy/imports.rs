@@ -16,7 +16,7 @@ pub(super) struct Import {
 /// The imports of a file from its own crate: `use crate::…`, `use super::…`, and `use child::…` of a file with
 /// modules.
 ///
-/// Tests are left out: they may use whatever the crate has.
+/// Tests are left out: they may import anything from the crate.
 pub(super) fn imports(module: &Module, modules: &[Module]) -> Vec<Import> {
     let mut found = Vec::new();
     let mut statement: Option<(usize, bool, String)> = None;
@@ -117,7 +117,7 @@ mod tests {
     }
 
     #[test]
-    fn trees_are_taken_apart() {
+    fn a_tree_of_imports_gives_each_path() {
         let text = "use crate::{Error, map::{self, orbit::{Orbit, orbit as o}}};\nuse std::fmt;\n";
         assert_eq!(
             imported("x.rs", text),

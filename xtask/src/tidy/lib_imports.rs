@@ -1,7 +1,7 @@
 //! Inside a crate nothing is imported through `lib.rs`.
 //!
-//! `lib.rs` collects names for users of the crate. A file of the crate that imports from there hides which file
-//! it depends on, and with that the layers.
+//! `lib.rs` collects names for users of the crate. If a file of the crate imports from there, its dependencies, and
+//! with them the layers, are hidden.
 
 use super::breach::Breach;
 use super::imports::imports;

@@ -1,15 +1,15 @@
-//! The rules for one file and for one line of code.
+//! Code that files and lines may not contain.
 
 use super::breach::Breach;
 use super::crate_classes::{CrateClass, GENERIC, class_of};
 use super::sources::Source;
 
-/// The crate and the file that call loops compiled for wider vectors, after asking the processor.
+/// The crate and the file with calls of loops compiled for wider vectors, after a check of the processor.
 const WITH_UNSAFE_CODE: (&str, &str) = ("passive-hopper", "simd.rs");
-/// The crate and the file that call the root finder of the `roots` crate, on brackets that are certain.
+/// The crate and the file with calls of the root finder of the `roots` crate, on brackets that are certain.
 const WITH_ROOTS: (&str, &str) = ("hybrid-system", "bracketed_root.rs");
-/// Lines of a file. The numerical crates that were read as examples stay below it; past it a file held more
-/// than one concept each time.
+/// Largest number of lines of a file. The numerical crates that were read as examples stay below it. In this project
+/// each longer file contained more than one concept.
 const LONGEST_FILE: usize = 400;
 
 const PRINTING: [&str; 5] = ["print!(", "println!(", "eprint!(", "eprintln!(", "dbg!("];
@@ -31,7 +31,8 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
     let (name, text) = (source.name.as_str(), source.text.as_str());
     let mut breach = |line: usize, rule: &str| breaches.push(Breach::new(name, line, rule));
     if name.ends_with(".toml") {
-        // A fuzz crate is no part of the workspace, since it needs another compiler: it names its own versions.
+        // A fuzz crate is not part of the workspace, since it needs another compiler. Therefore it has its own
+        // versions.
         if name.ends_with("Cargo.toml") && !name.contains("/fuzz/") {
             check_manifest(text, &mut breach);
         }
@@ -44,7 +45,7 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
     if in_crate.is_some() && source.in_src().is_some() && !text.starts_with("//!") {
         breach(1, "a library file starts with what it holds: //!");
     }
-    // A crate without a class is treated as the strictest one; `crate_classes` reports it.
+    // A crate without a class is treated like the strictest class; `crate_classes` reports it.
     let class = in_crate.map(|name| class_of(name).unwrap_or(CrateClass::Computing));
     for (at, line) in (1..).zip(text.lines()) {
         let code = line.trim_start();
@@ -53,7 +54,7 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
         {
             breach(at, "a generic crate does not know the hopper");
         }
-        // This file names the words itself.
+        // This file itself contains the words.
         if has(code, &["TODO", "FIXME", "XXX"]) && !name.ends_with("tidy/line_rules.rs") {
             breach(at, "unfinished: finish it, or file an issue");
         }
@@ -85,7 +86,7 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
     }
 }
 
-/// Whether a file is the one of that name in a crate, in whichever folder.
+/// Whether a file is the one of that name in a crate, in any folder.
 fn is(source: &Source, (in_crate, file): (&str, &str)) -> bool {
     source.crate_name() == Some(in_crate) && source.name.rsplit('/').next() == Some(file)
 }

@@ -3,7 +3,7 @@
 //! | rule | file |
 //! |---|---|
 //! | which crates may print, read files or look at clocks | `crate_classes.rs` |
-//! | what a line of code may not contain | `line_rules.rs` |
+//! | code that a line may not contain | `line_rules.rs` |
 //! | the workspace lists its members | `workspace_members.rs` |
 //! | no import cycles between files | `import_cycles.rs` |
 //! | no imports through `lib.rs` | `lib_imports.rs` |

@@ -1,4 +1,4 @@
-//! The modules of a crate, by the files that hold them.
+//! The modules of a crate, with their files.
 
 use super::sources::Source;
 
@@ -19,7 +19,8 @@ impl Module<'_> {
 
 /// The modules of a package's library; of its program, if it has no library.
 ///
-/// Beside a library the programs, `main.rs` and `bin/`, are crates of their own: they import it by its name.
+/// In a package with a library, the programs `main.rs` and `bin/` are separate crates: they import the library by its
+/// name.
 pub(super) fn modules(files: &[Source]) -> Vec<Module<'_>> {
     let inside = |source: &Source| source.in_src().map(str::to_owned);
     let has_library = files.iter().any(|source| inside(source).as_deref() == Some("lib.rs"));
@@ -41,7 +42,7 @@ fn path_of(source: &Source) -> Vec<&str> {
     path
 }
 
-/// The module that defines what `path` names: the longest part of the path that is a module.
+/// The module that defines the item that `path` names: the longest part of the path that is a module.
 pub(super) fn module_of<'m, 's>(
     modules: &'m [Module<'s>],
     path: &[String],

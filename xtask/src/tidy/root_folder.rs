@@ -4,7 +4,7 @@ use super::breach::Breach;
 use crate::error::Error;
 use std::path::Path;
 
-/// The names that may lie in the root, besides files whose name begins with a dot.
+/// Names that are allowed in the root, besides files whose name begins with a dot.
 const KNOWN: [&str; 8] =
     ["Cargo.toml", "Cargo.lock", "LICENSE", "README.md", "crates", "xtask", "docs", "target"];
 

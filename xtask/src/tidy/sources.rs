@@ -1,4 +1,4 @@
-//! The files that the rules look at.
+//! The files that the rules check.
 
 use crate::error::Error;
 use std::path::Path;
@@ -39,8 +39,8 @@ impl Source {
         Source { name: name.to_owned(), text: text.to_owned(), is_test: false }
     }
 
-    /// The lines of the file that are no tests, each with its number from one: all before `#[cfg(test)]` and
-    /// `mod tests {`, which end a file.
+    /// The lines of the file that are not tests, each with its number from one. They end before `#[cfg(test)]` and `mod
+    /// tests {`, which end a file.
     pub(super) fn lines_before_tests(&self) -> impl Iterator<Item = (usize, &str)> {
         let mut lines = (1..).zip(self.text.lines()).peekable();
         let is_test = self.is_test;
@@ -120,7 +120,7 @@ fn collect_in(
         let file = entry.file_name().to_string_lossy().into_owned();
         let name = format!("{folder}/{file}");
         if entry.path().is_dir() {
-            // Build results: a fuzz crate has a `target` of its own.
+            // Build results: a fuzz crate has its own `target`.
             if file != "target" {
                 collect_in(root, &name, chosen, names)?;
             }

@@ -1,7 +1,7 @@
 //! The workspace lists its members one by one.
 //!
-//! With `crates/*` any folder becomes a member: one whose tests cannot link here, such as an extension module
-//! of another language, would break `cargo test --workspace`.
+//! With `crates/*` any folder becomes a member. A folder whose tests cannot link here, such as an extension module of
+//! another language, would break `cargo test --workspace`.
 
 use super::breach::Breach;
 

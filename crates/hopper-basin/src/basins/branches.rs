@@ -7,9 +7,9 @@ use basin_of_attraction::{Branch, Interval, monotone_branches};
 use passive_hopper::alpha_star;
 use std::f64::consts::PI;
 
-/// Samples of a part on which the map is known to be monotone. Such a part may contain one edge of grounding, and
-/// two samples on either side of it would suffice to bracket it. 64 intervals leave room for a gap of grounding
-/// that takes up nearly all of a part.
+/// Samples of a part on which the map is known to be monotone. Such a part may contain one edge of grounding, which
+/// samples on both sides of it bracket. With 64 intervals both sides have samples even if a gap of grounding takes up
+/// nearly all of the part.
 const SAMPLES_OF_MONOTONE_PART: usize = 65;
 
 /// The monotone branches of the map from α*_`from` to α*_`to`.
@@ -25,7 +25,7 @@ pub fn branches(fates: &Fates, from: u64, to: u64, samples: usize) -> Result<Vec
     let mut branches = Vec::new();
     for n in from..to {
         let hump = Hump::new(n)?;
-        // Without the fixed points themselves: a hop from one has no loss, and belongs to neither side.
+        // The fixed points are excluded: a hop from a fixed point has no loss, and the point belongs to neither side.
         let (left, end) = (hump.star.value().next_up(), (n + 1) as f64 * PI);
         let right = alpha_star(n + 1).next_down();
         let mut cuts = vec![left];

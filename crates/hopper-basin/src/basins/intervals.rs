@@ -19,7 +19,7 @@ pub struct HopperBasins {
     /// missed there. On the contact parts all branches are known.
     ///
     /// For M ≤ 0.905 the map is analytic inside a window and has few branches there. For larger M, count points with
-    /// [`basin_fractions`](crate::basin_fractions), which relies on no branches.
+    /// [`basin_fractions`](crate::basin_fractions), which needs no branches.
     pub spacing: f64,
 }
 

@@ -23,8 +23,8 @@ pub fn basin_levels(
     let mut level = Interval::new(trap.fixed_point.value(), trap.right())?;
     if trap.edge == TrapEdge::Crossing {
         // The end of the trap is where f falls to α*_n. The computed map crosses α*_n some ulps beside the computed
-        // end. Those ulps would be an interval of level 1 of its own, so that level 0 takes the end of the computed
-        // map.
+        // end. These ulps would form a separate interval of level 1. Therefore level 0 ends where the computed map
+        // crosses α*_n.
         let own = branches.iter().filter_map(|branch| branch.preimage(fates, &level));
         level.right = own.filter(|p| p.left < level.right).fold(level.right, |r, p| r.max(p.right));
     }

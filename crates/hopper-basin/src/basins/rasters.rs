@@ -23,7 +23,7 @@ pub fn basin_raster(
     raster_by_strips(grid, strip_width(&grid), strip, progress)
 }
 
-/// The largest number of columns in a strip. More columns fill the vectors of a processor no better.
+/// The largest number of columns in a strip. More columns would not make the vectors of a processor fuller.
 const WIDEST_STRIP: usize = 16;
 
 /// The largest number of pixels of a strip with more than one column: its orbits and tables, some 50 bytes a pixel,

@@ -7,11 +7,11 @@ use basin_of_attraction::{Fate, Image, ScalarMap, Traps, classify};
 use passive_hopper::{LiftOffMap, MassRatio, index_below};
 use std::sync::OnceLock;
 
-/// The number of traps that [`Fates`] keeps once computed. The trap of a larger n is computed whenever it is asked
-/// for: speeds above α*_64 ≈ 203 are slower to classify, with the same result.
+/// The number of traps that [`Fates`] stores. The trap of a larger n is computed at each use: speeds above α*_64 ≈ 203
+/// take longer to classify, with the same result.
 const KEPT_TRAPS: usize = 64;
 
-/// The number of hops after which a fate is given up as [undecided](HopperFate::Undecided).
+/// The number of hops after which a fate is reported as [undecided](HopperFate::Undecided).
 ///
 /// A million hops take less than a second if each has few sudden lift-offs. For M above 10⁴ a hop may have
 /// thousands; give [`fate_within`](Fates::fate_within) a smaller budget there.
@@ -24,8 +24,8 @@ pub const HOP_BUDGET: usize = 1_000_000;
 
 /// The fates at one mass ratio.
 ///
-/// Since f(α) ≤ α, an orbit only descends. Its fate is decided when it enters a [`Trap`] or is grounded. Closeness to
-/// a fixed point decides no fate: orbits pass fixed points slowly on the left.
+/// As f(α) ≤ α, an orbit only descends. Its fate is decided when it enters a [`Trap`] or is grounded. Closeness to a
+/// fixed point does not decide a fate: orbits just below a fixed point leave it slowly.
 ///
 /// ```
 /// use hopper_basin::{Fates, HopperFate};
@@ -38,7 +38,7 @@ pub const HOP_BUDGET: usize = 1_000_000;
 #[derive(Debug, Clone)]
 pub struct Fates {
     map: LiftOffMap,
-    /// The traps of the first fixed points, each computed when it is first asked for.
+    /// The traps of the first fixed points, each computed at its first use.
     first: [OnceLock<Trap>; KEPT_TRAPS],
 }
 
@@ -50,7 +50,7 @@ impl Fates {
     pub fn new(mass_ratio: MassRatio) -> Result<Self, Error> {
         let map = LiftOffMap::new(mass_ratio);
         let fates = Fates { map, first: [const { OnceLock::new() }; KEPT_TRAPS] };
-        // Nearly every orbit asks for this trap, and an error shows here rather than later.
+        // Nearly every orbit needs this trap. Computing it here returns an error now rather than later.
         fates.trap(0)?;
         Ok(fates)
     }
@@ -86,7 +86,7 @@ impl Fates {
     /// # Errors
     /// As [`fate`](Self::fate).
     pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
-        // Returns an error for an invalid α, and computes nothing else. `classify` would call it undecided.
+        // `landings` only checks α here. `classify` would report an invalid α as undecided.
         self.map.landings(alpha)?;
         let (fate, hops) = classify(self, self, alpha, budget);
         let fate = match fate {
@@ -95,7 +95,7 @@ impl Fates {
             Fate::Trapped(label) if u64::from(label) < HopperFate::LARGEST_LABEL => {
                 HopperFate::Incessant { n: u64::from(label) }
             }
-            // The generic label of all n ≥ 65 000: the orbit itself tells which.
+            // All n ≥ 65 000 share this generic label. The orbit gives the index.
             Fate::Trapped(_) => HopperFate::Incessant { n: self.last_index(alpha, hops)? },
             Fate::Undecided(reason) => HopperFate::Undecided(reason),
         };
@@ -116,7 +116,7 @@ impl Fates {
     }
 }
 
-/// The map for the generic tools. A hop whose verdicts are not certain is undecided.
+/// The map for the generic tools. A hop with an uncertain decision gives [`Image::Undecided`].
 impl ScalarMap for Fates {
     fn image(&self, alpha: f64) -> Image {
         match self.map().hop(alpha) {

@@ -2,15 +2,15 @@
 
 use basin_of_attraction::UndecidedReason;
 
-/// What becomes of a hopper.
+/// The long-term behaviour of a hopper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum HopperFate {
-    /// It hops for ever; its lift-off speeds converge to α*_n, n ≥ 1, at which a hop loses no energy.
+    /// The hopper hops for ever. Its lift-off speeds converge to α*_n, n ≥ 1, at which a hop loses no energy.
     Incessant {
         /// The index of the fixed point.
         n: u64,
     },
-    /// It hops for ever, and ever lower: its lift-off speeds converge to α*_0 = 0.
+    /// The hopper hops for ever, and ever lower. Its lift-off speeds converge to α*_0 = 0.
     Decaying,
     /// After some landing the lower mass never lifts off again.
     Grounded,
@@ -23,14 +23,14 @@ impl HopperFate {
     pub const GROUNDED: u16 = u16::MAX - 1;
     /// The label of a fate that is undecided because the budget of hops was used up.
     pub const UNDECIDED: u16 = u16::MAX;
-    /// The label of a fate that is undecided because the computed orbit stands still: a hop changes
-    /// the speed by less than half an ulp.
+    /// The label of a fate that is undecided because the computed orbit repeats its speed: a hop changes the speed by
+    /// less than half an ulp.
     pub const UNDECIDED_PRECISION: u16 = u16::MAX - 2;
     /// The label of a fate that is undecided because the map could not decide a hop.
     pub const UNDECIDED_HOP: u16 = u16::MAX - 3;
     /// The label of all fixed points whose index exceeds [`LARGEST_LABEL`](Self::LARGEST_LABEL).
     pub const BEYOND_LABELS: u16 = u16::MAX - 4;
-    /// The largest index of a fixed point that is a label of its own.
+    /// The largest index of a fixed point that has its own label.
     ///
     /// Labels have 16 bits. The round number leaves some 500 labels above it for other fates.
     pub const LARGEST_LABEL: u64 = 65_000;

@@ -17,10 +17,10 @@ pub(crate) struct Column<'a> {
     /// The laps of the map; `None` for mass ratios without laps.
     pub(crate) laps: Option<Laps>,
     pub(crate) labels: Vec<u16>,
-    /// The itineraries of the speeds whose orbits have ended; `None` for speeds that are not followed, or not yet
-    /// to the end.
+    /// The itineraries of the speeds whose orbits have ended; `None` for all other speeds.
     itineraries: Vec<Option<Itinerary>>,
-    /// For every speed, whether the gap between it and the next is closed: all its speeds have the fate of both.
+    /// For every speed, whether the gap up to the next speed is closed: all speeds in a closed gap have the fate of
+    /// both.
     closed: Vec<bool>,
 }
 
@@ -43,8 +43,8 @@ impl<'a> Column<'a> {
         match self.traps.find(alpha) {
             Lookup::Trap(n, ends) => Some((fate_in_trap(n), ends)),
             Lookup::NoTrap => None,
-            // The ends are unknown. NaN keeps the itinerary from agreeing with others: an orbit next to this one
-            // may lie outside the trap.
+            // The ends are unknown. With ends of NaN the itinerary agrees with no other: an orbit next to this one may
+            // lie outside the trap.
             Lookup::NotIndexed => {
                 let label = self.fates.label(alpha)?;
                 Some((KnownFate { itinerary: Itinerary::START, label }, (f64::NAN, f64::NAN)))
@@ -57,13 +57,14 @@ impl<'a> Column<'a> {
         self.traps.ends().map(|(n, ends)| (fate_in_trap(n), ends))
     }
 
-    /// Notes that the orbit of speed `at` has ended.
+    /// Stores the itinerary of the speed with index `at`, whose orbit has ended.
     pub(crate) fn finish(&mut self, at: usize, itinerary: Itinerary) {
         self.itineraries[at] = Some(itinerary);
     }
 
-    /// Looks at the gap between two speeds. If the itineraries of both are complete and agree, labels all speeds in the
-    /// gap. If they disagree, returns the middle speed, which is to be followed next, unless the two are neighbours.
+    /// Closes the gap between two speeds if the itineraries of both are complete and agree: all speeds in the gap get
+    /// their label. If the itineraries disagree, returns the middle speed, which is to be followed next, unless the two
+    /// speeds are neighbours.
     pub(crate) fn close_gap(&mut self, left: usize, right: usize) -> Option<usize> {
         let (first, second) = (self.itineraries[left]?, self.itineraries[right]?);
         if first.agrees_with(&second) {
@@ -75,8 +76,8 @@ impl<'a> Column<'a> {
         (right - left >= 2).then(|| left.midpoint(right))
     }
 
-    /// The closed intervals among the speeds of `range`, each as long as possible: the speeds from the first to the
-    /// last, which is not included, the common itinerary and the label.
+    /// The closed intervals among the speeds of `range`, each as long as possible: its speeds without the last one, the
+    /// common itinerary, and the label.
     pub(crate) fn closed_intervals(
         &self,
         range: Range<usize>,

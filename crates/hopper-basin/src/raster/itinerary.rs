@@ -1,4 +1,4 @@
-//! Itineraries: the laps that an orbit visits, and how it ends.
+//! Itineraries: the laps that an orbit visits, and its end.
 //!
 //! If the orbits of two speeds have the same itinerary, every orbit that starts between them has their fate. This holds
 //! for orbits as `f64` computes them, because an itinerary carries a bound on the rounding errors. README.md has the
@@ -20,20 +20,20 @@ pub(crate) struct Itinerary {
     laps: u64,
     /// The index of the trap, [`GROUND`] or [`NO_END`].
     end: u32,
-    /// The bound of invariant BETWEEN: how far a computed orbit may lie outside the two that enclose it. Infinite if
-    /// nothing is known; then the itinerary agrees with no other.
+    /// The bound of invariant BETWEEN: how far a computed orbit may lie outside the two that enclose it. Infinite if no
+    /// bound is known; the itinerary then agrees with no other.
     ///
-    /// An `f32` keeps an itinerary at 16 bytes. It is rounded up.
+    /// An `f32`, rounded up: the itinerary then has 16 bytes.
     error: f32,
 }
 
 /// The errors of two hops, one of the orbit between and one of the orbit beside it, in units of (α/α′) (s + 2) α.
 ///
-/// `LiftOffMap` errs by at most 4 (1 + sudden lift-offs) · 2⁻⁵³ of its unit. On a lap a hop has at most one sudden
-/// lift-off, and the unit is at most (s + 2) (α/α′) α; a test below checks both. ε = 2⁻⁵².
+/// The error of `LiftOffMap` is at most 4 (1 + sudden lift-offs) · 2⁻⁵³ of its unit. On a lap a hop has at most one
+/// sudden lift-off, and the unit is at most (s + 2) (α/α′) α; a test below checks both. ε = 2⁻⁵².
 const TWO_HOP_ERRORS: f64 = 8.0 * f64::EPSILON;
 
-/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.17 would do
+/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.17 would suffice
 /// (README.md).
 const CURVATURE: f64 = 1.25;
 
@@ -64,16 +64,16 @@ impl Itinerary {
             return;
         }
         let error = f64::from(self.error);
-        // After twelve laps the leading one is at bit 60, and no thirteenth lap fits. The itinerary is then given
-        // up, and the raster follows the orbits beside this one. This is rare: an orbit of Fig. 6's window hops 3.9
-        // times on the average.
+        // After twelve laps the leading one is at bit 60, and no thirteenth lap fits. The itinerary is then marked as
+        // unknown, and the raster follows the orbits beside this one. This is rare: an orbit of Fig. 6's window hops
+        // 3.9 times on the average.
         let room = self.laps >> (64 - ID_BITS) == 0;
         // LAP: all orbits between must be on one lap.
         let Some(lap) = laps.lap(alpha, error).filter(|_| room) else {
             return self.give_up();
         };
         self.laps = self.laps << ID_BITS | u64::from(lap.id);
-        // BETWEEN: with g the error bound before the hop, 5/4 (α/α′) (s g + 8ε (s + 2) α) is one after it.
+        // BETWEEN: if g bounds the error before the hop, 5/4 (α/α′) (s g + 8ε (s + 2) α) bounds it after the hop.
         let propagated = lap.slope * error + TWO_HOP_ERRORS * (lap.slope + 2.0) * alpha;
         match next {
             Some(next) => {
@@ -86,9 +86,9 @@ impl Itinerary {
             }
             None => {
                 self.end = GROUND;
-                // GROUND: at the first hop the orbits between start between the two, and α′² is monotone: they are
-                // grounded as well, and the verdicts of the map are certain. At later hops α′² must be negative by
-                // more than the errors can change it.
+                // GROUND: at the first hop all orbits between start between the two speeds. There α′² is monotone and
+                // the decisions of the map are certain, so that these orbits are grounded as well. At later hops α′²
+                // must be negative by more than the errors can change it.
                 let margin = GROUND_MARGIN * alpha * propagated;
                 if error > 0.0 && !map.hop(alpha).is_ok_and(|hop| hop.next_speed_squared < -margin)
                 {
@@ -104,8 +104,8 @@ impl Itinerary {
         self.error = f32::INFINITY;
     }
 
-    /// Completes the itinerary of an orbit that has come to `alpha`, in an interval (`left`, `right`) all of whose
-    /// orbits have the itinerary `known`.
+    /// Completes the itinerary of an orbit that has reached `alpha` in the interval (`left`, `right`). All orbits from
+    /// this interval have the itinerary `known`.
     #[inline]
     pub(crate) fn end_in(&mut self, alpha: f64, known: &Itinerary, (left, right): (f64, f64)) {
         let error = f64::from(self.error);
@@ -199,7 +199,7 @@ mod tests {
                 + slopes.by_speed.abs() * alpha
                 + slopes.by_mass_ratio.abs() * m
                 + alpha * (alpha / next);
-            // The last digits are those of the computed slopes.
+            // The factor 1 + 10⁻⁹ covers the error of the computed slopes.
             let assumed = (lap.slope + 2.0) * alpha * (alpha / next) * (1.0 + 1e-9);
             assert!(unit <= assumed, "M = {m}, α = {alpha}: {unit} {assumed}");
             seen += 1;

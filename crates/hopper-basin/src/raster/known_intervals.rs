@@ -19,8 +19,8 @@ pub(crate) struct KnownIntervals {
     /// The number of speeds.
     count: usize,
     /// For every column and every speed, the number of an interval that may contain speeds between this one and the
-    /// next. A later interval replaces an earlier one, so that not all intervals are found; a missed one costs
-    /// time and changes no label.
+    /// next. A later interval replaces an earlier one, so that `find` does not find all intervals. A missed interval
+    /// costs time and changes no label.
     which: Vec<u32>,
     /// The ends of the intervals, by number.
     ends: Vec<(f64, f64)>,
@@ -47,7 +47,7 @@ struct SpeedIndex {
 }
 
 impl SpeedIndex {
-    /// For `speeds`, whose first `count` are the lower part and begin at half a spacing.
+    /// The index for `speeds`. The first `count` speeds are the lower part, which begins at half a spacing.
     fn new(speeds: &[f64], count: usize) -> Self {
         let density = |speeds: &[f64]| match (speeds.first(), speeds.last()) {
             (Some(first), Some(last)) if last > first => (speeds.len() - 1) as f64 / (last - first),
@@ -90,8 +90,8 @@ impl KnownIntervals {
         }
     }
 
-    /// The number of an interval of `column` that contains `alpha`, or [`NO_INTERVAL`]. It may miss an interval, and
-    /// never gives a wrong one.
+    /// The number of an interval of `column` that contains `alpha`, or [`NO_INTERVAL`]. The look-up may miss an
+    /// interval, but never returns a wrong one.
     #[inline]
     pub(crate) fn find(&self, column: usize, alpha: f64) -> u32 {
         let slot = column * self.count + self.speed_index.below(alpha);
@@ -106,7 +106,7 @@ impl KnownIntervals {
         (self.fates[which as usize], self.ends[which as usize])
     }
 
-    /// Adds an interval, to be found from the speeds of `range` up to the next one after it.
+    /// Adds an interval. `find` finds it from the first speed of `range` up to the speed after the last one.
     pub(crate) fn add(
         &mut self,
         column: usize,
@@ -128,7 +128,8 @@ impl KnownIntervals {
         fate: KnownFate,
         ends: (f64, f64),
     ) {
-        // From the last speed below the interval to the last one in it. An interval above all speeds gets no entry.
+        // From the last speed below the interval to the last speed in the interval. An interval above all speeds gets
+        // no entry.
         let first = speeds.partition_point(|&speed| speed < ends.0).saturating_sub(1);
         let end = speeds.partition_point(|&speed| speed <= ends.1);
         self.add(column, first.min(end)..end, fate, ends);

@@ -46,7 +46,7 @@ pub(crate) fn labels_of_columns(
         return columns.iter().map(one_by_one).collect();
     }
     if let Some(fates) = columns.first() {
-        // Returns an error for an invalid speed, and computes nothing else. The strip takes valid speeds for granted.
+        // `landings` only checks the speed here. The strip requires valid speeds.
         for &speed in speeds {
             fates.map().landings(speed)?;
         }

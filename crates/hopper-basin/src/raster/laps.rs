@@ -22,7 +22,7 @@ struct LapsOfHump {
     star: f64,
     /// The ends of the falling lap, (maximum, minimum); infinite if the map only rises.
     falling: (f64, f64),
-    /// The end of the last lap. From here to α*_{n+1} nothing is proved.
+    /// The end of the last lap. From here to α*_{n+1} there is no proof.
     end: f64,
     /// Bounds on the relative slope |α′ (dα′/dα)/α| on the three laps.
     slopes: [f64; 3],
@@ -44,10 +44,10 @@ pub(crate) struct Laps {
 
 /// The relative distance that a speed must keep from the ends of its lap.
 ///
-/// It stands for the rounding errors of the computed ends, which are some ulps, hence is a hundred times
-/// larger than needed. A larger distance would cost orbits next to the ends; a smaller one gains nothing. If μ just
-/// exceeds 1/(4 max W), the computed maximum and minimum may err by more. There 1 − 4μW differs from zero
-/// by rounding errors only, and README.md shows that this does no harm (invariant LAP).
+/// The distance covers the rounding errors of the computed ends, which are some ulps; it is a hundred times larger than
+/// needed. With a larger distance more orbits next to the ends would have no lap; a smaller one gains nothing. If μ
+/// just exceeds 1/(4 max W), the errors of the computed maximum and minimum may be larger. There 1 − 4μW differs from
+/// zero by rounding errors only, and README.md shows that this does no harm (invariant LAP).
 const DISTANCE_FROM_ENDS: f64 = 1e-12;
 
 /// The largest M with laps. At M = 1 the last lap of a hump ends at (n+1)π, because no window is proved to rise
@@ -76,13 +76,13 @@ impl Laps {
         Ok(Some(Laps { humps: humps.collect::<Result<_, Error>>()? }))
     }
 
-    /// The lap that contains all speeds within `error` of `alpha`; `None` if the interval of these speeds
-    /// reaches an end of a lap, or lies where nothing is proved.
+    /// The lap that contains all speeds within `error` of `alpha`; `None` if the interval of these speeds reaches an
+    /// end of a lap, or lies outside all laps.
     #[inline]
     pub(crate) fn lap(&self, alpha: f64, error: f64) -> Option<Lap> {
         let distance = error + DISTANCE_FROM_ENDS * alpha;
         // As in the index of traps: α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index of the largest α*_n ≤ α, or one
-        // more. It is one more as well if ⌊α/π⌋ is the first hump without an entry.
+        // more. If the hump ⌊α/π⌋ has no entry, the code also treats ⌊α/π⌋ as one more.
         let floor = (alpha * FRAC_1_PI) as usize;
         let above = self.humps.get(floor).is_none_or(|hump| alpha < hump.star);
         let n = floor - usize::from(above).min(floor);
@@ -108,7 +108,7 @@ impl LapsOfHump {
         // On the hump α′ (dα′/dα)/α = 1 − 4μW with 0 ≤ W ≤ max W: at most 1 where it is positive, and at most
         // 4μ max W − 1 in size where it is negative.
         let hump_slope = (4.0 * mu * hump.largest_w() - 1.0).max(1.0);
-        // The last lap includes the window. The bounds of windows exceed 1, and so hold on the hump as well.
+        // The last lap includes the window. The bounds of windows exceed 1, so that they hold on the hump as well.
         let last_slope = window.map_or(1.0, |window| window.steepest);
         let first_slope = if falling.is_some() { hump_slope } else { last_slope };
         Ok(LapsOfHump {

@@ -3,12 +3,12 @@
 //! README.md explains the idea, its proof, the invariants that the code cites by name, and every limit.
 //!
 //! Several columns form a strip, whose orbits hop together ([`strip`], [`column`]).
-//! An orbit notes the laps it visits ([`laps`], [`rising_windows`]) in its itinerary ([`itinerary`]).
-//! Speeds between two orbits with the same itinerary need no orbit of their own. The intervals they form are kept
-//! for orbits that come down to them ([`known_intervals`]).
+//! The itinerary of an orbit lists the laps that it visits ([`laps`], [`rising_windows`], [`itinerary`]). Speeds
+//! between two orbits with the same itinerary need no orbit of their own. Their intervals are stored for orbits that
+//! descend into them ([`known_intervals`]).
 //! [`labels`] takes speeds in any order.
 //!
-//! This room uses `traps` and `fates`. Every label is the one that `Fates::fate` gives.
+//! This room uses `traps` and `fates`. Every label equals the label that `Fates::fate` gives.
 
 pub(crate) mod column;
 pub(crate) mod itinerary;

@@ -6,7 +6,7 @@ use basin_of_attraction::Interval;
 use passive_hopper::alpha_star;
 use std::f64::consts::PI;
 
-/// How near to α*_n the proof goes.
+/// The distance from α*_n at which the proof ends.
 ///
 /// At α*_n the slope changes like the cube root of the distance, and an interval proof needs ever smaller boxes. Speeds
 /// in the remaining 10⁻³ have no lap; in a raster of the paper's window they are 0.03 % of the rows.
@@ -18,8 +18,8 @@ const DISTANCE_FROM_STAR: f64 = 1e-3;
 /// slopes are 8n + 2, about a third above the largest found on samples (7.8, 14, …, 50). A bound that is too large
 /// widens the error bounds of itineraries, so that fewer gaps close.
 ///
-/// Samples rise up to M = 0.905 in windows 4 to 8 as well, and in 9 and 10. How the smaller mass ratios of windows 4
-/// to 8 were chosen is not recorded; near 0.905 the smallest slope tends to zero with n, and a proof needs more boxes.
+/// On samples the map also rises up to M = 0.905 in windows 4 to 10. How the smaller mass ratios of windows 4 to 8 were
+/// chosen is not recorded. Near 0.905 the smallest slope tends to zero with growing n, and a proof needs more boxes.
 const PROVED: [(f64, f64); 8] = [
     (0.905, 10.0),
     (0.905, 18.0),
@@ -65,10 +65,10 @@ mod tests {
     //!   A = 2(−Γ₂ sin τ₂ − x₂ (1−cos τ₂)),  B = 2(−Γ₂ (1−cos τ₂) − x₂ (τ₂ − sin τ₂))       second flight
     //! ```
     //!
-    //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight
-    //! is monotone in x and V. So the range of each over an interval is given by its values at the ends. The
-    //! intervals are not rounded outwards. Instead the bounds must hold with 10⁻⁶ to spare, a thousand times what
-    //! the roundings amount to.
+    //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight is
+    //! monotone in x and V. Therefore the values at the ends of an interval give the range of each over the interval.
+    //! The intervals are not rounded outwards. Instead the bounds must hold with a margin of 10⁻⁶, a thousand times the
+    //! rounding errors.
 
     #![allow(clippy::disallowed_methods)]
 
@@ -130,7 +130,7 @@ mod tests {
         let d = between(|half| half.d());
         let closing = between(|half| half.closing_speed(0.0));
         let b = between(|half| half.sin()).times(between(|half| half.rho()));
-        // b = Sρ ≥ 0 on a window; at its ends rounding may give less.
+        // b = Sρ ≥ 0 on a window; at its ends rounding may give a negative number.
         let b = Range(b.0.max(0.0), b.1);
         let alpha = between(|half| half.start_speed(0.0));
         let g = between(|half| half.start_speed_slope(0.0));
@@ -142,7 +142,7 @@ mod tests {
         assert!(v.1 < PI);
         // The second flight. A relative 10⁻⁹ covers the error of the bisection.
         let h2 = Range(second(x.0, v.0) * (1.0 - 1e-9), (second(x.1, v.1) * (1.0 + 1e-9)).min(PI));
-        // At h = 0 the functions divide by zero; 10⁻⁹ changes them by less than the 10⁻⁶ to spare.
+        // At h = 0 the functions divide by zero. The shift of 10⁻⁹ changes them by less than the margin of 10⁻⁶.
         let half = |h: f64| HalfFlight::at(h.max(1e-9));
         let (begin, end) = (half(h2.0), half(h2.1));
         let top = if h2.0 < PI / 2.0 && h2.1 > PI / 2.0 { 1.0 } else { begin.sin().max(end.sin()) };
@@ -160,10 +160,10 @@ mod tests {
         mu.times(b.times(d).scaled(4.0).minus(taken)).shifted(1.0)
     }
 
-    /// Proves the bounds on a box of h and M; a box on which the intervals are too wide is halved.
+    /// Proves the bounds on a box of h and M. A box whose intervals are too wide is halved.
     fn prove(h: Range, m: Range, (star, steepest): (f64, f64), boxes: &mut usize) {
         *boxes += 1;
-        // Far more boxes than a proof takes: without this limit a false bound would be halved for ever.
+        // A proof takes far fewer boxes. Without this limit the boxes of a false bound would be halved for ever.
         assert!(*boxes < 3_000_000, "no proof at h = {h:?}, M = {m:?}: {:?}", slope(h, m));
         let found = slope(h, m);
         if found.0 > 1e-6 && found.1 + 1e-6 < steepest {
@@ -226,9 +226,9 @@ mod tests {
         }
     }
 
-    /// Only the eight windows of the proof are given, whatever the index.
+    /// Only windows 1 to 8 have a proof.
     #[test]
-    fn other_windows_are_not_proved() {
+    fn a_window_other_than_1_to_8_has_no_proof() {
         for n in [0, 9, 10, u64::MAX] {
             assert_eq!(rising_window(n), None);
         }

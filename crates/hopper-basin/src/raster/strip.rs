@@ -6,7 +6,7 @@
 //!     as soon as the orbits of two neighbouring followed speeds have ended:
 //!       if their itineraries agree    give all speeds between them their label
 //!       else                          follow the middle speed as well
-//!     keep the labelled intervals: an orbit that comes down to one has ended
+//!     store the labelled intervals: an orbit that descends into one has ended
 //! ```
 //!
 //! A strip has several columns because one column has too few orbits at a time to fill the vectors of a processor.
@@ -23,21 +23,22 @@ use std::ops::Range;
 
 /// At first every 16th speed is followed.
 ///
-/// A larger step follows fewer orbits where gaps close at once, and needs more rounds of halving elsewhere; late rounds
-/// have few orbits to fill the vectors. The value was set when columns were first bisected; it affects the time only.
+/// With a larger step fewer orbits are followed where gaps close at once, but more rounds of halving are needed
+/// elsewhere, and late rounds have few orbits to fill the vectors. The value was set when columns were first bisected;
+/// it affects the time only.
 const COARSEST: usize = 16;
 
-/// A strip labels additional speeds below its lowest one, fewer by this factor, so that orbits that come down from the
-/// window find intervals of known fate there. Without these speeds Fig. 9 takes 1.7 times as long; they cost half as
-/// many more speeds, most of which are never followed.
+/// The number of speeds of a strip over the number of additional speeds below them. Orbits that leave the window
+/// downwards find intervals of known fate between the additional speeds. Without these speeds Fig. 9 takes 1.7 times as
+/// long. Most of them are never followed.
 const LOWER: usize = 2;
 
-/// A speed that is followed. Speeds are named by their index in the column.
+/// A followed speed. A speed is given by its index in the column.
 #[derive(Debug, Clone, Copy)]
 struct Followed {
     column: u32,
     at: u32,
-    /// The neighbouring followed speeds when this one was started; itself if there is none.
+    /// The neighbouring followed speeds when this orbit was started; the speed itself if there is none.
     left: u32,
     right: u32,
     itinerary: Itinerary,
@@ -51,15 +52,15 @@ struct Orbits<'a> {
     all: Vec<Followed>,
     /// The orbits that have not ended, as indices of `all`.
     index: Vec<u32>,
-    /// Their maps and where they are now.
+    /// The maps and current speeds of these orbits.
     hops: Vec<(&'a LiftOffMap, Option<f64>)>,
-    /// Where they were before the last hop; NaN for orbits that have not hopped.
+    /// The speeds of these orbits before the last hop; NaN for orbits that have not hopped.
     before: Vec<f64>,
-    /// The number of hops of the oldest.
+    /// The number of hops of the oldest orbit.
     count: usize,
-    /// The interval of known fate in which each of them is; used by `retire` alone.
+    /// For each of these orbits, the interval of known fate that contains its speed; used by `retire` only.
     found: Vec<u32>,
-    /// The orbits that have ended since their gaps were last looked at.
+    /// The orbits that have ended since the last call of `refine`.
     ended: Vec<u32>,
 }
 
@@ -68,7 +69,7 @@ struct Strip<'a> {
     speeds: Vec<f64>,
     intervals: KnownIntervals,
     orbits: Orbits<'a>,
-    /// The last error of a fate that was computed by itself.
+    /// The last error of a fate that was computed for one speed alone.
     failed: Result<(), Error>,
 }
 
@@ -90,12 +91,13 @@ pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Er
     Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
 }
 
-/// Fewer speeds, equally spaced from 0 up to the first of `speeds`, and then `speeds`; and the number of the former.
+/// The additional speeds, equally spaced from 0 up to the first of `speeds`, followed by `speeds`; and the number of
+/// additional speeds.
 fn with_lower_speeds(speeds: &[f64]) -> (Vec<f64>, usize) {
     let first = speeds.first().copied().unwrap_or(0.0);
     let count = speeds.len() / LOWER;
     let lower = (0..count).map(|k| first * (k as f64 + 0.5) / count as f64);
-    // Half of the smallest subnormal is 0, which is no valid speed.
+    // Half of the smallest subnormal is 0, which is not a valid speed.
     let mut all: Vec<f64> = lower.filter(|&speed| speed > 0.0).collect();
     let count = all.len();
     all.extend_from_slice(speeds);
@@ -107,8 +109,8 @@ impl Strip<'_> {
         let last = self.speeds.last().map_or(Ok(0), |&speed| index_below(speed))?;
         let with_laps = self.columns.iter().any(|column| column.laps.is_some());
         let mut first = 0;
-        // DOWN: orbits only descend, so that the intervals of lower humps are complete when an orbit comes down to
-        // them. Without laps there are no such intervals, and all humps are one.
+        // DOWN: orbits only descend, so that the intervals of lower humps are complete when an orbit descends to them.
+        // Without laps there are no such intervals, and all humps are treated as one.
         for n in 0..if with_laps { HUMPS_WITH_LAPS.min(last + 1) } else { 0 } {
             let star = alpha_star(n + 1);
             let end = first + self.speeds[first..].partition_point(|&speed| speed < star);
@@ -171,19 +173,19 @@ impl Strip<'_> {
         let orbits = &mut self.orbits;
         orbits.index.push(orbits.all.len() as u32);
         orbits.hops.push((map, Some(self.speeds[at as usize])));
-        // An orbit that has not hopped does not stand still: NaN equals no speed.
+        // NaN equals no speed, so that an orbit that has not hopped does not seem to repeat its speed.
         orbits.before.push(f64::NAN);
         let (column, itinerary) = (column as u32, Itinerary::START);
         orbits.all.push(Followed { column, at, left, right, itinerary });
     }
 
-    /// Takes all orbits one hop further, and retires those that end.
+    /// Computes the next hop of all orbits, and retires the orbits that end.
     fn hop(&mut self) {
         let Orbits { all, index, hops, before, .. } = &mut self.orbits;
         before.clear();
         before.extend(hops.iter().map(|hop| hop.1.unwrap_or(f64::NAN)));
-        // A hop with an error keeps its speed. `ends` takes such an orbit for one that stands still, and classifies it
-        // by itself, which gives its error or its reason.
+        // An orbit whose hop has an error keeps its speed. `ends` sees that the speed is repeated, and classifies the
+        // orbit alone, which gives the error or the reason.
         let _ = LiftOffMap::images_of_pairs(hops);
         for ((&at, hop), &alpha) in index.iter().zip(hops.iter()).zip(before.iter()) {
             let Followed { column, itinerary, .. } = &mut all[at as usize];
@@ -198,14 +200,14 @@ impl Strip<'_> {
 
     /// Labels the orbits that have ended among those from `first` on, and removes them from the lists.
     fn retire(&mut self, first: usize) {
-        // All look-ups first, in a loop without branches, which the processor overlaps.
+        // All look-ups are done first, in a loop without branches, so that the processor overlaps them.
         let Orbits { all, index, hops, before, found, .. } = &mut self.orbits;
         found.clear();
         let orbits = index[first..].iter().zip(&hops[first..]).zip(&before[first..]);
         found.extend(orbits.map(|((&at, hop), before)| {
             let alpha = hop.1.unwrap_or(f64::NAN);
             let found = self.intervals.find(all[at as usize].column as usize, alpha);
-            // An orbit that stands still, or whose hop had an error, is left to `ends`.
+            // An orbit that repeats its speed, or whose hop had an error, is left to `ends`.
             if alpha == *before { NO_INTERVAL } else { found }
         }));
         let mut kept = first;
@@ -215,8 +217,8 @@ impl Strip<'_> {
             if self.ends(at, (self.orbits.before[from], hop.1), self.orbits.found[from - first]) {
                 self.orbits.ended.push(at);
             } else {
-                // LISTS: `before` is not compacted, only shortened. Until the next hop, which fills it anew, only the
-                // entries of orbits started since are read.
+                // LISTS: `before` is not compacted, only shortened. Until the next hop fills it again, only the entries
+                // of orbits started after the last hop are read.
                 (self.orbits.index[kept], self.orbits.hops[kept]) = (at, hop);
                 kept += 1;
             }
@@ -249,11 +251,12 @@ impl Strip<'_> {
                     self.end_in(at, alpha, trap);
                     return true;
                 }
-                // The generic traps give all indices from 65 000 up this label, `HopperFate` does not.
+                // All indices from 65 000 up share this label in the generic traps, but not in `HopperFate`.
                 Some(_) => {}
             }
         }
-        // The orbit stands still, has no valid speed, or has used up its hops: its fate by itself has the reason.
+        // The orbit repeats its speed, has no valid speed, or has used up its budget of hops. Its fate is computed
+        // alone, which gives the reason.
         itinerary.give_up();
         match column.fates.fate(self.speeds[*start as usize]) {
             Ok(fate) => column.labels[*start as usize] = fate.label(),
@@ -262,7 +265,7 @@ impl Strip<'_> {
         true
     }
 
-    /// Ends an orbit that has come to `alpha` in an interval of known fate.
+    /// Ends an orbit that has reached `alpha` in an interval of known fate.
     #[inline]
     fn end_in(&mut self, at: u32, alpha: f64, (known, ends): (KnownFate, (f64, f64))) {
         let Followed { column, at, itinerary, .. } = &mut self.orbits.all[at as usize];
@@ -270,7 +273,8 @@ impl Strip<'_> {
         self.columns[*column as usize].labels[*at as usize] = known.label;
     }
 
-    /// Closes or halves the gaps beside all orbits that have ended, until no started orbit has ended.
+    /// Closes or halves the gaps beside all orbits that have ended, and repeats this as long as newly started orbits
+    /// end at once.
     fn refine(&mut self) {
         while !self.orbits.ended.is_empty() {
             let mut ended = std::mem::take(&mut self.orbits.ended);
@@ -289,7 +293,7 @@ impl Strip<'_> {
                     }
                 }
             }
-            // The vector goes back, so that its memory is used again.
+            // The empty vector is put back, so that its memory is used again.
             self.orbits.ended = ended;
             // A started orbit may be in an interval of known fate already.
             self.retire(first);

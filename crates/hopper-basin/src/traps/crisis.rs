@@ -30,7 +30,8 @@ pub struct Crisis {
 /// # Errors
 /// [`Error::Index`] for n = 0, and for humps beyond the largest lift-off speed.
 pub fn crisis(n: u64) -> Result<Crisis, Error> {
-    // f(α) > 0 = α*_0 wherever the hopper hops again, so that n = 0 has a grounding, and no crisis.
+    // For n = 0 the fixed point is 0, and f(α) > 0 wherever the hopper hops again: hump 0 has a grounding, but no
+    // crisis.
     if n == 0 {
         return Err(Error::Index { n, smallest: 1, largest: LARGEST_HUMP });
     }
@@ -49,8 +50,8 @@ pub fn grounding(n: u64) -> Result<Crisis, Error> {
 
 fn touch(n: u64, target: Target) -> Result<Crisis, Error> {
     let Touch { mu, alpha, .. } = Hump::new(n)?.touch(target)?;
-    // μ = M/(1+M)² is quadratic in M: μM² − (1 − 2μ)M + μ = 0. Of the two roots, M and 1/M, this is the smaller
-    // one, written as product over larger root: nothing cancels.
+    // μ = M/(1+M)² is quadratic in M: μM² − (1 − 2μ)M + μ = 0. The roots are M and 1/M. The smaller root is computed as
+    // the product of both over the larger one, without cancellation.
     let mass_ratio = 2.0 * mu / (1.0 - 2.0 * mu + (1.0 - 4.0 * mu).sqrt());
     Ok(Crisis { n, mu, mass_ratio, alpha })
 }

@@ -30,11 +30,11 @@ pub(crate) const LARGEST_HUMP: u64 = (LARGEST_LIFT_OFF_SPEED / PI) as u64 - 1;
 /// μ_c or 1/(4 max W)) convergence is slow: there the search takes over, which is slower and always succeeds.
 const NEWTON_STEPS: usize = 12;
 
-/// The number of humps whose touch is kept once computed; as many as the traps that
-/// [`Fates`](crate::Fates) keeps. Other touches are computed anew each time.
+/// The number of humps whose touch is stored after its first computation; as many as the traps that
+/// [`Fates`](crate::Fates) stores. Other touches are computed at each use.
 const KEPT_TOUCHES: usize = 64;
 
-/// Hump n of the map: all that does not depend on the mass ratio.
+/// The quantities of hump n that do not depend on the mass ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Hump {
     pub(crate) n: u64,
@@ -127,9 +127,8 @@ impl Hump {
 
     /// The smallest t > 0 at which α′ = α*_n; `None` if the map stays above α*_n on the contact part.
     ///
-    /// There μ Γ² = α² − α*_n². The function (α² − α*_n²)/Γ² falls from ∞ at t = 0 to its minimum μ_c at the
-    /// touch. So there is such a t if μ > μ_c, only one of them left of the touch, and it moves to the left
-    /// as μ grows.
+    /// There μ Γ² = α² − α*_n². The function (α² − α*_n²)/Γ² falls from ∞ at t = 0 to its minimum μ_c at the touch.
+    /// Such a t therefore exists if μ > μ_c. Only one of them lies left of the touch; it moves to the left as μ grows.
     pub(crate) fn first_fall(&self, mu: f64) -> Result<Option<f64>, Error> {
         let touch = self.touch_of_fixed_point()?;
         if mu <= touch.mu {
@@ -139,12 +138,12 @@ impl Hump {
             let closing = self.closing_speed(t);
             self.squares(t, Target::FixedPoint) - mu * closing * closing
         };
-        // μ exceeds μ_c by a rounding error or two: the computed function has no change of sign to search for.
+        // μ exceeds μ_c by rounding errors only, and the computed function has no change of sign.
         if above(touch.t) >= 0.0 {
             return Ok(None);
         }
-        // The start takes μ_c Γ²/(α² − α*_n²) for the parabola 1 − (1 − t/t_c)², which is 0 at t = 0 and
-        // has its maximum 1 at the touch t_c.
+        // The start replaces μ_c Γ²/(α² − α*_n²) by the parabola 1 − (1 − t/t_c)², which is 0 at t = 0 and has its
+        // maximum 1 at the touch t_c.
         let start = touch.t * (1.0 - (1.0 - touch.mu / mu).sqrt());
         if let Some(t) = self.newton(mu, start, above, touch.t) {
             return Ok(Some(t));
@@ -160,9 +159,9 @@ impl Hump {
 
     /// The speeds between which the map falls: its maximum and its minimum. `None` if the map only rises.
     ///
-    /// Both solve 4μW = 1. The start takes W for its parabola at the maximum, where W″ = 2h sin 2h ≈ −2h;
-    /// Newton's method uses W′ = sin h cos h − h cos 2h. This is faster than [`critical`](Self::critical),
-    /// and right to some ulps unless the two speeds nearly coincide.
+    /// Both solve 4μW = 1. The start replaces W by its parabola at the maximum, where W″ = 2h sin 2h ≈ −2h; Newton's
+    /// method uses W′ = sin h cos h − h cos 2h. This is faster than [`critical`](Self::critical), and right to some
+    /// ulps unless the two speeds nearly coincide.
     pub(crate) fn falling(&self, mu: f64) -> Result<Option<(f64, f64)>, Error> {
         let middle = self.star.value() + 0.5 * self.steepest;
         let level = 0.25 / mu; // 4μW = 1
@@ -178,7 +177,8 @@ impl Hump {
                 let slope = half.sin() * half.cos() - h * (1.0 - 2.0 * half.sin() * half.sin());
                 let step = (half.w() - level) / slope;
                 h -= step;
-                // A step over the maximum of W would lead to the other root, one below α*_n to another hump.
+                // A step across the maximum of W would lead to the other root. A step below α*_n would lead to another
+                // hump.
                 let inside = h > self.star.value() && sign * (h - middle) > 0.0;
                 if !inside || step.abs() < 4.0 * f64::EPSILON * h {
                     return inside.then(|| HalfFlight::at(h).start_speed(0.0));
@@ -189,12 +189,13 @@ impl Hump {
         if let (Some(maximum), Some(minimum)) = (end(-1.0), end(1.0)) {
             return Ok(Some((maximum, minimum)));
         }
-        // Newton's method failed, mostly because the two roots nearly coincide: a slower and certain search.
+        // Newton's method failed, mostly because the two roots nearly coincide. The search in brackets is slower, but
+        // always succeeds.
         let speed = |t: f64| self.star.value() + self.delta(t);
         Ok(self.critical(mu)?.map(|(maximum, minimum)| (speed(maximum), speed(minimum))))
     }
 
-    /// The touch of α*_n; computed once for the first humps, because every trap starts from it.
+    /// The touch of α*_n. For the first humps it is computed once and stored, because every trap needs it.
     fn touch_of_fixed_point(&self) -> Result<Touch, Error> {
         static FIRST: [OnceLock<Touch>; KEPT_TOUCHES] = [const { OnceLock::new() }; KEPT_TOUCHES];
         let slot = usize::try_from(self.n).ok().and_then(|n| FIRST.get(n));
@@ -208,10 +209,10 @@ impl Hump {
     /// [`first_fall`](Self::first_fall) by Newton's method on `above`, whose derivative is
     /// d(α′²)/dt = ½ · 2α (1 − 4μW) · dα/dh = α (1 − 4μW) Γ/D.
     ///
-    /// `None` if an iterate leaves (0, `right`), or reaches a place where the map rises: Newton's method would
-    /// then lead to another root. `None` too if it has not converged after [`NEWTON_STEPS`].
+    /// `None` if an iterate leaves (0, `right`), or reaches a place where the map rises: Newton's method would then
+    /// lead to another root. Also `None` if it has not converged after [`NEWTON_STEPS`].
     fn newton(&self, mu: f64, start: f64, above: impl Fn(f64) -> f64, right: f64) -> Option<f64> {
-        // t of some digits, from plain functions of h; then all digits, from the functions of t.
+        // First t to some digits, from functions of h; then t to all digits, from functions of t.
         let mut t = self.plain_newton(mu, start)?;
         for _ in 0..NEWTON_STEPS {
             let h = self.star.value() + 0.5 * t;
@@ -230,7 +231,7 @@ impl Hump {
         None
     }
 
-    /// The same to six digits. Here α² − α*_n² may cancel, so that a step needs one sine and cosine only.
+    /// t to six digits. Here α² − α*_n² may cancel; in return a step needs only one sine and one cosine.
     fn plain_newton(&self, mu: f64, start: f64) -> Option<f64> {
         let square = self.star.value() * self.star.value();
         let mut h = self.star.value() + 0.5 * start;
@@ -244,8 +245,8 @@ impl Hump {
             if !(slope < 0.0 && h > self.star.value()) {
                 return None;
             }
-            // One more step, which doubles the six digits, is left to the exact functions. Next to α*_n the
-            // cancellation may prevent six digits; the steps then run out, which costs time and no accuracy.
+            // The next step, which would double the six digits, uses the functions of t. Next to α*_n cancellation may
+            // prevent six digits. The loop then takes all its steps, which costs time but no accuracy.
             if step.abs() < 1e-6 * (h - self.star.value()) {
                 break;
             }
@@ -253,7 +254,7 @@ impl Hump {
         Some(2.0 * (h - self.star.value()))
     }
 
-    /// The μ at which the minimum of the map equals `target`, and where the minimum is then.
+    /// The μ at which the minimum of the map equals `target`, and the place of this minimum.
     ///
     /// At the minimum 4μW = 1. The target gives μΓ² = α² − target². Eliminating μ leaves
     /// Γ² = 4W (α² − target²), which has one root between the maximum of W and the end of the hump.

@@ -1,7 +1,7 @@
 //! The immediate basin of a fixed point: the part of its basin that begins at the fixed point.
 //!
-//! A [`Trap`] ends at the latest where the contact part of its hump ends. The immediate basin goes on into the
-//! sudden window, where theory gives no formula for its end and a scan looks for it.
+//! A [`Trap`] ends at the latest where the contact part of its hump ends. The immediate basin may continue in the
+//! sudden window. Theory gives no formula for its end there, and a scan searches for it.
 
 use crate::error::Error;
 use crate::traps::crisis::crisis;
@@ -79,8 +79,9 @@ fn scan(map: &LiftOffMap, trap: &Trap, width: f64) -> Result<ImmediateBasin, Err
     if !(width > 0.0 && (1.0..=MOST_POINTS).contains(&points)) {
         return Err(Error::Spacing { spacing: width, length: right - left });
     }
-    // Compared with the `f64` of α*_n, not with its 100 bits: next to α*_n the computed image may be
-    // that `f64` although it lies below α*_n, and this is no fall. Grounding is a fall.
+    // The image is compared with the `f64` nearest to α*_n, not with the 100 bits of α*_n. Next to α*_n the computed
+    // image may equal this `f64` even if the `f64` lies below α*_n: this does not count as a fall. Grounding counts as
+    // a fall.
     let falls = |alpha: f64| -> Result<bool, Error> {
         Ok(map.image(alpha)?.is_none_or(|image| image < trap.fixed_point.value()))
     };
@@ -113,8 +114,8 @@ fn scan(map: &LiftOffMap, trap: &Trap, width: f64) -> Result<ImmediateBasin, Err
 fn edge_error(map: &LiftOffMap, alpha: f64) -> Result<f64, Error> {
     let ulp = f64::EPSILON * alpha;
     let (hop, slopes) = (map.hop(alpha)?, map.slopes(alpha)?);
-    // A grounded hop has no slope. It comes here only if f falls from α*_n to the ground between two neighbouring
-    // `f64`: then an ulp is all that can be said.
+    // A grounded hop has no slope. This case occurs only if f falls from α*_n to the ground between two neighbouring
+    // `f64`. The bound is then one ulp.
     let (Some(next), Some(slopes)) = (hop.next, slopes) else { return Ok(ulp) };
     let m = map.mass_ratio().value();
     let slope = slopes.by_speed.abs();
@@ -123,8 +124,8 @@ fn edge_error(map: &LiftOffMap, alpha: f64) -> Result<f64, Error> {
     Ok(ulp + 2.0 * (1 + hop.sudden) as f64 * f64::EPSILON * unit / slope)
 }
 
-/// Mass ratios tried by [`upper_crisis_bracket`] before it bisects, in geometric steps. More of them would be less
-/// likely to miss a mass ratio at which orbits fall again; each costs a scan.
+/// Mass ratios that [`upper_crisis_bracket`] tries before it bisects, in geometric steps. With more of them it would be
+/// less likely to miss a mass ratio at which orbits fall again. Each costs a scan.
 const TRIED_MASS_RATIOS: u32 = 32;
 
 /// The relative length to which [`upper_crisis_bracket`] closes its bracket.
@@ -133,11 +134,11 @@ const BRACKET_LENGTH: f64 = 1e-6;
 /// Two mass ratios above 1 that enclose the largest one at which orbits of hump n fall below α*_n: at the first
 /// of the pair a fall was found, at the second none.
 ///
-/// This is the counterpart for M > 1 of the [`crisis`], which concerns the contact part alone. Here the sudden
-/// window counts too: it is scanned at a spacing of `width`, as [`immediate_basin`] does. If the
-/// window never adds a fall, both numbers are 1/M_c(n), where the contact part stops letting orbits fall.
+/// This is the counterpart for M > 1 of the [`crisis`], which concerns only the contact part. Here the sudden window
+/// counts too: it is scanned at a spacing of `width`, as by [`immediate_basin`]. If the window never adds a fall, both
+/// numbers are 1/M_c(n), where the contact part stops letting orbits fall.
 ///
-/// The bracket is closed to a relative length of 10⁻⁶. That no orbits fall at larger mass ratios is only checked at 32
+/// The bracket is closed to a relative length of 10⁻⁶. The absence of falls at larger mass ratios is checked at only 32
 /// mass ratios between 1/M_c(n) and `largest`.
 ///
 /// # Errors

@@ -1,7 +1,7 @@
 //! The trap of a fixed point: an orbit that enters it never leaves, and converges to the fixed point.
 //!
-//! The paper calls it the interval of attraction. In the words of the field it is a trapping region:
-//! f maps it into itself. This crate says trap.
+//! The paper calls it the interval of attraction. The usual name is trapping region: f maps it into itself. The code
+//! calls it a trap.
 
 use crate::error::Error;
 use crate::traps::hump::Hump;

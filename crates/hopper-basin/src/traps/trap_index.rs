@@ -1,12 +1,12 @@
-//! The traps at one mass ratio, arranged so that the trap of a speed is found at once.
+//! The traps at one mass ratio, arranged for a fast look-up of the trap of a speed.
 
 use crate::error::Error;
 use crate::traps::trap::{Trap, TrapEdge};
 use passive_hopper::{FixedPointSpeed, index_below};
 use std::f64::consts::FRAC_1_PI;
 
-/// The number of traps kept, as many as [`Fates`](crate::Fates) keeps. Each costs 1.4 µs for every mass ratio. Speeds
-/// beyond them are [`Lookup::NotIndexed`], and their trap is computed for each speed.
+/// The number of traps in the index, as many as [`Fates`](crate::Fates) stores. Each costs 1.4 µs for every mass ratio.
+/// Speeds beyond these traps are [`Lookup::NotIndexed`], and their trap is computed for each speed.
 const INDEXED_TRAPS: u64 = 64;
 
 /// The traps of the first fixed points as closed intervals of `f64`, from α*_0 = 0 up.
@@ -14,7 +14,7 @@ pub(crate) struct TrapIndex {
     ends: Vec<(f64, f64)>,
 }
 
-/// The answer of a [`TrapIndex`].
+/// The result of a look-up in a [`TrapIndex`].
 pub(crate) enum Lookup {
     /// The speed lies in the trap of α*_n, which has these ends.
     Trap(u32, (f64, f64)),

@@ -18,7 +18,7 @@ use passive_hopper::{
 /// At larger mass ratios a hop may have a million sudden lift-offs, so that only some of them are tried.
 const HEAVIEST: f64 = 1e4;
 
-/// Slow functions get one in so many inputs.
+/// Slow functions are called for one in so many inputs.
 const SELDOM: u64 = 256;
 
 /// Calls all functions with one input.
@@ -150,8 +150,8 @@ fn motion(ratio: MassRatio, state: HopperState) {
         for arc in Execution::new(&hopper, phase, state.into(), Limits::new(f64::INFINITY, 8)) {
             let Ok(arc) = arc else { break };
             let now = energy(ratio, &arc.start.into());
-            // Rounding is relative to the largest coordinate so far; landings are corrected to first
-            // order in what an ulp of their time leaves.
+            // Rounding is relative to the largest coordinate so far. Landings are corrected to first order for the
+            // rounding of their time.
             size = arc.start.iter().map(|x| x.abs()).fold(size, f64::max);
             let ulp = 4.0 * f64::EPSILON * size;
             let rounding = (1e-9 + ulp * ulp) * (1.0 + ratio.value()) * size * size;

@@ -47,6 +47,8 @@ struct Tally {
     lines: usize,
     /// Lines whose reference is itself not decided: there was nothing to compare with.
     skipped: usize,
+    /// Lines whose allowed error is as large as the value: a verdict was compared, and no digit.
+    verdicts: usize,
     worst: f64,
     worst_place: String,
     over: usize,
@@ -63,15 +65,20 @@ pub fn run(options: &Options) -> Result<(), Error> {
     }
     let mut out = std::io::stdout().lock();
     let write = |source| repository_tools::Error::File { path: "standard output".into(), source };
-    let (mut over, mut wrong) = (0, 0);
+    let (mut over, mut wrong, mut empty) = (0, 0, Vec::new());
     for (path, lines) in parsed {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let mut compared = 0;
+        let (mut compared, mut digitless) = (0, 0);
         for (class, tally) in judge(&lines, options.limit) {
             compared += tally.lines - tally.skipped;
+            digitless += tally.verdicts;
             write!(out, "{name}: {class}: {} lines, ", tally.lines).map_err(write)?;
             if tally.skipped > 0 {
                 write!(out, "{} of them without an answer to compare with, ", tally.skipped)
+                    .map_err(write)?;
+            }
+            if tally.verdicts > 0 {
+                write!(out, "{} of them without a digit to compare, ", tally.verdicts)
                     .map_err(write)?;
             }
             if !tally.worst_place.is_empty() {
@@ -88,11 +95,21 @@ pub fn run(options: &Options) -> Result<(), Error> {
             wrong += tally.wrong;
         }
         writeln!(out, "{name}: {compared} values compared").map_err(write)?;
+        if digitless > 0 && digitless == compared {
+            empty.push(path.display().to_string());
+        }
     }
     if over + wrong > 0 {
         return Err(Error::CheckFailed(format!(
             "{over} errors over K = {} (1 + sudden), {wrong} wrong verdicts",
             options.limit
+        )));
+    }
+    if !empty.is_empty() {
+        return Err(Error::CheckFailed(format!(
+            "{}: the allowed error of each line is as large as its value, so no digit was compared; give a smaller \
+             --limit, or lines with smaller slopes",
+            empty.join(", ")
         )));
     }
     Ok(())
@@ -118,7 +135,7 @@ fn judge(lines: &[(usize, Line)], limit: f64) -> BTreeMap<String, Tally> {
                             found: (hop.sudden, hop.next),
                             exact: (*sudden, *next),
                             unit: next.map_or(0.0, |next| 2.0 * f64::EPSILON * next.abs())
-                                / (1 + sudden) as f64,
+                                / (1.0 + *sudden as f64),
                         },
                         limit,
                     ),
@@ -273,7 +290,10 @@ impl Tally {
         let (Some(next), Some(right)) = (found.1, exact.1) else { return };
         let error = (next - right).abs();
         let k = if error == 0.0 { 0.0 } else { error / unit };
-        self.over += usize::from(!(k <= limit * (1 + exact.0) as f64));
+        let allowed = limit * (1 + exact.0) as f64;
+        self.over += usize::from(!(k <= allowed));
+        // A result of 0 is exact.
+        self.verdicts += usize::from(right != 0.0 && !(allowed * unit < right.abs()));
         if !(k <= self.worst) || self.worst_place.is_empty() {
             self.worst = k;
             self.worst_place = format!("line {at}: {place}, sudden = {}", exact.0);

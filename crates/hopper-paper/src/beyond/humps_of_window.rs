@@ -88,7 +88,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn places_are_on_their_humps() {
+    fn place_k_of_the_humps_is_fixed_point_k_plus_1() {
         assert_eq!(by_humps(0.0), alpha_star(1));
         assert_eq!(by_humps(5.0), alpha_star(6));
         let middle = by_humps(2.5);

@@ -11,7 +11,7 @@ use journal_figures::render;
 use passive_hopper::MassRatio;
 use rayon::prelude::*;
 use repository_tools::{Folder, Progress};
-use resumable_job::{Lock, Order, Pieces, npy_header};
+use resumable_job::{AtomicFile, Lock, Order, Pieces, npy_header};
 use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
@@ -47,6 +47,11 @@ const MOST_ALONG: usize = 1 << 20;
 /// them all.
 const PICTURE: usize = PIXELS;
 
+/// The names of the results.
+const ARRAY: &str = "basin.npy";
+const PICTURE_FILE: &str = "basin.png";
+const LEGEND: &str = "legend.json";
+
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
     let grid = grid(options)?;
@@ -56,19 +61,28 @@ pub fn run(options: &Options) -> Result<(), Error> {
         grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
     );
     let lock = Lock::take(folder.path(), "basin-raster")?;
+    // A result that cannot have its name is an error before the computation. The trial files are dropped unfinished,
+    // which removes them.
+    for name in [ARRAY, PICTURE_FILE, LEGEND] {
+        drop(AtomicFile::create(&folder.path().join(name))?);
+    }
     let kept = Pieces::open(&folder.path().join("tiles"), &description)?;
     let tiles = grid.columns.div_ceil(TILE);
     let bar = Progress.bar("basins", tiles as u64);
     let done = AtomicU64::new(0);
     (0..tiles).into_par_iter().try_for_each(|tile| {
         if kept.read(tile)?.is_none() {
-            kept.write(tile, &columns(&grid, tile)?)?;
+            let labels = columns(&grid, tile)?;
+            // Without its lock this run would write among the tiles of another run.
+            lock.confirm()?;
+            kept.write(tile, &labels)?;
         }
         bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
         Ok::<(), Error>(())
     })?;
     bar.finish();
-    let array = folder.path().join("basin.npy");
+    lock.confirm()?;
+    let array = folder.path().join(ARRAY);
     let mut counts = BTreeMap::new();
     let mut picture = Picture::new(&grid);
     // Row 0 is the lowest speed. In Fortran's order the columns, and so the tiles, follow one another in the file.
@@ -88,7 +102,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
         tick_counts: (6, 8),
     };
     let rendered = render("basin", &draw_basins(&window, &image)?, 2.0)?;
-    folder.write("basin.png", &rendered.png)?;
+    lock.confirm()?;
+    folder.write(PICTURE_FILE, &rendered.png)?;
     let legend: Vec<_> = counts
         .iter()
         .map(|(&label, &pixels)| {
@@ -97,8 +112,9 @@ pub fn run(options: &Options) -> Result<(), Error> {
         })
         .collect();
     let text = serde_json::to_string_pretty(&legend)
-        .map_err(|e| Error::Render { what: "legend.json".into(), reason: e.to_string() })?;
-    folder.write("legend.json", text.as_bytes())?;
+        .map_err(|e| Error::Render { what: LEGEND.into(), reason: e.to_string() })?;
+    lock.confirm()?;
+    folder.write(LEGEND, text.as_bytes())?;
     kept.remove(tiles)?;
     folder.remove_leftovers();
     drop(lock);
@@ -107,7 +123,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
         for (&label, pixels) in &counts {
             writeln!(out, "label {label:5}  {:40} {pixels} pixels", HopperFate::label_name(label))?;
         }
-        writeln!(out, "{}\n{}", array.display(), folder.path().join("basin.png").display())
+        writeln!(out, "{}\n{}", array.display(), folder.path().join(PICTURE_FILE).display())
     })();
     said.map_err(|source| Error::File { path: "standard output".into(), source })
 }

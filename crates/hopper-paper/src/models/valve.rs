@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use example_systems::valve::turns;
+use example_systems::valve::turning_points;
 use journal_figures::{Frame, Svg, csv_file, indexed_png, ticks};
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ const RATES: (f64, f64) = (0.2, 10.0);
 /// Flow rates, and those of one piece that is kept on disk.
 const COLUMNS: usize = 980;
 const PIECE: usize = 20;
-/// Turns that are left out while the motion settles, and turns that are drawn.
+/// Turning points that are left out while the motion settles, and turning points that are drawn.
 const TRANSIENT: usize = 1024;
 const DRAWN: usize = 96;
 /// The picture in pixels, two across for each flow rate.
@@ -20,23 +20,23 @@ const PIXELS: (usize, usize) = (2 * COLUMNS, 1200);
 /// The largest displacement that is drawn.
 const HIGHEST: f64 = 9.0;
 
-/// The displacements at the turns against the flow rate.
+/// The displacements at the turning points against the flow rate.
 pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
     let rate =
         |column: usize| RATES.0 + (RATES.1 - RATES.0) * (column as f64 + 0.5) / COLUMNS as f64;
     let pieces = job.scan("the valve's turns", COLUMNS / PIECE, |piece| {
         let columns = piece * PIECE..(piece + 1) * PIECE;
-        let turns: Vec<Vec<f64>> = columns
+        let displacements: Vec<Vec<f64>> = columns
             .into_par_iter()
-            .map(|column| turns(rate(column), TRANSIENT, DRAWN))
+            .map(|column| turning_points(rate(column), TRANSIENT, DRAWN))
             .collect::<Result<_, _>>()?;
-        Ok(turns.concat())
+        Ok(displacements.concat())
     })?;
-    let turns: Vec<f64> = pieces.concat();
+    let displacements: Vec<f64> = pieces.concat();
     let (width, height) = PIXELS;
     let mut hits = vec![0u32; width * height];
-    for (k, &turn) in turns.iter().enumerate() {
-        let row = ((1.0 - turn / HIGHEST) * height as f64).floor();
+    for (k, &displacement) in displacements.iter().enumerate() {
+        let row = ((1.0 - displacement / HIGHEST) * height as f64).floor();
         if row >= 0.0 && row < height as f64 {
             for (down, right) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let row = (row as usize + down).min(height - 1);
@@ -59,7 +59,10 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         "flow rate $q$ (dimensionless)",
         "displacement $y$_{1} at the turns, $y$_{2} = 0",
     );
-    let rows = turns.iter().enumerate().map(|(k, &turn)| vec![Some(rate(k / DRAWN)), Some(turn)]);
+    let rows = displacements
+        .iter()
+        .enumerate()
+        .map(|(k, &displacement)| vec![Some(rate(k / DRAWN)), Some(displacement)]);
     Ok(Figure {
         name: "valve",
         title: "Bifurcations of a pressure relief valve".into(),

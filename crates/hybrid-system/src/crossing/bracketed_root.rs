@@ -8,12 +8,12 @@ use crate::error::Error;
 use roots::{Convergency, SearchError, find_root_brent};
 
 /// Most iterations. A bracket of length 1 around a root at zero is halved 1074 times until it reaches the smallest
-/// double, and a flat root allows nothing faster than halving. A simple root takes about ten. Beyond this number the
-/// search ends with [`Error::NoConvergence`].
+/// double. At a flat root no method is faster than halving. A simple root takes about ten iterations. Beyond this
+/// number the search ends with [`Error::NoConvergence`].
 const MOST_ITERATIONS: usize = 1200;
 
-/// Smaller values, relative to the larger end value, are replaced by this one with their sign. The product of two
-/// of them is 1e-300, which does not underflow. It is far below every rounding error, so that only signs are
+/// Smaller values, relative to the larger end value, are replaced by this one with their sign. The product of two such
+/// values is 1e-300, which does not underflow. The number is far below every rounding error, so that only signs are
 /// affected.
 const SMALLEST_VALUE: f64 = 1e-150;
 
@@ -91,7 +91,7 @@ pub fn bracketed_root(
         return Err(Error::NotFinite { at, value });
     }
     match outcome {
-        // Not the iterate that the crate returns: it may lie outside the last bracket.
+        // The crate's own iterate is not used: it may lie outside the last bracket.
         Ok(_) => Ok(if low.1.abs() < high.1.abs() { low.0 } else { high.0 }),
         Err(SearchError::NoConvergency) => {
             Err(Error::NoConvergence { left, right, iterations: MOST_ITERATIONS })

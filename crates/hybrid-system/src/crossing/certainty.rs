@@ -1,8 +1,8 @@
-//! The first crossing of a guard, and how sure it is that no other crossing comes before it.
+//! The first crossing of a guard, and how certain it is that no other crossing comes before it.
 
 use crate::state::State;
 
-/// How sure it is that a crossing is the first one.
+/// How certain it is that a crossing is the first one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Certainty {
     /// The model solved for the crossing itself.
@@ -11,11 +11,11 @@ pub enum Certainty {
     Certain,
     /// The crossing was found along an integrated flow.
     ///
-    /// Steps on which the guard stays far from zero, at the stages and at eighths of the step, are passed over. On
-    /// every other step the guard is replaced by polynomials, and none of their zeros is missed. The flow itself is
-    /// accurate to its tolerances.
+    /// A step is skipped if the guard stays far from zero at the stages and at eighths of the step. On every other step
+    /// the guard is replaced by polynomials, and none of their zeros is missed. The flow itself is accurate to its
+    /// tolerances.
     Interpolated,
-    /// The guard was sampled: two crossings between neighbouring samples would have been missed.
+    /// The guard was sampled: two crossings between neighbouring samples are missed.
     Sampled {
         /// Time between two samples.
         interval: f64,
@@ -32,6 +32,6 @@ pub struct Crossing<S, const N: usize> {
     /// The state on the surface, before any reset. A model that solves its crossings may know this state more
     /// accurately than its flow gives it at the rounded time.
     pub state: State<N>,
-    /// How sure it is that this is the first crossing.
+    /// How certain it is that this is the first crossing.
     pub certainty: Certainty,
 }

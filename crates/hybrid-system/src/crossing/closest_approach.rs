@@ -1,27 +1,28 @@
-//! Where a function that grazes zero is closest to it.
+//! The time at which a grazing function is closest to zero.
 
 use crate::crossing::golden_section::golden_section_minimum;
 
-/// The time and the value at which `function` is closest to zero, near a stretch where rounding hides its sign.
+/// The time and the value at which `function` is closest to zero, near an interval where rounding hides its sign.
 ///
-/// The interval [`from`, `from` + `width`] is where a search stopped. The stretch may begin later and may be longer. So
-/// this function looks ahead, each time twice as far, until `clear` says that the value is clear of rounding again, or
-/// the horizon is reached. `sign` is the sign of the function before the stretch.
+/// The interval [`from`, `from` + `width`] is where a search stopped. The hidden interval may begin later and may be
+/// longer. This function therefore searches ahead, each time twice as far. It stops when `clear` returns true (the
+/// value is larger than its rounding error again), or at the horizon. `sign` is the sign of the function before the
+/// hidden interval.
 pub(crate) fn closest_approach(
     function: impl Fn(f64) -> f64,
     clear: impl Fn(f64) -> bool,
     sign: f64,
     (from, width, horizon): (f64, f64, f64),
 ) -> (f64, f64) {
-    // At least one ulp, also at time zero: a shorter step would not move at all.
+    // At least one ulp, also at time zero: a shorter step would not change the time.
     let mut step = width.max(f64::EPSILON * from).max(f64::MIN_POSITIVE);
     let (mut ahead, at_first) = (from, function(from).abs());
     let mut hidden = !clear(from);
     while ahead < horizon {
         ahead = (from + step).min(horizon);
         step *= 2.0;
-        // Still on the way to zero: the sign is the old one, the value no larger than at first, and no hidden value was
-        // seen yet. Stopping here would leave the minimum outside [from, ahead].
+        // The function still approaches zero if its sign is the old one, its value is no larger than at first, and no
+        // hidden value has been seen yet. Stopping here would leave the minimum outside [from, ahead].
         let before = !hidden && function(ahead) * sign > 0.0 && function(ahead).abs() <= at_first;
         if clear(ahead) && !before {
             break;

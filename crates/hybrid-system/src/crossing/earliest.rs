@@ -8,7 +8,7 @@ use super::sampled::sampled_crossing;
 use super::under_bounds::crossing_under_bounds;
 use crate::error::Error;
 
-/// The provided search of [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing).
+/// The default search of [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing).
 pub(crate) fn earliest_crossing<F, const N: usize>(
     flow: &F,
     horizon: f64,
@@ -44,7 +44,8 @@ where
         let surface = || format!("{:?}", guards[first].surface);
         let interval =
             sampling_interval.ok_or_else(|| Error::NoSamplingInterval { surface: surface() })?;
-        // Also if a guard under bounds is crossed first: a sampled guard may have been crossed before that, unseen.
+        // This holds even if a guard under bounds is crossed first: a crossing of a sampled guard before it may have
+        // been missed.
         certainty = Certainty::Sampled { interval };
         let until = earliest.map_or(horizon, |(time, _)| time);
         let sampled = sampled_crossing(flow, until, interval, &without_bounds)?;

@@ -19,12 +19,12 @@ use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
 
-/// Highest order of a zero at the start that is tried. A model has a handful of derivatives at most; the limit only
-/// bounds the array of lower terms. A zero of higher order is [`Error::UndecidedSign`].
+/// Highest order of a zero at the start that is tested. A model gives only a few derivatives; the limit only bounds the
+/// array of lower terms. A zero of higher order is [`Error::UndecidedSign`].
 const HIGHEST_ORDER: u32 = 16;
 
-/// Most intervals that are tested, a guard against a search without end. Enclosures that are too wide to decide
-/// anything reach it: the search then ends with [`Error::NoConvergence`].
+/// Most intervals that are tested: a limit for a search that would not end. Enclosures that are too wide for any
+/// decision reach it. The search then ends with [`Error::NoConvergence`].
 const MOST_INTERVALS: usize = 1_000_000;
 
 /// A guard along a flow: its values, and its enclosures by order and interval.
@@ -64,7 +64,7 @@ where
             }
             match self.test(left, right)? {
                 ZeroTest::NoZero { sign } if sign != side && direction.admits(side, sign) => {
-                    // Rounding hid the zero from both tests. It lies where the two intervals meet.
+                    // Rounding hid the zero from both tests. The zero lies where the two intervals meet.
                     return Ok(FirstCrossing::At { time: left, rising: side < 0.0 });
                 }
                 ZeroTest::NoZero { sign } => (left, side) = (right, sign),
@@ -103,10 +103,10 @@ where
         Err(Error::NoConvergence { left, right: horizon, iterations: MOST_INTERVALS })
     }
 
-    /// A time up to which the guard has no zero after its start, and its side until then.
+    /// A time up to which the guard has no zero after its start, and the sign of the guard until then.
     ///
     /// Statements (4) and (5) of [mathematics](crate::mathematics): the first derivative whose enclosure at the start
-    /// excludes zero decides, unless the lower ones, which may be zero, can outweigh it too long.
+    /// excludes zero decides, unless the lower derivatives, which may be zero, can outweigh it for too long.
     fn leave_start(&self, horizon: f64, start_error: f64) -> Result<(f64, f64), Error> {
         if let Some(side) = self.at(0, 0.0)?.widened(start_error).sign() {
             return Ok((0.0, side));
@@ -128,11 +128,11 @@ where
                     // g⁽ᵏ⁾ keeps its sign on [0, time]: |g| ≥ leading tᵏ − Σ lower[j] tʲ.
                     let leading = bound.low.abs().min(bound.high.abs()) / factorial;
                     let ratio = |j: u32| f64::from(order) * lower[j as usize] / leading;
-                    // From `clear` on each of the fewer than k lower terms is at most leading tᵏ/(2k).
+                    // From `clear` on, each of the lower terms (fewer than k) is at most leading tᵏ/(2k).
                     let clear = (1..order)
                         .map(|j| pxfm::f_pow(2.0 * ratio(j), 1.0 / f64::from(order - j)))
                         .fold(0.0, f64::max);
-                    // Until then they must not move the guard by more than its error at the start.
+                    // Before `clear` the lower terms must not change the guard by more than its error at the start.
                     let reached: f64 = (1..order)
                         .map(|j| lower[j as usize] * pxfm::f_pow(clear, f64::from(j)))
                         .sum();
@@ -148,10 +148,10 @@ where
         Err(Error::UndecidedSign { order: 0, value: (self.value)(0.0) })
     }
 
-    /// The model's enclosure, if it gives one and it is an interval.
+    /// The model's enclosure, if there is one; an error unless it is an interval.
     fn enclosed(&self, order: u32, times: (f64, f64)) -> Result<Option<Enclosure>, Error> {
         match (self.enclosure)(order, times) {
-            // Also true for NaN.
+            // The condition is also true for NaN.
             Some(Enclosure { low, high }) if !(low <= high) => {
                 Err(Error::BadEnclosure { order, from: times.0, to: times.1, low, high })
             }
@@ -190,10 +190,10 @@ where
         Ok(ZeroTest::Undecided)
     }
 
-    /// The only zero of a monotone stretch that begins on `side`.
+    /// The only zero on a monotone interval that begins on `side`.
     fn root(&self, left: f64, right: f64, side: f64) -> Result<f64, Error> {
-        // The stretch has a zero by the enclosures; the computed values may deny it at either end, within rounding.
-        // Then that end is the zero.
+        // By the enclosures the interval has a zero. Within rounding the computed values may show no sign change at one
+        // of the ends. Then that end is the zero.
         if (self.value)(left) * side <= 0.0 {
             return Ok(left);
         }

@@ -3,7 +3,7 @@
 /// The result of a search under bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum FirstCrossing {
-    /// The function crosses zero at this time, in the direction asked for, and not before.
+    /// The function crosses zero at this time, in the given direction, and not before.
     At {
         /// Time of the crossing.
         time: f64,
@@ -15,7 +15,7 @@ pub enum FirstCrossing {
     Grazing {
         /// Time at which the function is closest to zero.
         time: f64,
-        /// Value of the function at that time, the smallest one seen.
+        /// Value of the function at that time, the smallest computed one.
         value: f64,
     },
     /// The function does not cross zero up to the horizon.

@@ -1,4 +1,4 @@
-//! How much of a guard's value may be the rounding of the state.
+//! The part of a guard's value that may be the rounding error of the state.
 
 use crate::state::State;
 

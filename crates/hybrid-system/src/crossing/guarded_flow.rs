@@ -6,7 +6,7 @@ use crate::guard::Guard;
 use crate::state::State;
 use std::fmt::Debug;
 
-/// The flow in one mode from one start, with the guards that are watched along it.
+/// The flow in one mode from one start, with the guards that are searched along it.
 ///
 /// The searches use this trait instead of `HybridSystem`, because the provided method
 /// `HybridSystem::first_crossing` calls the searches: the two files would import each other.

@@ -1,7 +1,7 @@
 //! How is the first crossing of a guard found?
 //!
-//! [`earliest_crossing`] searches every guard by the strongest means that the model gives and returns the earliest
-//! result:
+//! [`earliest_crossing`] searches every guard with the strongest information that the model gives and returns the
+//! earliest result:
 //!
 //! | the model gives | file | no crossing is missed because |
 //! |---|---|---|

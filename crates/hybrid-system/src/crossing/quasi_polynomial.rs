@@ -11,10 +11,9 @@ struct Term {
 }
 
 /// A quasi-polynomial: g(t) = Σ pₖ(t) cos ωₖt + qₖ(t) sin ωₖt, a sum of polynomials times sines and cosines.
-///
 /// Quasi-polynomials are the solutions of linear differential equations with constant coefficients whose exponents are
-/// imaginary. A guard is one along the flow of constant forces, undamped springs and harmonic excitation. (In general
-/// the pₖ may also multiply real exponentials; those are not supported.)
+/// imaginary. Along the flow of constant forces, undamped springs and harmonic excitation a guard is a
+/// quasi-polynomial. (In general the pₖ may also multiply real exponentials, which this type does not support.)
 ///
 /// Sums, products and derivatives of quasi-polynomials are quasi-polynomials. Their coefficients give bounds over an
 /// interval of time, so that the first zero is found with [certainty](crate::Certainty::Certain).
@@ -89,10 +88,10 @@ impl QuasiPolynomial {
         self.terms.iter().map(|term| term.bound(time)).sum()
     }
 
-    /// True if the constant term is larger than all others together up to `time`: then there is no zero.
+    /// True if the constant term is larger than all other terms together up to `time`: then there is no zero.
     ///
-    /// One comparison answers for an oscillation about a large constant, however many periods it has. The search by
-    /// intervals would need several for each period.
+    /// For an oscillation about a large constant one comparison decides, however many periods it has. The search by
+    /// intervals would need several intervals for each period.
     pub(crate) fn stays_away(&self, time: f64) -> bool {
         let polynomial = self.terms.iter().find(|term| term.omega == 0.0);
         let constant = polynomial.and_then(|term| term.cos.first()).map_or(0.0, |c| c.abs());
@@ -125,8 +124,8 @@ impl Term {
 
     /// (p cos + q sin)′ = (p′ + ωq) cos + (q′ − ωp) sin.
     fn derivative(&self) -> Self {
-        // The coefficients of p′ + factor·q. Without the sine (ω = 0) the degree goes down; that ends a polynomial's
-        // derivatives at zero.
+        // The coefficients of p′ + factor·q. Without the sine (ω = 0) the degree decreases, so that the derivatives of
+        // a polynomial end at zero.
         let sum = |slope: &[f64], factor: f64, other: &[f64]| {
             let length =
                 slope.len().saturating_sub(1).max(if factor == 0.0 { 0 } else { other.len() });

@@ -8,8 +8,8 @@
 //!   else                                       the interval is halved
 //! ```
 //!
-//! These are statements (2) and (3) of [mathematics](crate::mathematics). A start at zero is left as statements (4) and
-//! (5) say.
+//! These are statements (2) and (3) of [mathematics](crate::mathematics). Statements (4) and (5) tell how the function
+//! leaves a start at zero.
 
 use super::bracketed_root::bracketed_root;
 use super::closest_approach::closest_approach;
@@ -20,23 +20,25 @@ use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
 
-/// A value this many times its rounding error is clear of it. Used only to find the end of a stretch that rounding
-/// hides, for the report of a grazing: a larger number makes the reported stretch longer, not the search less certain.
+/// A value is clear of rounding if it exceeds its rounding error by this factor. The factor is used only to find the
+/// end of an interval that rounding hides, for the report of a grazing. A larger number makes the reported interval
+/// longer, not the search less certain.
 const CLEAR: f64 = 4.0;
 
-/// Highest order of a zero at the start that is tried. The tests go to order 8; the limit only bounds the array of
-/// lower terms. A zero of higher order is [`Error::UndecidedSign`].
+/// Highest order of a zero at the start that is tested. The test cases go to order 8; the limit only bounds the array
+/// of lower terms. A zero of higher order is [`Error::UndecidedSign`].
 const HIGHEST_ORDER: u32 = 16;
 
-/// Most intervals that are tested, a guard against a search that takes too long. Every oscillation up to the horizon
-/// takes several intervals, so that a very long horizon reaches it. The search then ends with [`Error::NoConvergence`].
+/// Most intervals that are tested: a limit for a search that takes too long. Every oscillation up to the horizon takes
+/// several intervals, so that a very long horizon reaches the limit. The search then ends with
+/// [`Error::NoConvergence`].
 const MOST_INTERVALS: usize = 1_000_000;
 
 impl QuasiPolynomial {
     /// The first crossing of zero strictly after time zero, up to `horizon`, in one direction.
     ///
-    /// A start at zero, within rounding, counts by the side to which the function leaves zero. A function that is zero
-    /// throughout never crosses.
+    /// For a start at zero, within rounding, the side to which the function leaves zero is its side. A function that is
+    /// zero everywhere never crosses.
     ///
     /// ```
     /// use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial};
@@ -62,7 +64,8 @@ impl QuasiPolynomial {
         self.first_crossing_from(direction, horizon, 0.0)
     }
 
-    /// The same for a function whose value at the start may be wrong by `start_error`.
+    /// As [`first_crossing`](Self::first_crossing), for a function whose value at the start may be wrong by
+    /// `start_error`.
     pub(crate) fn first_crossing_from(
         &self,
         direction: Direction,
@@ -82,11 +85,11 @@ impl QuasiPolynomial {
         Search::new(self).run(start, direction, horizon)
     }
 
-    /// A time up to which the function has no zero after its start, and its sign until then; `None` if it is zero
-    /// throughout.
+    /// A time up to which the function has no zero after its start, and its sign until then; `None` if the function is
+    /// zero everywhere.
     ///
-    /// Derivatives within their rounding count as zero. The function must stay within its own rounding as long as they
-    /// could outweigh the first derivative that does not count as zero.
+    /// A derivative within its rounding error counts as zero. As long as such derivatives could outweigh the first
+    /// derivative that does not count as zero, the function must stay within its own rounding error.
     fn leave_start(&self, horizon: f64, start_error: f64) -> Result<Option<(f64, f64)>, Error> {
         let start_hidden = self.rounding(0.0) + start_error;
         let mut derivative = self.clone();
@@ -97,8 +100,8 @@ impl QuasiPolynomial {
             let next = derivative.derivative();
             let rounding = derivative.rounding(0.0) + if order == 0 { start_error } else { 0.0 };
             if value.abs() <= rounding {
-                // g⁽ᵏ⁺¹⁾ ≡ 0: no derivative is left to decide. If g itself is within rounding up to the horizon, it is
-                // zero throughout.
+                // If g⁽ᵏ⁺¹⁾ ≡ 0, no derivative is left to decide. If g itself is within rounding up to the horizon, g
+                // counts as zero everywhere.
                 if next.bound(horizon) == 0.0 && self.bound(horizon) <= start_hidden {
                     return Ok(None);
                 }
@@ -119,13 +122,13 @@ impl QuasiPolynomial {
             {
                 time *= 0.5;
             }
-            // (5): from `clear` on, each of the fewer than k lower terms is at most |c|tᵏ/(2k): together they are less
-            // than ½|c|tᵏ.
+            // (5): from `clear` on, each of the lower terms (fewer than k) is at most |c|tᵏ/(2k): together they are
+            // less than ½|c|tᵏ.
             let ratio = 2.0 * f64::from(order) / leading;
             let clear = (1..order as usize)
                 .map(|j| pxfm::f_pow(ratio * lower[j], 1.0 / (f64::from(order) - j as f64)))
                 .fold(0.0, f64::max);
-            // Until then |g| is at most this; 2|c|tᵏ bounds the leading term with its remainder.
+            // Before `clear`, |g| is at most this sum; 2|c|tᵏ bounds the leading term with its remainder.
             let reached: f64 = (1..=order as usize)
                 .map(|j| if j < order as usize { lower[j] } else { 2.0 * leading })
                 .enumerate()
@@ -155,7 +158,7 @@ impl<'a> Search<'a> {
         Search { function, slope, bend }
     }
 
-    /// The tests at the head of this file. `slope` of the answer is g′(m).
+    /// The tests at the head of this file. `slope` in the result is g′(m).
     fn test(&self, left: f64, right: f64) -> ZeroTest {
         let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
         // All bounds hold for times of size up to `right`, and so on the whole interval.
@@ -192,14 +195,14 @@ impl<'a> Search<'a> {
             }
             match self.test(left, right) {
                 ZeroTest::NoZero { sign: now } if now != sign && direction.admits(sign, now) => {
-                    // Rounding hid the zero from both tests. It lies where the two intervals meet.
+                    // Rounding hid the zero from both tests. The zero lies where the two intervals meet.
                     return Ok(FirstCrossing::At { time: left, rising: sign < 0.0 });
                 }
                 ZeroTest::NoZero { sign: now } => (left, sign) = (right, now),
                 ZeroTest::Monotone { slope } => {
                     let end = self.extended(right, slope, horizon);
                     let value = self.function.value(end);
-                    // A value within rounding does not prove the other side: the next interval decides. The last
+                    // A value within rounding does not prove a change of side: the next interval decides. The last
                     // interval has no next one.
                     let clear = value.abs() > self.function.rounding(end) || right >= horizon;
                     if slope * sign < 0.0 && value * sign < 0.0 && clear {

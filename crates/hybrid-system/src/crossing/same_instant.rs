@@ -1,8 +1,8 @@
-//! Which of two crossing times is earlier, if rounding allows an answer.
+//! Which of two crossing times is earlier, beyond rounding.
 
 /// Two times within this many ulps count as the same instant. A crossing time is right to a few ulps: `bracketed_root`
 /// stops at a bracket of two ulps, and the step past the root adds one or two. A larger number would swap the order of
-/// events that rounding does tell apart.
+/// events whose times differ by more than rounding.
 const SAME_INSTANT_ULPS: f64 = 4.0;
 
 /// True if `time` comes before `other` by more than a few ulps.

@@ -8,11 +8,11 @@ use crate::error::Error;
 use crate::guard::Guard;
 use std::fmt::Debug;
 
-/// The first crossing among the guards with these indices, and the index of the guard crossed.
+/// The first crossing among the guards with these indices, and the index of the crossed guard.
 ///
 /// # Errors
-/// [`Error::BadSamplingInterval`] unless samples advance and end; [`Error::NotFinite`] for a guard that is not finite
-/// at a sample; [`Error::UndecidedStart`] as [`SampledGuard::advance`] says.
+/// [`Error::BadSamplingInterval`] if the samples would not advance to the horizon; [`Error::NotFinite`] for a guard
+/// that is not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`].
 pub(crate) fn sampled_crossing<F, const N: usize>(
     flow: &F,
     horizon: f64,
@@ -22,7 +22,7 @@ pub(crate) fn sampled_crossing<F, const N: usize>(
 where
     F: GuardedFlow<N>,
 {
-    // The last condition: an interval below an ulp of the horizon would never get there.
+    // The last condition: samples at an interval below an ulp of the horizon would never reach it.
     if !(interval > 0.0) || !horizon.is_finite() || horizon + interval == horizon {
         return Err(Error::BadSamplingInterval { interval, horizon });
     }
@@ -40,7 +40,7 @@ where
     let mut sample = 0u64;
     loop {
         sample += 1;
-        // A product, not a sum: rounding does not accumulate over many samples.
+        // A product instead of a sum: rounding does not accumulate over many samples.
         let time = (sample as f64 * interval).min(horizon);
         let state = flow.state(time);
         let mut earliest: Option<(f64, usize)> = None;
@@ -104,8 +104,8 @@ impl<S: Copy + Debug> SampledGuard<S> {
                 interval,
             }),
             Some((since, before)) if self.guard.direction.admits(before, value) => {
-                // A sample that is exactly zero is the first root. With it as left end the bracket returns it; with
-                // `since` the root finder could return a later one.
+                // A sample that is exactly zero is the first root. With this sample as left end the bracket returns it;
+                // with `since` the root finder could return a later one.
                 Ok(Some((zero.unwrap_or(since), time)))
             }
             _ => Ok(None),

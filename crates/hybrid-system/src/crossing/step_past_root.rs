@@ -1,19 +1,19 @@
 //! From a root to the far side of the surface.
 //!
 //! A root finder returns a time at which the function may still have its old sign, within rounding. A search that
-//! starts there would find the same root once more. So each search moves its root later, ulp by ulp, until the
+//! starts there would find the same root again. Therefore each search moves its root later, ulp by ulp, until the
 //! function has left the old side.
 
 /// The first of the times `root`, `root` + 1 ulp, + 3 ulps, + 7 ulps and so on, no later than `last`, at which `past`
 /// holds; `last` if none does.
 ///
-/// The steps double, so that a long stretch hidden by rounding takes few evaluations. Times must not be negative: only
+/// The steps double, so that a long interval hidden by rounding takes few evaluations. Times must not be negative: only
 /// then does a larger bit pattern mean a later time.
 pub(crate) fn step_past_root(root: f64, last: f64, past: impl Fn(f64) -> bool) -> f64 {
     let (mut time, mut ulps) = (root, 1u64);
     while time < last && !past(time) {
         time = f64::from_bits(time.to_bits().saturating_add(ulps)).min(last);
-        // No overflow: all positive doubles lie within 2⁶³ ulps of each other, so that the loop ends before.
+        // No overflow: all positive doubles lie within 2⁶³ ulps of each other, so that the loop ends earlier.
         ulps *= 2;
     }
     time

@@ -21,7 +21,7 @@ where
     F: GuardedFlow<N>,
 {
     let Guard { surface, direction } = guard;
-    // The shortest interval: asks only whether the model gives enclosures of this guard.
+    // The interval has length zero: the call only tests whether the model gives enclosures of this guard.
     let has_enclosures = || flow.enclosure(surface, 0, (0.0, 0.0)).is_some();
     if !horizon.is_finite() {
         let bounded = flow.quasi_polynomial(surface).is_some() || has_enclosures();
@@ -53,14 +53,14 @@ where
 
 /// The most ulps by which a crossing is moved, in steps of 1, 2, 4, … 2²⁷ ulps.
 ///
-/// Rounding makes two roots one if they are about √ε apart, 2⁻²⁶ of the time or 2²⁶ ulps. A crossing that has to be
-/// moved farther than two or four times that does not belong to the guard as the model evaluates it.
+/// Rounding merges two roots that are about √ε apart, 2⁻²⁶ of the time or 2²⁶ ulps. If a crossing has to be moved
+/// farther than two or four times this distance, the guard as the model evaluates it does not have this crossing.
 const MOST_ULPS: u64 = (1 << 28) - 1;
 
-/// The first time, from that of a crossing on, at which `value` is not on the old side of the surface any more.
+/// The first time, from the time of a crossing on, at which `value` is no longer on the old side of the surface.
 ///
-/// The search saw the guard as a quasi-polynomial or by enclosures. `value` is the guard as the model evaluates it, and
-/// the two may differ by rounding. The next arc starts from this time, so that the model's own value decides.
+/// The search used the guard as a quasi-polynomial or by enclosures. `value` is the guard as the model evaluates it,
+/// and the two may differ by rounding. The next arc starts from this time, so that the model's own value must decide.
 ///
 /// Returns `crossing` itself if the value stays on the old side for [`MOST_ULPS`].
 fn past_surface(value: impl Fn(f64) -> f64, crossing: f64, rising: bool) -> f64 {

@@ -1,6 +1,6 @@
-//! The answer of a test for zeros on one interval of time.
+//! The result of a test for zeros on one interval of time.
 
-/// The answer of bounds about the zeros of a function on one interval.
+/// What bounds show about the zeros of a function on one interval.
 ///
 /// The tests themselves are statements (2) and (3) of [mathematics](crate::mathematics).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +15,6 @@ pub(crate) enum ZeroTest {
         /// A number with the sign of the derivative.
         slope: f64,
     },
-    /// The bounds are too wide for either answer: the interval must be halved.
+    /// The bounds are too wide for either result: the interval must be halved.
     Undecided,
 }

@@ -3,11 +3,14 @@
 use std::sync::LazyLock;
 
 /// Number of nodes, for the state along a step and for a guard along it. The interpolants of the state have degree
-/// eight, so that a smooth guard of it has degree 16 or more: 16 values show whether its coefficients decay. More nodes
-/// cost more evaluations on every interval; fewer mean more halvings.
+/// eight, so that a smooth guard of the state has degree 16 or more: 16 values show whether its coefficients decay.
+/// More nodes cost more evaluations on every interval; fewer nodes need more halvings.
 pub(super) const NODES: usize = 16;
 
 /// The Chebyshev nodes in [−1, 1], and the matrix from values there to Chebyshev coefficients.
+///
+/// A crate that uses this one has a second transform, for tables: with 8 nodes, in 106 bits, to coefficients by powers.
+/// Of the two only the formula of the nodes is the same.
 pub(super) struct Transform {
     /// cos((2j + 1)π/2V) for V nodes, from right to left.
     pub(super) nodes: [f64; NODES],

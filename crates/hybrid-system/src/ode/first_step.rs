@@ -7,8 +7,8 @@ use super::vector::Vector;
 /// (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, II.4, "Starting Step Size").
 ///
 /// The constants are those of the book; only the norm is not divided by the dimension. A first step that is too long is
-/// rejected and shortened, one that is too short takes a few more steps to grow: neither costs accuracy. `order` is the
-/// higher order of the pair, which is the lower one plus 1, as the book's exponent asks.
+/// rejected and shortened. After a first step that is too short the integration needs a few more steps. Neither costs
+/// accuracy. `order` is the higher order of the pair: the lower order plus 1, as in the book's exponent.
 pub(super) fn first_step<V: Vector>(
     field: &impl Fn(f64, &V) -> V,
     start: &V,
@@ -18,8 +18,8 @@ pub(super) fn first_step<V: Vector>(
 ) -> f64 {
     let (size, rate) =
         (in_tolerances(start, start, tolerances), in_tolerances(slope, start, tolerances));
-    // An explicit Euler step that moves the state by a hundredth of its size. A state or a rate near zero gives no
-    // scale: then a small step.
+    // An explicit Euler step that changes the state by a hundredth of its size. A state or a rate near zero gives no
+    // scale: then the step is small.
     let euler = if size > 1e-5 && rate > 1e-5 { 0.01 * size / rate } else { 1e-6 };
     let mut ahead = *start;
     ahead.add(euler, slope);

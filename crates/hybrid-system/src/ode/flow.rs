@@ -43,12 +43,12 @@ where
 /// The first crossing of a guard of `mode` along ẋ = f(x): the value that
 /// [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing) returns in a mode without closed form.
 ///
-/// On each step the integrator's interpolant makes every guard a function of time. A step is passed over if the
-/// guard stays far from zero at the stages and at eighths of the step. Otherwise the guard is represented by the
-/// polynomial through 16 of its values. An interval on which the last coefficients of that polynomial are not small
-/// is halved. No zero of these polynomials is missed: [`Certainty::Interpolated`](crate::Certainty::Interpolated).
-/// A guard that starts at zero, within rounding, counts by the side to which it leaves. Up to eight guards nothing
-/// is allocated.
+/// On each step the integrator's interpolant makes every guard a function of time. A step is skipped if the guard stays
+/// far from zero at the stages and at eighths of the step. Otherwise the guard is represented by the polynomial through
+/// 16 of its values. An interval on which the last coefficients of that polynomial are not small is halved. No zero of
+/// these polynomials is missed: [`Certainty::Interpolated`](crate::Certainty::Interpolated). For a guard that starts at
+/// zero, within rounding, the side to which it leaves counts as its side. With up to eight guards no memory is
+/// allocated.
 ///
 /// A system with one integrated mode, a ball with air drag:
 ///

@@ -7,31 +7,31 @@ use crate::error::Error;
 use crate::guard::Direction;
 use crate::state::State;
 
-/// Depth of halving of one step, and so the length of the list of open intervals, which is kept on the stack. 53
-/// halvings reach the rounding of times in the middle of a step; near time zero doubles are denser, and more would
-/// be possible. An interval at this depth is treated as one that rounding hides.
+/// Depth of halving of one step, and so the length of the list of open intervals, which is on the stack. 53 halvings
+/// reach the rounding of times in the middle of a step. Near time zero doubles are denser, and more halvings would be
+/// possible. An interval at this depth is treated as hidden by rounding.
 const MOST_HALVINGS: usize = 64;
 
-/// Most intervals of one step that are tested, a guard against a search without end. The search then ends with
+/// Most intervals of one step that are tested: a limit for a search that would not end. The search then ends with
 /// [`Error::NoConvergence`].
 const MOST_INTERVALS: usize = 100_000;
 
-/// Rounding error of an interpolant, in units of that of the largest state on its step: its weights are large and
-/// of both signs, so that digits cancel. The value is an estimate, not derived. If it is too small, rounding is
-/// taken for a crossing; if it is too large, grazings are reported too early.
+/// Rounding error of an interpolant, in units of the rounding error of the largest state on its step: its weights are
+/// large and of both signs, so that digits cancel. The value is an estimate, not derived. If it is too small, rounding
+/// errors are reported as crossings; if it is too large, grazings are reported too early.
 const INTERPOLANT_ROUNDING: f64 = 64.0;
 
-/// A shorter first step is tried if the rounding of the guard on the step exceeds that at the start by this factor,
-/// four times the one that every step has. Below it a shorter step could not show more.
+/// A shorter first step is tried if the rounding of the guard on the step exceeds the rounding at the start by this
+/// factor, four times the factor of every step. Below this factor a shorter step could not show more.
 const COARSE: f64 = 4.0 * INTERPOLANT_ROUNDING;
 
-/// Length of the shorter first step, relative to the one that was too long. The rounding shrinks with it, by two
-/// digits at a time.
+/// Length of the shorter first step, relative to the first step that was too long. The rounding shrinks with the
+/// length, by two digits at a time.
 const SHORTER: f64 = 0.01;
 
-/// How far the state is moved along its rate, relative to its size, to see the rate of a guard at the start: about
-/// √ε, as for finite differences. The rounding of the difference is 1e-8 of it, and so is the effect of the guard's
-/// bend.
+/// The state is moved along its rate by this distance, relative to its size, to compute the rate of a guard at the
+/// start. The distance is about √ε, as for finite differences: the rounding of the difference is 1e-8 of it, and so is
+/// the effect of the guard's second derivative.
 const DIFFERENCE_REACH: f64 = 1e-8;
 
 /// A guard has a rate at the start if its change over both sides exceeds this multiple of its bend. Where the bend
@@ -39,7 +39,7 @@ const DIFFERENCE_REACH: f64 = 1e-8;
 /// meaning.
 const STRAIGHT: f64 = 1.0;
 
-/// A step is passed over if the guard's smallest distance from zero is more than one half of its variation.
+/// A step is skipped if the guard's smallest distance from zero is more than one half of its variation.
 const AWAY: f64 = 2.0;
 
 /// A guard, followed from step to step.
@@ -47,9 +47,9 @@ pub(super) struct FollowedGuard {
     direction: Direction,
     /// The side of the surface, ±1; `None` as long as the guard has not left the zero it started at.
     side: Option<f64>,
-    /// The sign of its rate at the start; `None` if rounding hides it.
+    /// The sign of the guard's rate at the start; `None` if rounding hides it.
     rate: Option<f64>,
-    /// Its value at the start.
+    /// The guard's value at the start.
     start: f64,
     /// Rounding error of that value.
     start_rounding: f64,
@@ -69,7 +69,7 @@ pub(super) enum StepOutcome {
         /// Value of the guard there.
         value: f64,
     },
-    /// Rounding hides what the guard does after its start. Either it starts too close to zero for a step of this
+    /// Rounding hides how the guard leaves its start. Either the guard starts too close to zero for a step of this
     /// length, or it left zero to one side and is found on the other.
     HiddenByRounding {
         /// End of the hidden time.
@@ -80,7 +80,7 @@ pub(super) enum StepOutcome {
 }
 
 impl FollowedGuard {
-    /// Starts at `start`, where the state moves at `rate`. The guard counts as zero there if its value is within the
+    /// Starts at `start`, with the rate of the state there. The guard counts as zero there if its value is within the
     /// rounding of the state.
     pub(super) fn new<const N: usize>(
         direction: Direction,
@@ -94,7 +94,7 @@ impl FollowedGuard {
         }
         let rounding = guard_rounding(start, &start.abs(), &guard);
         let side = (value.abs() > rounding).then(|| value.signum());
-        // A central difference, with the second difference to judge it.
+        // A central difference. The second difference tests whether it is meaningful.
         let reach = DIFFERENCE_REACH * (1.0 + start.amax()) / rate.amax();
         let (ahead, behind) = (guard(&(start + rate * reach)), guard(&(start - rate * reach)));
         let (change, bend) = (ahead - behind, ahead + behind - 2.0 * value);
@@ -106,13 +106,13 @@ impl FollowedGuard {
     /// True if the guard stays on its side along a step, as far as these values show: the smallest distance from
     /// zero is more than half of the difference between the largest and the smallest.
     ///
-    /// This is no bound. A dip to zero and back shows in the values if it takes an eighth of the step.
+    /// This test is no bound. A dip to zero and back is visible in the values if it takes an eighth of the step.
     pub(super) fn stays_away(&self, values: impl Iterator<Item = f64>) -> bool {
         let Some(side) = self.side else { return false };
         let (mut nearest, mut farthest) = (f64::INFINITY, 0.0);
         for value in values {
             let distance = side * value;
-            // Also for NaN, which the polynomial's test then returns as an error.
+            // The condition is also true for NaN, which the polynomial's test then returns as an error.
             if !(distance > 0.0) {
                 return false;
             }
@@ -133,7 +133,7 @@ impl FollowedGuard {
         let size = step.magnitude() * INTERPOLANT_ROUNDING;
         let rounding_near = |time: f64| guard_rounding(&step.state(time), &size, &guard);
         let hidden = || Ok(StepOutcome::HiddenByRounding { until: SHORTER * step.to });
-        // True for a first step on which the interpolant hides more than the state itself does.
+        // True for a first step on which the rounding of the interpolant hides more than the rounding of the state.
         let coarse = step.from == 0.0 && rounding_near(step.from) > COARSE * self.start_rounding;
         let may_cross = self.side.is_some_and(|side| self.direction.admits(side, -side));
         if coarse && may_cross && self.start.abs() <= LEFT_ZERO * rounding_near(step.from) {
@@ -161,7 +161,7 @@ impl FollowedGuard {
             let side_after = match answer {
                 PolynomialTest::NoZero { sign } => Some(sign),
                 PolynomialTest::Monotone { slope } => self.side_after(along(right), slope),
-                // It has not left its start yet: the next interval decides.
+                // The guard has not left its start yet: the next interval decides.
                 PolynomialTest::WithinRounding if self.side.is_none() => None,
                 PolynomialTest::WithinRounding | PolynomialTest::Undecided => {
                     let middle = left + 0.5 * (right - left);
@@ -183,8 +183,8 @@ impl FollowedGuard {
                 let time = root(along, left, right, before)?;
                 return Ok(StepOutcome::Crossing { time });
             }
-            // It left a start at zero to the side of its rate, and came back and through within rounding: the crossing
-            // is in this interval, unseen.
+            // The guard left a start at zero to the side of its rate. Then it came back and passed through zero within
+            // rounding: this interval contains a crossing that no test has shown.
             if let (None, Some(after), Some(rate)) = (self.side, side_after, self.rate)
                 && rate != after
                 && self.direction.leads_to(after)
@@ -209,7 +209,8 @@ impl FollowedGuard {
 
 /// The zero in an interval that the guard enters on the side `before` and leaves on the other.
 fn root(along: impl Fn(f64) -> f64, left: f64, right: f64, before: f64) -> Result<f64, Error> {
-    // Within rounding the computed values may deny the change of sign at either end. Then that end is the zero.
+    // By the test the sign changes in the interval. Within rounding the computed values may show no change at one of
+    // the ends. Then that end is the zero.
     if along(left) * before <= 0.0 {
         return Ok(left);
     }

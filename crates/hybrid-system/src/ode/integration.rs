@@ -32,10 +32,9 @@ const SMALLEST_STEP: f64 = 1e-14;
 const MOST_TRIALS: usize = 100;
 
 /// A solution of ẋ = f(t, x), followed step by step.
-///
 /// The scheme is Verner's pair of orders 9 and 8, or of orders 8 and 7 for relative tolerances from 2e-11 on. The
-/// tolerance bounds the estimated error of each step. The flow carries these errors on, and they add up. The
-/// results are the same on every machine if those of the field are. Nothing is allocated.
+/// tolerance bounds the estimated error of each step. The flow propagates these errors, and they add up. If the field
+/// gives the same results on every machine, so does the integration. It allocates no memory.
 ///
 /// ```
 /// use hybrid_system::{Integration, Tolerances};
@@ -66,7 +65,7 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         Ok(Integration { inner: Steps::new(field, start, tolerances)?, inside: None })
     }
 
-    /// The same with a first step no longer than this.
+    /// As `self`, with a first step no longer than `longest`.
     pub(super) fn starting_with(mut self, longest: f64) -> Self {
         self.inner.next = self.inner.next.min(longest);
         self
@@ -112,11 +111,11 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         self.inner.inside()
     }
 
-    /// States along the last step that cost no evaluation of the field: those of its stages, and nine of the cubic
-    /// through both ends with their slopes, an eighth of the step apart.
+    /// States along the last step that need no evaluation of the field: the states of the stages, and nine states of
+    /// the cubic through both ends with their slopes, an eighth of the step apart.
     ///
-    /// They follow the shape of the orbit, not its digits: the stages are of low order, and the error of the cubic
-    /// is of order h⁴. They serve to see that a guard stays far from zero.
+    /// These states show the shape of the orbit, not its digits: the stages are of low order, and the error of the
+    /// cubic is of order h⁴. They are used to test that a guard stays far from zero.
     pub(super) fn samples(&self) -> impl Iterator<Item = State<N>> {
         let Steps { before, state, slopes, slope, last, stages, scheme, .. } = &self.inner;
         let cubic = (0..=8).map(move |k| {
@@ -130,7 +129,7 @@ impl<F: Fn(f64, &State<N>) -> State<N>, const N: usize> Integration<F, N> {
         stages[1..scheme.stages].iter().copied().chain(cubic)
     }
 
-    /// The state at a time in the last step, as [`Steps::directly_at`] gives it.
+    /// The state at a time in the last step, computed by [`Steps::directly_at`].
     pub(super) fn directly_at(&mut self, time: f64) -> Result<State<N>, Error> {
         self.inner.directly_at(time)
     }
@@ -154,7 +153,7 @@ pub(super) struct Steps<F, V> {
     /// The states at the stages of the last step, and the field at each of them.
     stages: [V; ALL_STAGES],
     slopes: [V; ALL_STAGES],
-    /// True if the stages of the interpolant have been computed, too. Most steps never need them.
+    /// True if the stages of the interpolant have been computed too. Most steps never need these stages.
     dense: bool,
     /// Size of the last step, and planned size of the next.
     last: f64,
@@ -249,8 +248,8 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
 
     /// The state at a time in the last step, by a separate step that ends there.
     ///
-    /// Unlike the interpolant, whose coefficients are large and cancel, this loses no digits. Its stages overwrite
-    /// those of the last step.
+    /// The coefficients of the interpolant are large and cancel. This separate step loses no digits. Its stages
+    /// overwrite the stages of the last step.
     pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
         let size = time - self.from;
         let mut state = self.before;

@@ -1,9 +1,10 @@
-//! How is a flow followed that is only given as ẋ = f(t, x)? (feature `ode`)
+//! How is a flow computed that is only given as ẋ = f(t, x)? (feature `ode`)
 //!
 //! [`Integration`] takes the steps of a Runge–Kutta scheme of Verner, whose coefficients come from the crate
-//! `differential-equations` (`scheme`). Inside each step the state is a polynomial (`step`, through values at the
-//! nodes of `chebyshev`). `search` follows all guards of a mode from step to step, one `followed_guard` each, which
-//! decides by `polynomial_test` whether a step holds a crossing. A model calls `flow` and `variation`.
+//! `differential-equations` (`scheme`). Inside each step the state is a polynomial (`step`, through values at the nodes
+//! of `chebyshev`). `search` follows all guards of a mode from step to step, with one `followed_guard` for each. A
+//! `followed_guard` decides by `polynomial_test` whether a step contains a crossing. A model calls `flow` and
+//! `variation`.
 
 mod chebyshev;
 mod first_step;

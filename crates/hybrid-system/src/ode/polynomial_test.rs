@@ -1,8 +1,7 @@
 //! A test for zeros of a guard, by the polynomial through its values.
 //!
 //! On an interval, with u ∈ [−1, 1] for the time, the guard is represented by the polynomial Σ cₖ Tₖ(u) through its
-//! values at 16 Chebyshev nodes. |Tₖ| ≤ 1 and |Tₖ′| ≤ k². So, with ν a bound on the neglected coefficients and on
-//! rounding,
+//! values at 16 Chebyshev nodes. |Tₖ| ≤ 1 and |Tₖ′| ≤ k². Let ν bound the neglected coefficients and the rounding. Then
 //!
 //! ```text
 //!   |c₀| > Σ|cₖ| + ν         no zero on the interval
@@ -14,28 +13,28 @@
 use super::chebyshev::{CHEBYSHEV, NODES};
 use crate::error::Error;
 
-/// The neglected coefficients are taken to add up to this many times the last two, |c₁₄| + |c₁₅|. That holds for
-/// coefficients that decay like ρᵏ with ρ²/(1 − ρ²) ≤ 8, ρ ≤ 0.94. Slower decay makes the last coefficients large,
-/// so that the test fails and the interval is halved. A factor that is too small would let a zero pass unseen.
+/// The neglected coefficients are assumed to add up to this many times the last two, |c₁₄| + |c₁₅|. The assumption
+/// holds for coefficients that decay like ρᵏ with ρ²/(1 − ρ²) ≤ 8, ρ ≤ 0.94. Slower decay makes the last coefficients
+/// large, so that the test fails and the interval is halved. With a factor that is too small a zero could be missed.
 const NEGLECTED: f64 = 8.0;
 
 /// Relative rounding error of a coefficient: a product and a sum for each of the 16 values.
 const COEFFICIENT_ROUNDING: f64 = 32.0 * f64::EPSILON;
 
-/// Σ k² for 1 ≤ k < 16: the slope of a polynomial all of whose coefficients are 1, and so the factor from an error of
-/// coefficients to an error of the slope.
+/// Σ k² for 1 ≤ k < 16: the slope of a polynomial all of whose coefficients are 1. Therefore it is also the factor from
+/// an error of the coefficients to an error of the slope.
 const SLOPE_OF_ONES: f64 = 1240.0;
 
-/// A guard that started at zero has left it when a value on the interval exceeds its rounding error by this factor.
+/// A guard that started at zero has left zero when a value on the interval exceeds its rounding error by this factor.
 /// Smaller values have too few digits to show the order of the zero. A larger factor needs a longer interval, which may
-/// hold the next crossing already.
+/// already contain the next crossing.
 pub(super) const LEFT_ZERO: f64 = 1000.0;
 
-/// Highest order of a zero at the start. Each order divides by τ ≥ 0.0024, and so multiplies the noise by up to
-/// 415: after four divisions a noise of 32ε is 2·10⁻⁴ of the values, after a fifth one it would be a tenth of them.
+/// Highest order of a zero at the start. Each order divides by τ ≥ 0.0024, and so multiplies the noise by up to 415.
+/// After four divisions a noise of 32ε is 2·10⁻⁴ of the values; after a fifth division it would be a tenth of them.
 const HIGHEST_ORDER: usize = 4;
 
-/// The answer of the test.
+/// The result of the test.
 pub(super) enum PolynomialTest {
     /// The guard has no zero on the interval.
     NoZero {
@@ -47,9 +46,9 @@ pub(super) enum PolynomialTest {
         /// The sign of its slope, ±1.
         slope: f64,
     },
-    /// All values are within rounding of zero: a shorter interval shows no more.
+    /// All values are within rounding of zero: a shorter interval would not decide either.
     WithinRounding,
-    /// The polynomial allows no answer: the interval must be halved.
+    /// The polynomial allows no decision: the interval must be halved.
     Undecided,
 }
 

@@ -8,14 +8,14 @@ use super::chebyshev::{CHEBYSHEV, NODES};
 use differential_equations::tableau::ButcherTableau;
 use std::sync::LazyLock;
 
-/// Stages of a step together with those of its interpolant, in both tables.
+/// Stages of a step plus the stages of its interpolant, in both tables.
 pub(super) const ALL_STAGES: usize = 21;
 
 /// The coefficients of a scheme, arranged as a step needs them.
 pub(super) struct Scheme {
     /// Order of a step, the higher one of the pair.
     pub(super) order: u32,
-    /// Stages of a step without those of its interpolant.
+    /// Stages of a step without the stages of its interpolant.
     pub(super) stages: usize,
     /// bᵢ: a step is x + h Σ bᵢ kᵢ.
     pub(super) weights: Vec<f64>,
@@ -89,8 +89,8 @@ fn compensated(c: &[f64], s: f64) -> f64 {
     for &c in c.iter().rev() {
         let product: f64 = sum * s;
         let next = product + c;
-        // The exact errors: of the sum (Knuth's two-sum) and of the product (by a fused multiply-add). They are the
-        // coefficients of a polynomial themselves, which is summed beside.
+        // The exact errors: of the sum (Knuth's two-sum) and of the product (by a fused multiply-add). These errors are
+        // the coefficients of a second polynomial, which is summed at the same time.
         let back = next - product;
         let sum_error = (product - (next - back)) + (c - back);
         let product_error = sum.mul_add(s, -product);
@@ -100,8 +100,8 @@ fn compensated(c: &[f64], s: f64) -> f64 {
     sum + correction
 }
 
-/// x^(−1/order), within 3 %. The size of a step needs no more, and a power would take longer than the rest of the step
-/// control.
+/// x^(−1/order), within 3 %. This accuracy suffices for the size of a step. A power function would take longer than the
+/// rest of the step control.
 pub(super) fn inverse_root(x: f64, order: u32) -> f64 {
     /// The bits of 1.0.
     const ONE: u64 = 0x3ff0_0000_0000_0000;

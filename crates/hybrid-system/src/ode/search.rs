@@ -9,15 +9,17 @@ use crate::error::Error;
 use crate::state::State;
 use crate::system::HybridSystem;
 
-/// How far a crossing is moved at most when it is polished, in units of the step: the least of these that shows a
-/// change of sign. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary slope; a guard
-/// that is crossed slowly needs more. Past the last value the crossing stays where the interpolant has it.
+/// The largest distances by which a crossing is moved when it is polished, in units of the step. The smallest distance
+/// that shows a change of sign is used. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary
+/// slope; a guard that is crossed slowly needs more. If the last value shows no change of sign, the crossing of the
+/// interpolant is kept.
 const POLISHING_REACHES: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
 
-/// Guards of one mode that are followed without allocating. More guards cost one allocation for each search.
+/// Guards of one mode that are followed without allocating. With more guards each search allocates once.
 const GUARDS_ON_STACK: usize = 8;
 
-/// The first step after rounding has hidden a start, relative to the time up to which it was hidden.
+/// The first step after rounding has hidden how a guard leaves its start, relative to the time up to which it was
+/// hidden.
 const SHORTER_FIRST_STEP: f64 = 0.5;
 
 /// Follows `field` from `start` until a guard of `mode` is crossed, or to `horizon`.
@@ -44,14 +46,14 @@ where
         let rate = field(0.0, start);
         match search_once(system, mode, start, horizon, &rate, integration)? {
             SearchOutcome::Finished(crossing) => return Ok(crossing),
-            // The rounding of an interpolant grows with the length of its step. So a shorter first step shows more, as
-            // long as the hidden time shrinks with it.
+            // The rounding of an interpolant grows with the length of its step. A shorter first step therefore shows
+            // more, as long as the hidden time becomes shorter with it.
             SearchOutcome::HiddenByRounding { until, .. }
                 if until < SHORTER_FIRST_STEP * first_step =>
             {
                 first_step = SHORTER_FIRST_STEP * until;
             }
-            // It does not shrink any more: the rounding of the state itself hides the crossing.
+            // The hidden time does not become shorter: the rounding of the state itself hides the crossing.
             SearchOutcome::HiddenByRounding { until, surface } => {
                 let surface = format!("{surface:?}");
                 return Err(Error::UndecidedStart { surface, interval: until });
@@ -95,7 +97,7 @@ where
     }
     while integration.interval().1 < horizon {
         integration.step()?;
-        // The common case costs neither the stages of the interpolant nor the polynomial of a guard.
+        // In the common case neither the stages of the interpolant nor the polynomial of a guard are computed.
         let all_stay_away = followed.iter().zip(guards).all(|(followed, guard)| {
             let values = integration.samples().map(|state| value(guard.surface)(&state));
             followed.as_ref().is_some_and(|followed| followed.stays_away(values))
@@ -143,11 +145,11 @@ where
     Ok(SearchOutcome::Finished(None))
 }
 
-/// A crossing freed of the rounding of the interpolant, with the state there.
+/// A crossing without the rounding error of the interpolant, and its state.
 ///
-/// A separate step from the start of the last step to `time` gives the state without that rounding. The difference
-/// between the two states changes little around `time`; so it is added to the interpolant, and the crossing is
-/// found once more, next to the old one.
+/// A separate step from the start of the last step to `time` gives the state without that error. The difference between
+/// the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing is searched
+/// again next to the old one.
 fn polished<F, const N: usize>(
     integration: &mut Integration<F, N>,
     step: &Step<N>,
@@ -158,7 +160,7 @@ fn polished<F, const N: usize>(
 where
     F: Fn(f64, &State<N>) -> State<N>,
 {
-    // A separate step would have no length.
+    // Here the separate step would have length zero.
     if time <= step.from {
         return Ok((time, step.state(time)));
     }
@@ -175,6 +177,6 @@ where
             return Ok((time, corrected(time)));
         }
     }
-    // The guard is crossed so slowly that the correction moves the crossing farther than that.
+    // The guard is crossed so slowly that the correction moves the crossing farther than the last reach.
     Ok((time, step.state(time)))
 }

@@ -4,8 +4,8 @@ use super::chebyshev::{CHEBYSHEV, NODES};
 use crate::state::State;
 use std::cell::OnceCell;
 
-/// Chebyshev coefficients that are kept: all of them. The interpolants have degree eight at most, so that the other
-/// seven of the 16 are rounding.
+/// The number of Chebyshev coefficients of the polynomial. The interpolants have degree eight at most: the other seven
+/// of the 16 coefficients would be rounding errors.
 const COEFFICIENTS: usize = 9;
 
 /// The state along one step: component by component a polynomial in u ∈ [−1, 1], t = middle + u·radius.
@@ -15,7 +15,7 @@ pub(super) struct Step<const N: usize> {
     pub(super) to: f64,
     /// The states at the Chebyshev nodes.
     nodes: [State<N>; NODES],
-    /// Chebyshev coefficients, computed when they are first needed.
+    /// Chebyshev coefficients, computed at their first use.
     coefficients: OnceCell<[State<N>; COEFFICIENTS]>,
 }
 
@@ -30,7 +30,7 @@ impl<const N: usize> Step<N> {
 
     /// The state at a time of the step, by Clenshaw's recurrence.
     pub(super) fn state(&self, time: f64) -> State<N> {
-        // Symmetric in both ends: u is exactly ∓1 there.
+        // The formula is symmetric in both ends: u is exactly ∓1 there.
         let u = ((time - self.from) - (self.to - time)) / (self.to - self.from);
         let coefficients = self.coefficients();
         let (mut next, mut after) = (State::<N>::zeros(), State::<N>::zeros());

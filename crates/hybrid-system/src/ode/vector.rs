@@ -12,7 +12,8 @@ pub(super) trait Vector: Copy {
     fn add(&mut self, factor: f64, other: &Self);
     /// from + size · Σ aⱼ slopeⱼ, for terms (j, aⱼ) in pairs.
     ///
-    /// The first and the second terms of the pairs are summed apart, so that the two sums do not wait for each other.
+    /// The first and the second terms of the pairs are summed separately, so that the processor computes the two sums
+    /// in parallel.
     fn combination(
         from: &Self,
         size: f64,
@@ -62,8 +63,8 @@ impl<const N: usize> Vector for State<N> {
             self[axis] += factor * other[axis];
         }
     }
-    /// Component by component, which keeps each sum in a register. Sums of whole vectors are moved through memory two
-    /// words at a time, and a state of three components is loaded again before it has been stored.
+    /// Each component is summed separately, which keeps each sum in a register. Sums of whole vectors are moved through
+    /// memory two words at a time, and a state of three components is loaded again before it has been stored.
     fn combination(
         from: &Self,
         size: f64,

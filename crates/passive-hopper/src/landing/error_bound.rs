@@ -4,26 +4,27 @@
 //! lands (the maximum test), whether the hopper lifts off again (α′²). A decision is *inconclusive* if the number is
 //! not larger than the bound on its error. The hop is then computed again in longer arithmetic.
 //!
-//! The error has two parts. Each flight adds the roundings of its own landing. And it propagates the error of its
-//! start to its end, by the derivative of the flight. The second part grows along a chain of sudden lift-offs.
+//! The error has two parts. Each flight adds the rounding errors of its own landing. Each flight also propagates the
+//! error of its start to its end, by its derivative. The propagated part grows along a chain of sudden lift-offs.
 
 use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::flight_ends::{Landing, TakeOff};
 use crate::landing::next_landing::maximum_test;
 use std::f64::consts::PI;
 
-/// Bound on the rounding error of one landing, in ulps of the largest quantity in it. Not derived; docs/accuracy.md has
-/// the errors measured against reference hops, which it exceeds. A larger value sends more hops to the longer
+/// Bound on the rounding error of one landing, in ulps of the largest quantity in it. The value is not derived. It
+/// exceeds the errors measured against reference hops (docs/accuracy.md). A larger value sends more hops to the longer
 /// arithmetic; a smaller one risks wrong decisions.
 pub(crate) const LANDING_ULPS: f64 = 16.0;
 
-/// The part of the bound without cancellation that is added to the propagated error: it stands for the roundings of the
-/// derivative's own coefficients. Not derived: its coefficients are right to some ulps of the time, and 10⁻⁶ is far more.
+/// The propagated error is increased by this part of its bound without cancellation, for the rounding errors of the
+/// derivative's coefficients. The value is not derived: the coefficients are right to some ulps of the time, and 10⁻⁶
+/// is far more.
 const DERIVATIVE_ERROR: f64 = 1e-6;
 
 /// A running bound on the error of the state on the ground.
 ///
-/// The first landing is decided on the 100 bits of α*_n. Inconclusive decisions begin with the second landing.
+/// The first landing is decided on the 100 bits of α*_n and is never inconclusive. The decisions after it can be.
 #[derive(Debug, Clone)]
 pub(crate) struct ErrorBound {
     start: TakeOff,
@@ -32,8 +33,8 @@ pub(crate) struct ErrorBound {
     flights: f64,
     /// Relative rounding error of the arithmetic.
     epsilon: f64,
-    /// Whether the sine of the stored argument is right to an ulp of the sine, as that of `f64` is. The longer
-    /// arithmetics err by an ulp of the argument.
+    /// True if the sine of a stored argument is right to an ulp of the sine, as in `f64`. In the longer arithmetics the
+    /// error of the sine is an ulp of the argument.
     sines_are_exact: bool,
     /// Bound on the error of Σ Γ² that was propagated from flight to flight.
     loss: f64,
@@ -62,14 +63,15 @@ impl ErrorBound {
         }
     }
 
-    /// Propagates the bound through a flight to its landing. The branch is tested in `f64`.
+    /// Propagates the bound through a flight to its landing. The maximum test of the branch is computed in `f64`.
     pub(crate) fn add_flight(&mut self, landing: &Landing, kappa: f64) {
         let TakeOff { excess, velocity } = self.start;
         let test = if velocity >= PI { maximum_test(excess, velocity) } else { f64::INFINITY };
         self.add_flight_on_branch(landing, kappa, test);
     }
 
-    /// The same with the maximum test that decided the branch, or infinity where only one branch was possible.
+    /// As [`add_flight`](Self::add_flight), with the maximum test that decided the branch, or infinity if only one
+    /// branch was possible.
     pub(crate) fn add_flight_on_branch(&mut self, landing: &Landing, kappa: f64, test: f64) {
         let first = self.flights == 0.0;
         self.flights += 1.0;
@@ -77,15 +79,15 @@ impl ErrorBound {
         let size = 1.0 + excess + velocity.abs() + landing.time + landing.closing_speed;
         let rounding = LANDING_ULPS * self.epsilon * size;
         if !first {
-            // The test is V cos V − Y sin V. An error of Y changes it by at most as much, one of V by at most 1 + Y + V
-            // times as much.
+            // The test is V cos V − Y sin V. An error e of Y changes the test by at most e. An error e of V changes it
+            // by at most (1 + Y + V) e.
             let slack = rounding + self.error.excess + size * self.error.velocity;
             self.inconclusive |= test.abs() <= slack;
         }
         if landing.sudden || !first {
-            // A rounding of h acts like one of V: the residual of the landing is a backward error in V. With exact sines
-            // the rest of an ulp of h is corrected to first order, and its square remains. Else the phase is rounded
-            // to an ulp of its size.
+            // A rounding of h acts like a rounding of V, because the residual of the landing is a backward error in V.
+            // With exact sines, the part of h below an ulp is corrected to first order, and the square of that part
+            // remains. Without exact sines, the phase has a rounding error of an ulp of its size.
             let ulp = self.epsilon * size;
             let backward = if self.sines_are_exact { self.epsilon + 4.0 * ulp * ulp } else { ulp };
             let change =
@@ -101,8 +103,9 @@ impl ErrorBound {
         self.start = landing.take_off();
     }
 
-    /// Bounds after a flight on errors bounded by `change` before it, and the bound on the error of Γ: by the linear
-    /// map of the flight, with a small part of the bound without cancellation for the roundings of that map.
+    /// Bounds on the errors of the state after a flight, and of Γ, for errors before the flight that are bounded by
+    /// `change`. The bounds come from the linear map of the flight. A small part of its bound without cancellation is
+    /// added for the rounding errors of that map.
     fn propagate(&self, landing: &Landing, kappa: f64, change: Variation) -> (Variation, f64) {
         let by_excess = Variation { velocity: 0.0, ..change };
         let by_velocity = Variation { excess: 0.0, ..change };
@@ -123,7 +126,7 @@ impl ErrorBound {
         self.inconclusive
     }
 
-    /// Whether any decision is inconclusive, with the sign of `ratio` = α′²/α² = 1 − μ Σ Γ²/α² among them.
+    /// Whether any decision is inconclusive, including the sign of `ratio` = α′²/α² = 1 − μ Σ Γ²/α².
     pub(crate) fn inconclusive(&self, ratio: f64, mu: f64, alpha: f64) -> bool {
         self.inconclusive || !(ratio.abs() > self.ratio_error(mu, alpha))
     }
@@ -133,7 +136,7 @@ impl ErrorBound {
         LANDING_ULPS * self.epsilon * (2.0 + self.flights) + self.propagated(mu, alpha)
     }
 
-    /// The part of it that was propagated from flight to flight.
+    /// The part of the bound on the error of α′²/α² that was propagated from flight to flight.
     pub(crate) fn propagated(&self, mu: f64, alpha: f64) -> f64 {
         mu * (self.loss / alpha / alpha)
     }

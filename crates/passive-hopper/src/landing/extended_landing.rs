@@ -13,13 +13,14 @@ pub(crate) struct ExtendedLanding<R> {
     pub(crate) time: R,
 }
 
-/// Guard on the number of Newton steps. From a good `f64` start each step doubles the right digits, and seven suffice for
-/// 1024 bits. Next to a double root (a flight that nearly touches the ground) a step only halves the error: until the
-/// start is good, each step gains one bit. The value is chosen, not derived; past it the last h stands.
+/// Guard on the number of Newton steps. From a good `f64` start each step doubles the number of right digits, and seven
+/// steps suffice for 1024 bits. Next to a double root (a flight that nearly touches the ground) a step only halves the
+/// error: until the start is good, each step gains one bit. The value is chosen, not derived. After the last step the
+/// search returns the current h.
 const NEWTON_STEPS: usize = 400;
 
 impl<R: Extended> ExtendedLanding<R> {
-    /// The landing of the flight from stretch 1 + `x` and speed `v`, from an `f64` near h.
+    /// The landing of the flight from stretch 1 + `x` and speed `v`. `start` is an `f64` near the root h.
     pub(crate) fn near(start: f64, x: R, v: R, kappa: R) -> Self {
         let mut h = R::from(start);
         let mut half = HalfTime::extended_at(h);

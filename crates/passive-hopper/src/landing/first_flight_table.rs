@@ -1,12 +1,12 @@
 //! The first flight by tables.
 //!
-//! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone, and it is analytic in δ but for a cube root at
-//! δ = 0. The table cuts the interval into pieces whose length is a 16th of their distance from δ = 0. On each
-//! of them α − h and Γ are polynomials of degree 7, to an ulp. A piece is the set of numbers δ of one sign with the same
-//! exponent and the same first four bits of the fraction: its index is read from the bits of δ, without a search.
-//! Pieces are counted from the `f64` nearest to α*_n, because the difference of two close `f64` is exact.
+//! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone. It is analytic in δ except at δ = 0, where
+//! it has a cube root. The table cuts the interval into pieces whose length is a 16th of their distance from δ = 0. On
+//! each piece α − h and Γ are polynomials of degree 7, to an ulp. A piece is the set of numbers δ of one sign with the
+//! same exponent and the same first four bits of the fraction: its index is read from the bits of δ, without a search.
+//! In the code δ is measured from the `f64` nearest to α*_n, because the difference of two close `f64` is exact.
 //!
-//! A table is made when a speed in its interval is first asked for. That takes some milliseconds.
+//! A table is computed when a speed in its interval is used for the first time. That takes some milliseconds.
 
 use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::landing::half_time::HalfTime;
@@ -17,16 +17,16 @@ use crate::precision::nearest_integer::nearest_integer;
 use std::f64::consts::FRAC_1_PI;
 use std::sync::{LazyLock, OnceLock};
 
-/// Intervals with a table: α up to 32π ≈ 100. Each table takes 64 KiB. Faster hops search from an expansion.
-/// A power of two, so that an index is masked and not checked.
+/// Intervals with a table: α up to 32π ≈ 100. Each table takes 64 KiB. For faster hops the root search starts from an
+/// expansion. The number is a power of two, so that a mask replaces the bounds check of an index.
 pub(crate) const TABLES: usize = 32;
 
 /// Coefficients of a piece: eight `f64`, one vector of AVX-512 and one line of the cache. Degree 7 is not derived;
 /// on pieces of this length its error is about an ulp (measured).
 const COEFFICIENTS: usize = 8;
 
-/// Octaves of |δ| with pieces, from 2⁻¹³ up to 4; |δ| is at most π. Speeds within 2⁻¹³ of α*_n have no
-/// piece. They are few, and the careful path solves them.
+/// Octaves of |δ| with pieces, from 2⁻¹³ up to 4; |δ| is at most π. Speeds within 2⁻¹³ of α*_n have no piece. Such
+/// speeds are few. The kernel leaves them undecided, and the root search solves them.
 const OCTAVES: usize = 15;
 /// The exponent field of 2⁻¹³ in an `f64`.
 const FIRST_OCTAVE: u64 = 1023 - 13;
@@ -34,14 +34,16 @@ const FIRST_OCTAVE: u64 = 1023 - 13;
 /// Pieces on one side of α*_n: 16 in each octave, by four bits of the fraction.
 const PIECES: usize = 16 * OCTAVES;
 
-/// How near to nπ, in parts of π, a speed has no piece. The kind of the landing changes at nπ, and α/π has a rounding error
-/// of 10⁻¹⁴ at α = 100; the value 10⁻⁷ is far above that error, and chosen, not derived. The careful path decides there.
+/// Speeds nearer to nπ than this, in units of π, have no piece. The kind of the landing changes at nπ, and α/π has a
+/// rounding error of 10⁻¹⁴ at α = 100. The value 10⁻⁷ is far above that error; it is chosen, not derived. The kernel
+/// leaves these speeds undecided, and `FixedPointInterval` decides the kind of their landing on 100 bits.
 const NEAR_END: f64 = 1e-7;
 
 /// Coefficients by powers of the position on a piece, in [−1, 1].
 pub(crate) type Piece = [f64; COEFFICIENTS];
 
-/// The pieces of an interval: those above α*_n, then those below, and one whose values are NaN.
+/// The pieces of an interval: first the pieces above α*_n, then the pieces below α*_n, then one piece whose values are
+/// NaN.
 #[derive(Debug)]
 #[repr(align(64))]
 pub(crate) struct FirstFlightTable {
@@ -54,7 +56,7 @@ pub(crate) struct FirstFlightTable {
 /// The index of the piece whose values are NaN, for a speed without a piece.
 const NO_PIECE: usize = 2 * PIECES;
 
-/// Slots for 481 pieces: up to a power of two, so that an index is masked and not checked.
+/// Slots for 481 pieces, rounded up to a power of two: a mask then replaces the bounds check of an index.
 const SLOTS: usize = 512;
 
 /// Where a speed is in the tables.
@@ -83,10 +85,10 @@ pub(crate) struct FirstFlight {
 
 static ALL_TABLES: [OnceLock<Box<FirstFlightTable>>; TABLES] = [const { OnceLock::new() }; TABLES];
 
-/// Takes the place of a table that is not made yet.
+/// Used in place of a table that is not computed yet.
 static EMPTY_TABLE: FirstFlightTable = FirstFlightTable::EMPTY;
 
-/// The `f64` nearest to α*_n, from which the pieces are counted, for n < [`TABLES`].
+/// The `f64` nearest to α*_n, from which δ is measured, for n < [`TABLES`].
 pub(crate) type FixedPoints = [f64; TABLES];
 
 static FIXED_POINTS: LazyLock<FixedPoints> =
@@ -104,27 +106,28 @@ impl TablePosition {
 
     /// The position of `alpha` > 0; [`NO_PIECE`] outside the tables, next to nπ, and within 2⁻¹³ of α*_n.
     ///
-    /// Loops over many speeds inline this function: it has no branch.
+    /// The function has no branch. Loops over many speeds inline it.
     #[inline(always)]
     pub(crate) fn of(alpha: f64, fixed_points: &FixedPoints) -> Self {
         /// The bits of 1.0: exponent field and zero fraction.
         const ONE: u64 = 1023 << 52;
-        let half_turns = alpha * FRAC_1_PI;
-        let (n, bits) = nearest_integer(half_turns - 0.5);
-        let part = half_turns - n;
+        let alpha_over_pi = alpha * FRAC_1_PI;
+        let (n, bits) = nearest_integer(alpha_over_pi - 0.5);
+        let part = alpha_over_pi - n;
         let interval = bits & (TABLES as u64 - 1);
         let delta = alpha - fixed_points[interval as usize]; // exact
         let bits = delta.to_bits() & (u64::MAX >> 1);
-        // Exponent and four bits of the fraction, from the first octave on; below it the index wraps to a huge number.
+        // The exponent and the first four bits of the fraction, counted from the first octave. For a smaller |δ| the
+        // index wraps to a huge number.
         let index = (bits >> 48).wrapping_sub(FIRST_OCTAVE << 4);
         let sudden = delta.to_bits() >> 63;
-        // Near 0 there is no end to keep away from: the interval n = 0 begins there.
+        // In the interval n = 0 the kind of the landing does not change near α = 0: small speeds keep their piece.
         let inside = (index < PIECES as u64)
-            & (half_turns < TABLES as f64)
+            & (alpha_over_pi < TABLES as f64)
             & (part < 1.0 - NEAR_END)
-            & ((part > NEAR_END) | (half_turns < 0.5));
+            & ((part > NEAR_END) | (alpha_over_pi < 0.5));
         let piece = if inside { index + sudden * PIECES as u64 } else { NO_PIECE as u64 };
-        // The bits after the first four, as the fraction of a number in [1, 2).
+        // The remaining bits of the fraction, as the fraction of a number in [1, 2).
         let fraction = f64::from_bits((bits << 4) & (u64::MAX >> 12) | ONE);
         TablePosition {
             interval,
@@ -154,7 +157,7 @@ impl FirstFlightTable {
         FirstFlightTable { closing_speed: piece, beyond: piece }
     };
 
-    /// The table of (nπ, (n+1)π), made when it is first asked for.
+    /// The table of (nπ, (n+1)π), computed at its first use.
     #[inline(always)]
     pub(crate) fn get(n: u64) -> &'static FirstFlightTable {
         let slot = &ALL_TABLES[n as usize % TABLES];
@@ -164,7 +167,7 @@ impl FirstFlightTable {
         }
     }
 
-    /// All tables; an empty one for each that is not made yet.
+    /// All tables, with an empty table for each that is not computed yet.
     pub(crate) fn all() -> [&'static FirstFlightTable; TABLES] {
         std::array::from_fn(|n| ALL_TABLES[n].get().map_or(&EMPTY_TABLE, |table| &**table))
     }
@@ -184,13 +187,13 @@ impl FirstFlightTable {
     #[cold]
     fn new(n: u64) -> Box<Self> {
         let fixed_point = DoubleDouble::from(alpha_star(n));
-        let end = |half_turns: u64| {
-            (DoubleDouble::multiple_of_pi(half_turns as f64) - fixed_point).high.abs()
+        let end = |multiple: u64| {
+            (DoubleDouble::multiple_of_pi(multiple as f64) - fixed_point).high.abs()
         };
         let mut table = Box::new(FirstFlightTable::EMPTY);
-        for (side, sign, half_turns) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
+        for (side, sign, multiple) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
             // No speed of the interval lies on a piece that begins beyond its end.
-            let reach = end(half_turns);
+            let reach = end(multiple);
             for index in (0..PIECES).take_while(|&index| left_end(index) < reach) {
                 let (closing_speed, beyond) = piece(fixed_point, index, sign);
                 table.closing_speed[side + index] = closing_speed;
@@ -206,7 +209,7 @@ fn left_end(index: usize) -> f64 {
     f64::from_bits((FIRST_OCTAVE << 52) + ((index as u64) << 48))
 }
 
-/// A polynomial of degree seven, by Estrin's scheme: its terms do not wait for each other.
+/// A polynomial of degree seven by Estrin's scheme: the processor computes its terms in parallel.
 #[inline(always)]
 pub(crate) fn polynomial(c: &Piece, x: f64) -> f64 {
     let square = x * x;
@@ -247,6 +250,10 @@ fn exact_first(alpha: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
 }
 
 /// Interpolation at the Chebyshev nodes of [−1, 1]: from values to coefficients by powers.
+///
+/// `hybrid-system` has a transform at Chebyshev nodes too, in `ode/chebyshev.rs`. The two share no code: this one has 8
+/// nodes, computes in 106 bits and gives coefficients by powers; that one has 16, computes in `f64` and gives Chebyshev
+/// coefficients.
 struct Interpolation {
     nodes: [DoubleDouble; COEFFICIENTS],
     /// Coefficient k is Σ matrix[k][j] value[j].

@@ -12,8 +12,8 @@ pub(crate) fn first_landing(alpha: f64, kappa: f64) -> Landing {
     first_root(&interval, alpha).landing(0.0, alpha, kappa, Some(interval.sudden))
 }
 
-/// Half the time of the first flight. The search starts from the table, which is right to some ulps, or outside
-/// the table from an expansion.
+/// Half the time of the first flight. The search starts from the table, which is right to some ulps. Outside the table
+/// it starts from an expansion.
 pub(crate) fn first_root(interval: &FixedPointInterval, alpha: f64) -> HalfTimeRoot {
     let tabled = TablePosition::of(alpha, fixed_points()).first_flight(alpha);
     let start = tabled.map_or_else(|| interval.half_time_estimate(alpha), |first| first.half_time);

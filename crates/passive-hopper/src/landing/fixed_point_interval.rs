@@ -28,9 +28,9 @@ pub(crate) struct FixedPointInterval {
 impl FixedPointInterval {
     /// The interval of `alpha` > 0, decided on 100 bits.
     pub(crate) fn of(alpha: f64) -> Self {
-        let half_turns = alpha / PI;
-        let mut n = half_turns as u64;
-        let part = half_turns - n as f64;
+        let alpha_over_pi = alpha / PI;
+        let mut n = alpha_over_pi as u64;
+        let part = alpha_over_pi - n as f64;
         // The quotient has an error of an ulp, at most 2⁻¹¹ for α ≤ 2⁴³. Only within 10⁻³ of an integer can ⌊α/π⌋
         // be wrong, and the 100 bits of nπ are needed.
         if part < 1e-3 && n > 0 && n_pi(n).compare(alpha) == Ordering::Less {

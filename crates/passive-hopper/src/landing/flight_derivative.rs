@@ -66,8 +66,8 @@ impl FlightDerivative {
         (Variation { excess, velocity: dv - dt + self.kappa * closing }, closing)
     }
 
-    /// Bounds on what [`carry`](Self::carry) gives for changes bounded by `change`: every term is taken as positive,
-    /// so that no term cancels another.
+    /// Bounds on the results of [`carry`](Self::carry) for changes bounded by `change`: the sums of the absolute values
+    /// of all terms, so that no term cancels another.
     pub(crate) fn bound(&self, change: Variation) -> (Variation, f64) {
         let (dx, dv) = (change.excess, change.velocity);
         let (sin, cos) = (self.sin.abs(), self.cos.abs());

@@ -25,6 +25,25 @@ pub struct Landing {
     pub sudden: bool,
 }
 
+/// Excess x′ and velocity V′ of the upper mass after a flight of the time 2(h + `rest`), to first order in `rest`.
+///
+/// x′ = x + 2h (V − h) on the parabola of the momentum coordinate, and V′ = V − 2h + κΓ. Inlined into the loops of the
+/// kernel.
+#[inline(always)]
+pub(crate) fn state_after_flight(
+    start: TakeOff,
+    h: f64,
+    rest: f64,
+    kappa: f64,
+    closing_speed: f64,
+) -> (f64, f64) {
+    let TakeOff { excess, velocity } = start;
+    (
+        excess + 2.0 * h * (velocity - h) + 2.0 * rest * (velocity - 2.0 * h),
+        (velocity - 2.0 * h) - 2.0 * rest + kappa * closing_speed,
+    )
+}
+
 impl Landing {
     /// The start of the flight that follows a sudden landing.
     pub(crate) fn take_off(&self) -> TakeOff {
@@ -32,8 +51,8 @@ impl Landing {
     }
 }
 
-/// Whether a sudden lift-off follows a landing at stretch 1 + `excess` with `velocity`. At stretch one itself the
-/// upper mass decides: moving up, it stretches the spring further.
+/// Whether a sudden lift-off follows a landing at stretch 1 + `excess` with `velocity`. At stretch 1 exactly, it
+/// follows if the upper mass moves up, because the upper mass then stretches the spring further.
 pub(crate) fn is_sudden(excess: f64, velocity: f64) -> bool {
     excess > 0.0 || (excess == 0.0 && velocity > 0.0)
 }

@@ -1,9 +1,9 @@
-//! The first landing of a flight that starts anywhere, with certainty.
+//! The first landing of a flight that starts in any state. No root is missed.
 //!
-//! G'' = s − 1 changes its sign only where s = 1: at τ = φ ± γ + 2πk with R e^{iφ} = s₀ + iṡ₀ and γ = acos(1/R). Between
-//! neighbours of this lattice G is convex (s > 1) or concave (s < 1). Its signs at the ends, and at the one minimum of a
-//! convex piece, therefore decide whether G has a root there, without samples. Where P > R the height cannot vanish, and
-//! these pieces are skipped.
+//! G'' = s − 1 changes its sign only where s = 1: at τ = φ ± γ + 2πk with R e^{iφ} = s₀ + iṡ₀ and γ = acos(1/R).
+//! Between two neighbouring times of this lattice G is convex (s > 1) or concave (s < 1). Therefore the signs of G at
+//! the two ends of a piece, and at the minimum of a convex piece, decide whether G has a root in the piece. No samples
+//! are needed. Where P > R, G is positive, and such pieces are skipped.
 
 use crate::model::motion::Flight;
 use hybrid_system::{Error, bracketed_root};
@@ -11,12 +11,12 @@ use std::f64::consts::TAU;
 
 /// Time of the first landing: the first zero of G with G falling, after a start with G ≥ 0.
 ///
-/// The start itself counts if the lower mass is on the ground and not leaving it.
+/// If the lower mass is on the ground at the start and does not leave it, the time is 0.
 pub(crate) fn landing_time(flight: &Flight) -> Result<f64, Error> {
     let (g, g_rate) = flight.height;
     let (s, s_rate) = flight.stretch;
-    // A start on the ground: the sign of the first non-zero derivative of G decides whether the lower mass leaves. They
-    // are Ġ, G̈ = s − 1, G⃛ = ṡ, and for s = 1, ṡ = 0 the fourth, −s = −1.
+    // A start on the ground: the sign of the first non-zero derivative of G decides whether the lower mass leaves. The
+    // derivatives are Ġ, G̈ = s − 1, G⃛ = ṡ and, for s = 1 and ṡ = 0, the fourth, −s = −1.
     let leaving = [g_rate, s - 1.0, s_rate, -1.0].into_iter().find(|&d| d != 0.0);
     if g == 0.0 && leaving.is_none_or(|derivative| derivative < 0.0) {
         return Ok(0.0);
@@ -24,8 +24,8 @@ pub(crate) fn landing_time(flight: &Flight) -> Result<f64, Error> {
     let lattice = Lattice::new(s, s_rate);
     let clear = clear_interval(flight, lattice.radius);
     let mut left = 0.0;
-    // Each pass of the loop looks at one piece. Pieces with P > R are skipped. The other pieces lie in the time that P
-    // spends within ±R of zero, which is finite: the loop ends.
+    // Each pass of the loop treats one piece. Pieces with P > R are skipped. All other pieces begin while P is within
+    // ±R of zero. That time is finite, so that the loop ends.
     loop {
         if left >= clear.0 && left < clear.1 {
             left = lattice.last_before(clear.1).max(left);
@@ -45,7 +45,7 @@ fn root_in_piece(flight: &Flight, left: f64, right: f64) -> Result<Option<f64>, 
     let convex = flight.stretch(0.5 * (left + right)).0 > 1.0;
     let at_right = g(right);
     if convex && at_right > 0.0 {
-        // G is positive at both ends and convex: it has two roots or none, by the sign of its minimum.
+        // G is positive at both ends and convex: it has two roots if its minimum is negative, else none.
         if !(slope(left) < 0.0 && slope(right) > 0.0) {
             return Ok(None);
         }
@@ -58,7 +58,8 @@ fn root_in_piece(flight: &Flight, left: f64, right: f64) -> Result<Option<f64>, 
     if at_right > 0.0 {
         return Ok(None);
     }
-    // One root is left. A start on the ground is a root as well: the search begins at the maximum behind it.
+    // The piece has one root after `left`. At a start on the ground `left` is a root as well: the search then begins at
+    // the maximum of G that follows.
     let from = if g(left) <= 0.0 && slope(left) >= 0.0 && slope(right) < 0.0 {
         bracketed_root(slope, left, right)?
     } else {
@@ -70,8 +71,8 @@ fn root_in_piece(flight: &Flight, left: f64, right: f64) -> Result<Option<f64>, 
     bracketed_root(g, from, right).map(Some)
 }
 
-/// The interval of times at which P > R, so that G = P − s > 0. If there is none, both ends are infinite, and no time lies
-/// in it.
+/// The interval of times at which P > R, so that G = P − s > 0. If P never exceeds R, both ends are infinite, and the
+/// interval is empty.
 fn clear_interval(flight: &Flight, radius: f64) -> (f64, f64) {
     let (p, rate) = flight.momentum;
     let discriminant = rate * rate + 2.0 * (p - radius);
@@ -82,7 +83,7 @@ fn clear_interval(flight: &Flight, radius: f64) -> (f64, f64) {
     (rate - root, rate + root)
 }
 
-/// A time at which P < −R, so that the height is negative: one past the time at which P falls to −R − 1.
+/// A time at which P < −R, so that the height is negative: the time at which P falls to −R − 1, plus one.
 fn end_of_fall(flight: &Flight, radius: f64) -> f64 {
     let (p, rate) = flight.momentum;
     let depth = radius + 1.0;
@@ -109,12 +110,12 @@ impl Lattice {
 
     fn next_after(&self, time: f64) -> Option<f64> {
         let after = |phase: f64| {
-            let mut turns = ((time - phase) / TAU).floor() + 1.0;
+            let mut periods = ((time - phase) / TAU).floor() + 1.0;
             // A rounded quotient may give `time` itself, on which the loop over pieces would not advance.
-            while phase + turns * TAU <= time {
-                turns += 1.0;
+            while phase + periods * TAU <= time {
+                periods += 1.0;
             }
-            phase + turns * TAU
+            phase + periods * TAU
         };
         self.phases.map(|[a, b]| after(a).min(after(b)))
     }
@@ -145,7 +146,7 @@ mod tests {
             let flight = Flight::new(ratio, &HopperState::lift_off(alpha));
             let time = landing_time(&flight).unwrap();
             let landing = first_landing(alpha, ratio.kappa());
-            // The time is as badly conditioned as the closing speed is small.
+            // The condition number of the time grows like 1/Γ.
             let tolerance = 1e-13 * (1.0 + time) * (1.0 + alpha / landing.closing_speed.max(1e-9));
             prop_assert!((time - landing.time).abs() < tolerance, "{time} {}", landing.time);
         }
@@ -170,8 +171,8 @@ mod tests {
     }
 
     proptest! {
-        /// Flights from the ground that touch it at τ = 2V (tan V = V/Y), to a few ulps: the two solvers agree, or one
-        /// of them counts the touch, which loses no energy.
+        /// Flights from the ground that touch it at τ = 2V (tan V = V/Y), to a few ulps. The touch loses no energy.
+        /// Each solver may count it as a landing or not; all other landings agree.
         #[test]
         fn grazing_flights(m in 1u32..8, part in 0.05..0.95f64, ulps in -4..5i64, ratio in 0.05..20f64) {
             let v = (f64::from(m) + 0.5 * part) * std::f64::consts::PI;

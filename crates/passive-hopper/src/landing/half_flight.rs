@@ -1,4 +1,4 @@
-//! The public face of [`HalfTime`] in `f64`.
+//! The public form of [`HalfTime`], in `f64`.
 
 use crate::landing::half_time::HalfTime;
 

@@ -6,7 +6,8 @@
 //!   S = sin h,  C = cos h,  D = h − S C,  u = h C − S,  ρ = u/D,  σ = S²/D
 //! ```
 //!
-//! every quantity at the landing is rational in these. They follow from τ = 2h in G(τ) = 0 and G'(τ), without V:
+//! every quantity at the landing is a rational function of these six. The formulas follow from τ = 2h in G(τ) = 0 and
+//! G'(τ), without V:
 //!
 //! ```text
 //!   speed at the start   V       = h + S ρ − x σ                      (G = 0)
@@ -19,7 +20,7 @@
 
 use crate::precision::real::{Extended, Real};
 
-/// The functions of h, half the time of flight, that every landing is made of.
+/// The functions of h, half the time of flight, from which every quantity of a landing is computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct HalfTime<R> {
     /// Half the time of flight.
@@ -38,13 +39,13 @@ pub(crate) struct HalfTime<R> {
     pub(crate) sigma: R,
 }
 
-/// Below this h the `f64` functions are series: the closed forms would cancel. The first dropped terms of
-/// the series are under 2⁻⁵⁵ of the sum up to here; from here on the closed forms are as good as the series
-/// (test `series_and_closed_forms_meet`).
+/// Below this h the `f64` functions are series: the closed forms would cancel. Up to this h the first dropped terms of
+/// the series are below 2⁻⁵⁵ of the sum. From this h on the closed forms are as accurate as the series (test
+/// `series_and_closed_forms_meet`).
 const SERIES_BELOW: f64 = 0.5;
 
-/// Below this h the extended functions are series. They stop by the size of their terms, not after a fixed
-/// number, and from here on the closed forms cancel some bits only: EPSILON has them to spare.
+/// Below this h the extended functions are series. The series stop when a term is small, not after a fixed number of
+/// terms. From this h on the closed forms lose only some bits. `EPSILON` has a margin for these bits.
 const EXTENDED_SERIES_BELOW: f64 = 1.0;
 
 impl HalfTime<f64> {
@@ -96,10 +97,13 @@ impl HalfTime<f64> {
     }
 
     /// d(Γ²)/dV = 2 D dΓ/dh, finite even at a triple root.
+    ///
+    /// Inlined into the loops of the kernel, which have sin² and w already.
+    #[inline(always)]
     pub(crate) fn loss_slope(&self, excess: f64) -> f64 {
         let HalfTime { h, sin, cos, u, rho, .. } = *self;
         let w = u - excess * sin;
-        -4.0 * (h * sin * w + u * (h * sin + excess * cos) + 2.0 * sin * sin * rho * w)
+        -4.0 * (h * sin * w + u * (h * sin + excess * cos) + 2.0 * (sin * sin) * rho * w)
     }
 }
 
@@ -131,7 +135,8 @@ impl<R: Real> HalfTime<R> {
 
     /// dV/dh = Γ/D.
     pub(crate) fn start_speed_slope(&self, excess: R) -> R {
-        // As for σ: D underflows for h below 10⁻¹⁰⁸, and 0 · ∞ must not come out for x = 0.
+        // D underflows for h below 10⁻¹⁰⁸. The quotient is limited to the largest number: x = 0 then gives 0, not 0 ·
+        // ∞.
         self.rho * 2.0 * (self.rho - excess * (self.sin / self.d).at_most_largest())
     }
 }

@@ -1,9 +1,9 @@
 //! The root h of V(h) = V in an interval on which V(h) increases, and the landing there.
 
-use crate::landing::flight_ends::{Landing, is_sudden};
+use crate::landing::flight_ends::{Landing, TakeOff, is_sudden, state_after_flight};
 use crate::landing::half_time::HalfTime;
 
-/// A root of V(h) = V: an `f64` h, and the rest to the exact root.
+/// A root of V(h) = V: an `f64` h, and the exact root minus this h.
 pub(crate) struct HalfTimeRoot {
     pub(crate) half: HalfTime<f64>,
     /// V(h) − V.
@@ -15,19 +15,21 @@ pub(crate) struct HalfTimeRoot {
 /// Guard on the number of steps, never reached: bisection alone ends within 64 + 53 steps of any bracket.
 const MOST_STEPS: usize = 200;
 
-/// Up to this |V − h| the residual is small enough at an ulp of V. Only for larger |V − h| an ulp of V − h may be
-/// much less than one of V, and is asked for. Chosen, not derived.
+/// Added to |V − h| in the scale of the tolerance, so that the tolerance is not zero where V − h vanishes. Chosen, not
+/// derived.
 const LARGE_DIFFERENCE: f64 = 8.0;
 
-/// A relative correction whose square, 10⁻¹⁸, is less than an ulp: of such corrections the first order suffices.
+/// The square of a relative correction of this size is 10⁻¹⁸, less than an ulp: the first order of the correction
+/// suffices.
 const FIRST_ORDER: f64 = 1e-9;
 
 impl HalfTimeRoot {
     /// Halley's method inside a bracket on which V(h) increases, from `start` or from the middle.
     ///
-    /// The residual is a backward error in V. The search stops when it is about an ulp of V, or of V − h where that
-    /// is much smaller. Then the map is right, even where h is not: at α*_n, a triple root, h is known to a third of
-    /// the digits. The search also stops when the residual is so small that a correction of first order removes it.
+    /// The residual is a backward error in V. The search stops when the residual is about an ulp of V, or an ulp of |V
+    /// − h| + 8 where this is smaller. The map is then accurate even where h is not: at α*_n, a triple root, h has only
+    /// a third of its digits. The search also stops when the residual is so small that a correction of first order
+    /// removes it.
     pub(crate) fn solve(excess: f64, velocity: f64, bracket: (f64, f64), start: f64) -> Self {
         let (mut left, mut right) = bracket;
         let mut h = if start > left && start < right { start } else { 0.5 * (left + right) };
@@ -81,15 +83,14 @@ impl HalfTimeRoot {
             // Next to a triple root Γ is nearly zero, and the correction may be as large as Γ² itself.
             (uncorrected * uncorrected - self.residual * loss_slope).max(0.0).sqrt()
         };
-        // x' = x + 2h (V − h) on the parabola of the momentum coordinate, moved by `rest`.
-        let landed = excess + 2.0 * h * (velocity - h) + 2.0 * rest * (velocity - 2.0 * h);
-        let upper = (velocity - 2.0 * h) - 2.0 * rest + kappa * closing_speed;
+        let start = TakeOff { excess, velocity };
+        let (landed, upper) = state_after_flight(start, h, rest, kappa, closing_speed);
         let sudden = sudden.unwrap_or(is_sudden(landed, upper));
         Landing { time: 2.0 * (h + rest), closing_speed, excess: landed, velocity: upper, sudden }
     }
 }
 
-/// Whether the residual is so small that corrections of first order leave less than an ulp: of h, and of Γ².
+/// Whether the residual is so small that corrections of first order leave errors below an ulp, both of h and of Γ².
 fn is_linear(half: &HalfTime<f64>, residual: f64, excess: f64) -> bool {
     let closing = half.closing_speed(excess);
     let step = residual.abs() / half.start_speed_slope(excess);
@@ -97,8 +98,8 @@ fn is_linear(half: &HalfTime<f64>, residual: f64, excess: f64) -> bool {
         && (residual * half.loss_slope(excess)).abs() <= FIRST_ORDER * closing * closing
 }
 
-/// Halley's step, or Newton's where the two differ by more than a factor of two: there the bend is too large for
-/// Halley's step to be an improvement.
+/// Halley's step, or Newton's step where the two differ by more than a factor of two: there the second derivative is
+/// too large for Halley's step to be an improvement.
 fn halley(residual: f64, slope: f64, bend: f64) -> f64 {
     let newton = residual / slope;
     let bent = 1.0 - 0.5 * newton * (bend / slope);

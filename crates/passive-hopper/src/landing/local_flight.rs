@@ -8,9 +8,10 @@
 //!   S u/D = −2 (a cos η + sin η) b/(R² Q)          dδ/dt = 4 b²/(R² Q²)
 //! ```
 //!
-//! The landing equation α (τ − sin τ) = τ²/2 + cos τ − 1, less a (τ − sin τ) on both sides, is δ Q = N. As tan a = a,
-//! sin 2a = 2a/R² and cos 2a = (1 − a²)/R², hence a sin τ + cos τ = cos t − a sin t, and N has its form. In the same way
-//! cos a = ±1/R and sin a = ±a/R give u = h cos h − sin h = ∓b/R. Γ, S u/D and dδ/dt are those of `half_time.rs`.
+//! The landing equation α (τ − sin τ) = τ²/2 + cos τ − 1, minus a (τ − sin τ) on both sides, is δ Q = N. Because tan a
+//! = a, sin 2a = 2a/R² and cos 2a = (1 − a²)/R². Hence a sin τ + cos τ = cos t − a sin t, which gives N. In the same
+//! way cos a = ±1/R and sin a = ±a/R give u = h cos h − sin h = ∓b/R. With this u the formulas of `half_time.rs` give
+//! Γ, S u/D and dδ/dt.
 //!
 //! No term cancels another, however small t is. Hence every function keeps its relative accuracy.
 
@@ -67,13 +68,13 @@ impl<R: Real> NearFixedPoint<R> {
     }
 }
 
-/// Guard on the number of Newton steps in `f64`, never reached: from the expansion's three digits or more, four steps
-/// give 15.
+/// Guard on the number of Newton steps in `f64`, never reached: the expansion gives three digits or more, and four
+/// steps from there give 15.
 const NEWTON_STEPS: usize = 12;
 
 impl NearFixedPoint<f64> {
-    /// t of δ, by Newton's method from its expansion in δ^{1/3} (`fixed_point_interval.rs` has more
-    /// of its terms).
+    /// t(δ), by Newton's method from its expansion in δ^{1/3} (`fixed_point_interval.rs` has more terms of this
+    /// expansion).
     ///
     /// As t³ ∝ δ, the method converges quadratically in relative terms, however small δ is. The last step is applied
     /// before the search stops, unlike in extended arithmetic: here one more step is cheaper than one more test.
@@ -88,7 +89,7 @@ impl NearFixedPoint<f64> {
                 break; // δ = 0, where the slope is 0
             }
             t -= step;
-            // 10⁻¹⁵ is four ulps and a half: after it, rounding alone moves t.
+            // 10⁻¹⁵ is four and a half ulps: a step of this size is rounding error.
             if step.abs() <= 1e-15 * t.abs() {
                 break;
             }
@@ -108,9 +109,9 @@ impl NearFixedPoint<f64> {
     }
 }
 
-/// Guard on the number of Newton steps in extended arithmetic. From 15 digits each step doubles them, and seven suffice
-/// for 1024 bits. Where the last bits of the step are rounding, they may stay above the bound for ever: the guard ends
-/// the search, and t is right to its rounding error.
+/// Guard on the number of Newton steps in extended arithmetic. From 15 digits each step doubles the number of digits,
+/// and seven steps suffice for 1024 bits. The last bits of a step are rounding errors and may stay above the bound for
+/// ever. The guard then ends the search, and t is right to its rounding error.
 const EXTENDED_NEWTON_STEPS: usize = 40;
 
 impl<R: Extended> NearFixedPoint<R> {
@@ -137,7 +138,8 @@ impl<R: Extended> NearFixedPoint<R> {
     }
 }
 
-/// The first flight from near α*_n, as functions of t = τ − 2α*_n, by how much it is longer than the lossless one.
+/// The first flight from near α*_n, as functions of t = τ − 2α*_n, the time of flight minus that of the lossless
+/// flight.
 ///
 /// Every function keeps its relative accuracy, however small t is.
 ///
@@ -151,8 +153,8 @@ impl<R: Extended> NearFixedPoint<R> {
 pub struct LocalFlight(NearFixedPoint<f64>);
 
 impl LocalFlight {
-    /// The flights near α*_n, n ≥ 1. For n = 0 the functions of [`HalfFlight`](crate::HalfFlight) keep their accuracy
-    /// themselves; this function then takes n = 1.
+    /// The flights near α*_n, n ≥ 1. For n = 0 use [`HalfFlight`](crate::HalfFlight), which keeps its accuracy there;
+    /// this function replaces n = 0 by n = 1.
     pub fn new(n: u64) -> Self {
         LocalFlight(NearFixedPoint::new(alpha_star(n.max(1))))
     }

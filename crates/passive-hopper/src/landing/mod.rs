@@ -1,8 +1,8 @@
 //! When and how does the lower mass land, and how large is the error of the answer?
 //!
 //! ```text
-//!   flight_ends.rs, flight_derivative.rs  a flight's two ends, and how small changes of one reach the other
-//!   half_time.rs, half_flight.rs          the closed forms, in half the time of flight; their public face
+//!   flight_ends.rs, flight_derivative.rs  the start and the end of a flight, and the derivative between them
+//!   half_time.rs, half_flight.rs          the closed forms, in half the time of flight; their public form
 //!   half_time_root.rs                     the root search that all landings from the ground share
 //!   fixed_point_interval.rs, first_flight_table.rs, first_landing.rs      after a gradual lift-off
 //!   next_landing.rs                       after a sudden lift-off

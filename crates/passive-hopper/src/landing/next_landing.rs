@@ -32,7 +32,7 @@ pub(crate) fn next_root(start: TakeOff, before_maximum: bool) -> HalfTimeRoot {
     // On branch 1, V ≈ h/2 − 3x/(2h); elsewhere the search starts in the middle.
     let guess = if velocity < PI {
         let root = pxfm::f_hypot(velocity, (3.0 * excess).sqrt());
-        // h = V + √(V² + 3x). For V < 0 this cancels, and 3x/(√ − V) is the same.
+        // h = V + √(V² + 3x). For V < 0 this sum cancels. The equal form 3x/(√(V² + 3x) − V) does not.
         if velocity < 0.0 { 3.0 * excess / (root - velocity) } else { velocity + root }
     } else {
         0.5 * (bracket.0 + bracket.1)

@@ -1,4 +1,4 @@
-//! A hop in extended arithmetic, for decisions and values that 53 bits leave open.
+//! A hop in extended arithmetic, for hops whose decisions or values 53 bits do not settle.
 //!
 //! The formulas are those of the room `landing`, generic over the arithmetic. In 106 bits a hop takes some tens of
 //! microseconds, in 1024 bits milliseconds. A longer arithmetic is used only if a shorter one was inconclusive.
@@ -52,9 +52,9 @@ pub(crate) struct ExtendedHop {
     pub(crate) next_speed_squared: f64,
     /// All landings, rounded; all but the last are sudden.
     pub(crate) landings: Vec<Landing>,
-    /// Whether no decision is inconclusive.
+    /// True if every decision is conclusive.
     pub(crate) certain: bool,
-    /// Whether the error propagated from flight to flight changes no digit of the result.
+    /// True if the error propagated from flight to flight changes no digit of the result.
     pub(crate) precise: bool,
 }
 
@@ -70,8 +70,8 @@ pub(crate) struct Next {
 
 /// The hop in as many bits as it needs: 106, 256, 512, at most 1024.
 ///
-/// A chain over the budget of an arithmetic is given up there. The result of the arithmetic before stands, with its
-/// `certain` and `precise`.
+/// Each arithmetic has a budget of sudden lift-offs. If a hop exceeds the budget, the result of the next shorter
+/// arithmetic is returned, with its `certain` and `precise`.
 pub(crate) fn extended_hop(start: Start, mass_ratio: MassRatio) -> Result<ExtendedHop, Error> {
     let longer = [hop_with::<Long<4>> as HopWith, hop_with::<Long<8>>, hop_with::<Long<16>>];
     let mut hop = hop_with::<DoubleDouble>(start, mass_ratio)?;
@@ -92,11 +92,11 @@ pub(crate) fn extended_hop(start: Start, mass_ratio: MassRatio) -> Result<Extend
 
 type HopWith = fn(Start, MassRatio) -> Result<Option<ExtendedHop>, Error>;
 
-/// The propagated error that a result may have, relative to it: an eighth of an ulp, so that rounding the result to
-/// `f64` dominates. Chosen, not derived. A smaller value sends more chains to the longer arithmetic.
+/// Largest propagated error of a result, relative to the result: an eighth of an ulp, so that the rounding of the
+/// result to `f64` dominates. Chosen, not derived. A smaller value sends more chains to the longer arithmetic.
 const PRECISE: f64 = 0.125 * f64::EPSILON;
 
-/// The hop in the arithmetic `R`; `None` if the chain is over its budget.
+/// The hop in the arithmetic `R`; `None` if the hop exceeds the budget of `R`.
 fn hop_with<R: Extended>(
     start: Start,
     mass_ratio: MassRatio,
@@ -107,7 +107,7 @@ fn hop_with<R: Extended>(
             let interval = FixedPointInterval::of(speed);
             let alpha = R::from(speed);
             let first = if interval.n == 0 {
-                // No fixed point to expand about, and no triple root: the general landing serves.
+                // In the interval n = 0 the landing is never a triple root: the general root search is accurate.
                 let h = first_root(&interval, speed).half.h;
                 ExtendedLanding::near(h, R::from(0.0), alpha, masses.kappa)
             } else {
@@ -135,8 +135,8 @@ fn hop_with<R: Extended>(
         Next { speed: speed.nearest(), loss: lost.nearest(), offset: (offset - lost).nearest() }
     });
     let (mu, speed) = (masses.mu.nearest(), alpha.nearest());
-    // Only chains propagate errors that matter. The bound is absolute, but the single flight after a sudden landing near
-    // a fixed point is short, and its landing has a small relative error.
+    // With at most one sudden landing the propagated error is neglected. The bound is absolute, but the single flight
+    // after a sudden landing near a fixed point is short, and its landing has a small relative error.
     let propagated =
         if chain.landings.len() > 2 { chain.error_bound.propagated(mu, speed) } else { 0.0 };
     let precise = next.as_ref().is_none_or(|next| {
@@ -161,8 +161,8 @@ struct Chain<R> {
     error_bound: ErrorBound,
 }
 
-/// The rest of a hop whose first landing is known, and whether that is sudden; `None` if the chain is over the budget of
-/// the arithmetic.
+/// All flights of a hop, from its first landing and the decision whether that landing is sudden; `None` if the hop
+/// exceeds the budget of the arithmetic.
 fn chain<R: Extended>(
     first: ExtendedLanding<R>,
     first_is_sudden: bool,
@@ -190,7 +190,7 @@ fn chain<R: Extended>(
             return Ok(None);
         }
         if !(start.excess > 0.0) {
-            break; // x′ rounds to zero: a flight too short for an f64, which loses no energy
+            break; // x′ rounds to zero: the next flight is too short for an f64 and loses no energy
         }
         let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
         let root = next_root(start, start.velocity >= PI && test >= 0.0);

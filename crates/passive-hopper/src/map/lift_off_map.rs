@@ -1,7 +1,7 @@
 //! The lift-off map α' = f(α; M) in its stable form.
 //!
-//! A hop takes the first of these paths that decides its verdicts: the kernel; landing by landing in `f64`, with an
-//! error bound; longer arithmetic.
+//! A hop is computed by the first of these methods whose decisions are all conclusive: the kernel; landing by landing
+//! in `f64`, with an error bound; landing by landing in longer arithmetic.
 
 use crate::error::Error;
 use crate::kernel::scalar::hop::{DecidedHop, MassFactors, kernel_hop};
@@ -23,7 +23,7 @@ use crate::precision::real::Extended;
 /// ```
 ///
 /// Speeds are in units of the model's length m₂g/k times ω. If no landing is sudden, the sum has one term, which does
-/// not depend on M. Since μ is the same for M and 1/M, so is f then.
+/// not depend on M. As μ is the same for M and 1/M, f is then the same for both mass ratios.
 ///
 /// ```
 /// use passive_hopper::{LiftOffMap, MassRatio};
@@ -40,10 +40,10 @@ pub struct LiftOffMap {
     pub(crate) factors: MassFactors,
 }
 
-/// One hop: how it changes the lift-off speed, and how it came about.
+/// One hop: the change of the lift-off speed, the number of sudden lift-offs, the time, and the certainty.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hop {
-    /// The lift-off speed it started with, α.
+    /// The lift-off speed α at the start of the hop.
     pub speed: f64,
     /// The next gradual lift-off speed α'; `None` if the hopper is grounded.
     pub next: Option<f64>,
@@ -55,9 +55,9 @@ pub struct Hop {
     pub sudden: usize,
     /// Total time of flight τ.
     pub flight_time: f64,
-    /// Whether every verdict of the hop (sudden or not, on which branch a flight lands, grounded or
-    /// not) is larger than its rounding error. A hop whose verdicts are inconclusive in 53 bits is computed with 106,
-    /// and then with up to 1024. False means that 1024 bits do not suffice either, or would take too long.
+    /// Whether every decision of the hop (sudden or not, on which branch a flight lands, grounded or not) is larger
+    /// than its rounding error. A hop whose decisions are inconclusive in 53 bits is computed with 106, and then with
+    /// up to 1024. False means that 1024 bits do not suffice either, or would take too long.
     pub certain: bool,
 }
 
@@ -86,7 +86,7 @@ impl LiftOffMap {
         }
     }
 
-    /// The image for a speed that the kernel does not decide, wrong speeds included.
+    /// The image for a speed that the kernel leaves undecided. An invalid speed gives its error.
     #[cold]
     pub(crate) fn careful_image(&self, alpha: f64) -> Result<Option<f64>, Error> {
         let (hop, _) = self.decide(alpha, |_| ())?;
@@ -109,15 +109,15 @@ impl LiftOffMap {
         }
     }
 
-    /// The hop by the careful path, with its landings in the arithmetic that decided it.
+    /// The hop computed landing by landing, with its landings in the arithmetic that decided the hop.
     pub(crate) fn path(&self, alpha: f64) -> Result<(Hop, Vec<Landing>), Error> {
         let mut plain = Vec::new();
         let (hop, longer) = self.decide(alpha, |landing| plain.push(*landing))?;
         Ok((hop, longer.unwrap_or(plain)))
     }
 
-    /// The hop by the careful path, and its landings in longer arithmetic if that was needed. `see` gets the landings
-    /// in plain `f64`.
+    /// The hop computed landing by landing, and its landings in longer arithmetic if that was needed. `see` receives
+    /// the landings in plain `f64`.
     fn decide(
         &self,
         alpha: f64,
@@ -237,8 +237,8 @@ impl Iterator for Landings {
             next_landing(start, self.kappa)
         };
         self.flights += 1;
-        // A sudden landing whose excess rounds to zero or below: the flight that follows is too short to be
-        // represented and loses nothing. A search from x ≤ 0 would have no bracket.
+        // The excess of a sudden landing may round to zero or below. The next flight is then too short to be
+        // represented, and it loses no energy. A search from x ≤ 0 would have no bracket.
         let again = landing.sudden && landing.excess > 0.0;
         self.start =
             again.then_some(TakeOff { excess: landing.excess, velocity: landing.velocity });

@@ -6,19 +6,19 @@ use crate::kernel::batch::rows::BLOCK;
 use crate::kernel::scalar::hop::kernel_hop;
 use crate::map::lift_off_map::LiftOffMap;
 
-/// Fewer hops than this go one by one.
+/// Fewer hops than this are computed one by one.
 ///
-/// A block has costs that do not depend on the number of hops: the array of tables, and passes over nearly empty
-/// lists. With AVX-512 a block is level with single hops at 8 to 12 and a quarter faster at 16; narrower vectors need
-/// more. The results do not depend on this number.
+/// A block has costs that do not depend on the number of hops: the array of tables, and passes over nearly empty lists.
+/// With AVX-512 a block takes as long as single hops at 8 to 12 hops, and is a quarter faster at 16. Narrower vectors
+/// need more hops. The results do not depend on this number.
 const FEW: usize = 16;
 
 impl LiftOffMap {
     /// Replaces each of `speeds` by its image, with the bits of [`image`](Self::image). A grounded hopper gives
     /// `None`, and `None` stays `None`.
     ///
-    /// This is several times as fast as one hop after the other: flights of different hops share the lanes of a
-    /// vector unit, AVX-512, AVX2 or what else the processor has.
+    /// This is several times as fast as one hop after the other: flights of different hops share the lanes of the
+    /// processor's vector unit (AVX-512, AVX2, or narrower).
     ///
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};
@@ -56,8 +56,8 @@ impl LiftOffMap {
     }
 }
 
-/// Replaces the speed of each entry by its image, and gives the first error. `map` and `speed` read an entry, and
-/// `image` is where its image goes.
+/// Replaces the speed of each entry by its image, and returns the first error. `map` and `speed` read an entry. `image`
+/// gives access to the speed that is replaced.
 fn images<H>(
     entries: &mut [H],
     map: impl Fn(&H) -> LiftOffMap,
@@ -85,7 +85,8 @@ fn images<H>(
     }
     HopBlock::of_this_thread(|block| {
         for entries in entries.chunks_mut(BLOCK) {
-            // Zero is no valid speed: the block leaves it undecided, and `careful` finds that there is none.
+            // An entry without a speed enters the block with 0, which is not a valid speed. The block leaves it
+            // undecided, and `careful` then skips the entry.
             let from = |entry: &H| (speed(entry).unwrap_or(0.0), map(entry).factors);
             block.hop(entries, from, |entry, next| {
                 if next > 0.0 {

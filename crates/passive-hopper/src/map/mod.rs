@@ -1,7 +1,7 @@
 //! What is α′ = f(α; M), the next gradual lift-off speed?
 //!
 //! ```text
-//!   lift_off_map.rs       one hop: the kernel first, the careful path where the kernel can not decide
+//!   lift_off_map.rs       one hop: by the kernel, or by the general solver if the kernel leaves it undecided
 //!   many_at_once.rs       many hops, in blocks of the kernel
 //!   near_fixed_point.rs   a hop in (n, δ), α = α*_n + δ
 //!   extended_hop.rs       a hop in 106 to 1024 bits

@@ -1,7 +1,7 @@
 //! A hop in the coordinate of a fixed point: (n, δ) with α = α*_n + δ, to (n, δ′).
 //!
-//! δ′ = δ − μ Σ Γ²/(α + α′), with Γ of the first flight from `landing/local_flight.rs`. No subtraction cancels but that
-//! of the loss from δ, near the end of the trapping region of α*_n. There the hop is computed in extended arithmetic.
+//! δ′ = δ − μ Σ Γ²/(α + α′), with Γ of the first flight from `landing/local_flight.rs`. Only the subtraction of the
+//! loss from δ can cancel, near the end of the trap of α*_n. There the hop is computed in extended arithmetic.
 
 use crate::error::Error;
 use crate::landing::error_bound::ErrorBound;
@@ -14,8 +14,8 @@ use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::model::fixed_points::{alpha_star, exact_alpha_star, n_pi};
 use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 
-/// Up to this ratio of the loss to |δ| the plain result is used: the rounding error of the loss, some ulps of it, is then
-/// below an ulp of δ′. A larger loss goes to the extended arithmetic. Chosen, not derived.
+/// Up to this ratio of the loss to |δ| the plain result is used: the rounding error of the loss, some ulps of it, is
+/// then below an ulp of δ′. Hops with a larger loss are computed in extended arithmetic. Chosen, not derived.
 const SMALL_LOSS: f64 = 1.0 / 16.0;
 
 /// A hop near a fixed point.
@@ -34,8 +34,8 @@ pub struct LocalHop {
 impl LiftOffMap {
     /// The hop from α = α*_n + `delta`, in the coordinate δ.
     ///
-    /// δ′ is right to a few ulps of itself, from |δ| = 10⁻³⁰⁰ to the ends of (nπ, (n+1)π). Orbits in δ therefore follow
-    /// the algebraic approach to α*_n for ever, where an orbit in α stops at |δ| ≈ 10⁻¹².
+    /// δ′ is right to a few ulps of itself, from |δ| = 10⁻³⁰⁰ to the ends of (nπ, (n+1)π). An orbit in δ therefore
+    /// follows the algebraic approach to α*_n without end. An orbit in α stops at |δ| ≈ 10⁻¹².
     ///
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};
@@ -49,12 +49,13 @@ impl LiftOffMap {
     ///
     /// # Errors
     /// [`Error::Offset`] unless n ≥ 1, α lies in (nπ, (n+1)π), and δ is zero or |δ| ≥ 10⁻³⁰⁰;
-    /// [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop); [`Error::Undecided`] where 1024 bits, or the budget of
-    /// flights in them, do not give the decisions and the digits of δ′.
+    /// [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop); [`Error::Undecided`] if 1024 bits, or the budget of
+    /// sudden lift-offs in them, do not suffice for the decisions and the digits of δ′.
     pub fn hop_near_fixed_point(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
         let star = exact_alpha_star(n);
         // The interval (nπ, (n+1)π) in δ, to 100 bits.
-        let (left, right) = (n_pi(n) - star, n_pi(n + 1) - star);
+        // The largest n has no successor; it is refused below, since its speed is too large.
+        let (left, right) = (n_pi(n) - star, n_pi(n.saturating_add(1)) - star);
         let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
         // Below 10⁻³⁰⁰ the terms of δ(t), of size t³ ∝ δ, come near the smallest normal number and lose digits.
         let resolved = delta == 0.0 || delta.abs() >= 1e-300;
@@ -72,7 +73,7 @@ impl LiftOffMap {
         plain.map_or_else(|| self.extended_hop_near(n, delta, t), Ok)
     }
 
-    /// The hop in plain `f64`; `None` if the loss is not small against δ, or a decision is inconclusive.
+    /// The hop in plain `f64`; `None` if the loss is not small compared with δ, or a decision is inconclusive.
     fn plain_hop_near(&self, local: &NearFixedPoint<f64>, delta: f64, t: f64) -> Option<LocalHop> {
         let mu = self.mass_ratio().mu();
         let kappa = self.mass_ratio().kappa();
@@ -83,8 +84,9 @@ impl LiftOffMap {
             let start = TakeOff { excess, velocity };
             let next = next_landing(start, kappa);
             // A second sudden landing would make the loss large. The decision that the second landing is not sudden
-            // must be larger than its error. After a short flight that error is some ulps of the excess before it,
-            // and 10⁻¹⁰ of it is far more (chosen, not derived). The bound of a long one is absolute.
+            // must be larger than its error. After a short flight that error is some ulps of the excess before the
+            // flight, and 10⁻¹⁰ of this excess is far more (chosen, not derived). After a long flight the error bound
+            // of `is_conclusive` is used.
             let short = next.time < 1.0 && next.excess < -1e-10 * excess;
             if next.sudden
                 || !(short || Self::is_conclusive(local, start, t, closing_speed, &next, kappa))

@@ -1,7 +1,7 @@
 //! The map as the paper prints it: Eqs. (6)–(8), solved by Brent's method.
 //!
-//! It gives the same values as the stable form, but it subtracts nearly equal numbers and loses digits where the
-//! difference is small. It shows this difference and is an independent check of the stable form.
+//! The printed form gives the same values as the stable form. But it subtracts nearly equal numbers and loses digits
+//! where their difference is small. It serves to show this loss, and as an independent check of the stable form.
 
 use crate::error::Error;
 use crate::landing::flight_ends::TakeOff;

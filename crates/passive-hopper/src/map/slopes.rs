@@ -7,8 +7,8 @@
 //!   dκ/dM = 1/(1 + M)²        dμ/dM = (1 − M)/(1 + M)³
 //! ```
 //!
-//! [`FlightDerivative`] takes (dx, dV) through each flight and gives dΓ. It holds κ fixed; the change of κ adds
-//! Γ dκ to dV at each landing.
+//! [`FlightDerivative`] maps (dx, dV) at the start of each flight to its end, and gives dΓ. It holds κ fixed; the
+//! change of κ adds Γ dκ to dV at each landing.
 
 use crate::error::Error;
 use crate::landing::flight_derivative::{FlightDerivative, Variation};

@@ -1,5 +1,5 @@
-//! The contact phase: the upper mass oscillates harmonically about y₁ = −1/M, until the spring pulls at the lower
-//! mass with that mass's weight.
+//! The contact phase: the upper mass oscillates harmonically about y₁ = −1/M, until the spring pulls the lower mass
+//! upwards with a force equal to its weight.
 
 use crate::error::Error;
 use crate::model::mass_ratio::MassRatio;
@@ -34,11 +34,11 @@ pub fn lift_off_energy(mass_ratio: MassRatio, excess: f64, velocity: f64) -> f64
 /// A start at or beyond y₁ = 1 that moves up lifts off at once.
 ///
 /// With a = y₁ + 1/M, c = 1 + 1/M, b = V/ν, q = √e/ν: a cos θ + b sin θ = c first rises at
-/// tan ½θ = (c − a)/(b + q) = (b − q)/(a + c). The first form is used for b ≥ 0 and the second for b < 0: the other
-/// one would subtract nearly equal numbers, or divide zero by zero.
+/// tan ½θ = (c − a)/(b + q) = (b − q)/(a + c). The first form is used for b ≥ 0 and the second for b < 0. The other
+/// form would subtract nearly equal numbers, or divide zero by zero.
 ///
 /// # Errors
-/// [`Error::NotFinite`] unless both numbers, and the energy made of them, are finite.
+/// [`Error::NotFinite`] unless both numbers, and the energy computed from them, are finite.
 pub fn contact_time(
     mass_ratio: MassRatio,
     excess: f64,

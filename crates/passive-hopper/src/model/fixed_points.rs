@@ -9,8 +9,8 @@ use std::sync::OnceLock;
 
 /// α*_n, the n-th positive root of tan α = α (paper, Eq. 3); α*_0 = 0.
 ///
-/// Lift-off at this speed lands after τ = 2α*_n with no speed at all: the hop repeats for ever.
-/// The value is the `f64` nearest to the root; [`FixedPointSpeed`] has 100 bits of it.
+/// The hop with this lift-off speed lands after τ = 2α*_n with closing speed zero, and repeats for ever. The value is
+/// the `f64` nearest to the root; [`FixedPointSpeed`] has 100 bits of it.
 ///
 /// From cot e = α with α = q − e, q = (n+½)π: α = q − arctan(1/α), a contraction by 1/(1+α²).
 ///
@@ -23,8 +23,8 @@ pub fn alpha_star(n: u64) -> f64 {
     exact_alpha_star(n).high
 }
 
-/// α*_n to 100 bits. They decide what the 53 bits of an `f64` leave open: on which side of α*_n a speed lies, and
-/// how far away.
+/// α*_n to 100 bits. These bits decide on which side of α*_n a speed lies, and how far away it is, where the 53 bits of
+/// an `f64` do not suffice.
 ///
 /// ```
 /// use passive_hopper::{FixedPointSpeed, alpha_star};
@@ -75,7 +75,7 @@ impl FixedPointSpeed {
     }
 }
 
-/// α*_n to 100 bits. The first 128 values, speeds up to 400, are computed once and kept.
+/// α*_n to 100 bits. The first 128 values, speeds up to 400, are computed once and stored.
 pub(crate) fn exact_alpha_star(n: u64) -> DoubleDouble {
     static FIRST: OnceLock<[DoubleDouble; 128]> = OnceLock::new();
     let first = FIRST.get_or_init(|| std::array::from_fn(|n| solve(n as u64)));
@@ -86,8 +86,8 @@ fn solve(n: u64) -> DoubleDouble {
     if n == 0 {
         return DoubleDouble::ZERO;
     }
-    // n + ½ in two parts, each of them exact as an f64: the lowest 26 bits with the ½, and the bits above, of which
-    // an f64 holds 53. Above 2⁷⁹ they would not suffice; a u64 ends before.
+    // n + ½ in two parts, each exact as an f64: the lowest 26 bits with the ½, and the bits above them, of which an f64
+    // holds 53. From 2⁷⁹ on two parts would not suffice; a u64 is smaller.
     let low = n & ((1 << 26) - 1);
     let q = DoubleDouble::multiple_of_pi((n - low) as f64)
         + DoubleDouble::multiple_of_pi(low as f64 + 0.5);
@@ -116,8 +116,8 @@ fn arc_tangent(x: DoubleDouble) -> DoubleDouble {
     sum
 }
 
-/// α*_n in the arithmetic `R`, by Newton's method on sin a = a cos a from 100 bits. There sin a − a cos a has the
-/// slope a sin a.
+/// α*_n in the arithmetic `R`, by Newton's method on sin a = a cos a from 100 bits. At the root the slope of sin a − a
+/// cos a is a sin a.
 pub(crate) fn fixed_point_in<R: Extended>(n: u64) -> R {
     let exact = exact_alpha_star(n);
     let mut a = R::from(exact.high) + exact.low;
@@ -131,14 +131,14 @@ pub(crate) fn fixed_point_in<R: Extended>(n: u64) -> R {
     a
 }
 
-/// n π to 100 bits. A first flight from this speed lasts n turns of the spring and lands at stretch one.
+/// n π to 100 bits. A first flight from this speed lasts n periods of the spring and lands at stretch one.
 pub(crate) fn n_pi(n: u64) -> DoubleDouble {
     DoubleDouble::multiple_of_pi(n as f64)
 }
 
 /// The largest n with α*_n ≤ `alpha`.
 ///
-/// Decided on 100 bits: an `alpha` one ulp below α*_n belongs to n − 1.
+/// The decision uses 100 bits: an `alpha` one ulp below α*_n belongs to n − 1.
 ///
 /// # Errors
 /// [`Error::LiftOffSpeed`] unless `alpha` is zero or positive and finite,
@@ -150,7 +150,7 @@ pub fn index_below(alpha: f64) -> Result<u64, Error> {
     if alpha > LARGEST_LIFT_OFF_SPEED {
         return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
     }
-    // α*_n ∈ (nπ, (n+½)π): the answer is ⌊α/π⌋ or one less. The rounded quotient may be one too small, hence + 1.
+    // α*_n ∈ (nπ, (n+½)π): the result is ⌊α/π⌋ or one less. The rounded quotient may be one too small, hence + 1.
     let mut n = (alpha / std::f64::consts::PI) as u64 + 1;
     while n > 0 && exact_alpha_star(n).compare(alpha) == Ordering::Less {
         n -= 1;
@@ -176,7 +176,7 @@ mod tests {
             let text = row["alpha_star"].as_str().unwrap();
             let ours = exact_alpha_star(n);
             assert_eq!(ours.high, text.parse::<f64>().unwrap(), "n = {n}");
-            // The whole of it, from the decimal digits: integer part and 40 digits of the fraction.
+            // The whole number, from the decimal digits: integer part and 40 digits of the fraction.
             let (whole, fraction) = text.split_once('.').unwrap();
             let mut exact = DoubleDouble::from(whole.parse::<f64>().unwrap());
             for (place, chunk) in fraction.as_bytes().chunks(10).take(4).enumerate() {
@@ -210,7 +210,7 @@ mod tests {
         assert!(index_below(f64::NAN).is_err() && index_below(1e300).is_err());
     }
 
-    /// tan α* = α*, with α* from another route (arctangents), to 30 digits.
+    /// tan α* = α*, with α* computed in another way (arctangents), to 30 digits.
     #[test]
     fn sines_at_the_fixed_points() {
         for n in [1, 2, 10, 1000] {

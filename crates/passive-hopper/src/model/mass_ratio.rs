@@ -9,7 +9,7 @@ use crate::error::Error;
 pub struct MassRatio(f64);
 
 impl MassRatio {
-    /// M = 1, at which the trapping regions of the fixed points are smallest.
+    /// M = 1, at which the traps of the fixed points are smallest.
     pub const ONE: MassRatio = MassRatio(1.0);
 
     /// A mass ratio with the value `value`.
@@ -29,7 +29,7 @@ impl MassRatio {
         self.0
     }
 
-    /// μ = M/(1+M)² ∈ (0, ¼]. While no landing is sudden, the map depends on M only through μ.
+    /// μ = M/(1+M)² ∈ (0, ¼]. As long as no landing is sudden, the map depends on M only through μ.
     pub fn mu(self) -> f64 {
         self.kappa() / (1.0 + self.0)
     }
@@ -39,7 +39,7 @@ impl MassRatio {
         self.0 / (1.0 + self.0)
     }
 
-    /// ν = √κ, the angular frequency of the contact phase in units of the flight's.
+    /// ν = √κ, the angular frequency of the contact phase in units of the angular frequency of the flight.
     pub fn contact_frequency(self) -> f64 {
         self.kappa().sqrt()
     }

@@ -10,12 +10,12 @@
 use crate::model::mass_ratio::MassRatio;
 use crate::model::state::HopperState;
 
-/// The largest lift-off speed, 2⁴³, and the largest coordinate or rate of a state: the spring's phase at the landing
-/// is of this size, and above it two neighbouring `f64` are 2⁻⁹ or more apart, too coarse for a phase. The careful
-/// path computes hops with speeds above 2²⁸ in extended arithmetic; past 2⁴³ the functions return errors.
+/// The largest lift-off speed, 2⁴³, and the largest coordinate or rate of a state. The spring's phase at the landing is
+/// of this size. Above it two neighbouring `f64` are 2⁻⁹ or more apart, too coarse for a phase. Hops with speeds above
+/// 2²⁸ are computed in extended arithmetic; past 2⁴³ the functions return errors.
 pub const LARGEST_LIFT_OFF_SPEED: f64 = 8_796_093_022_208.0;
 
-/// A flight from a given state; times count from there.
+/// A flight from a given state. Times count from this state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flight {
     mass_ratio: f64,
@@ -43,7 +43,7 @@ impl Flight {
         }
     }
 
-    /// The first coordinate or rate over [`LARGEST_LIFT_OFF_SPEED`] or not a number, if there is one.
+    /// The first coordinate or rate over [`LARGEST_LIFT_OFF_SPEED`] or not a number; `None` if there is none.
     pub(crate) fn unresolved(&self) -> Option<f64> {
         [self.stretch, self.momentum, self.height]
             .into_iter()

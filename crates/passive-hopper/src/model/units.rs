@@ -17,7 +17,7 @@ impl PhysicalHopper {
     /// m₁ (upper), m₂ (lower), k and g.
     ///
     /// # Errors
-    /// [`Error::Parameter`] unless all of them, and the units made of them, are positive and finite;
+    /// [`Error::Parameter`] unless all of them, and the units computed from them, are positive and finite;
     /// [`Error::MassRatio`] for a ratio out of range.
     pub fn new(
         upper_mass: f64,
@@ -110,7 +110,7 @@ mod tests {
         // ω² = k (1+M)/m₂
         let omega = hopper.angular_frequency();
         assert_relative_eq!(omega * omega, 300.0 * 1.25 / 0.5, max_relative = 1e-15);
-        // The flight equations with dimensions give the dimensionless ones: acceleration unit.
+        // The flight equations with dimensions give the dimensionless ones with this unit of acceleration.
         let unit = hopper.length_unit() * omega * omega;
         assert_relative_eq!(unit, 9.81 * 1.25, max_relative = 1e-15);
     }

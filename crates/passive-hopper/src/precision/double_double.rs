@@ -1,5 +1,5 @@
-//! Numbers as unevaluated sums of two `f64`: 106 bits. They hold the constants that decide on which side of a
-//! branch a speed lies, and are the first arithmetic tried where `f64` leaves a decision open.
+//! Numbers as unevaluated sums of two `f64`: 106 bits. The constants that decide on which side of a branch a speed lies
+//! have this form. It is also the first arithmetic after `f64` if a decision is inconclusive.
 
 use crate::precision::real::{Extended, Real, extended_sine_remainders};
 use std::cmp::Ordering;
@@ -39,7 +39,7 @@ impl DoubleDouble {
 
     /// The exact product of two `f64`, by Dekker's splitting (no fused multiply-add needed).
     ///
-    /// Exact while neither the factors exceed 2⁹⁹⁵ nor the product's error term underflows.
+    /// Exact if no factor exceeds 2⁹⁹⁵ and the error term of the product does not underflow.
     pub(crate) fn exact_product(a: f64, b: f64) -> Self {
         let (a_high, a_low) = split(a);
         let (b_high, b_low) = split(b);
@@ -72,9 +72,9 @@ impl DoubleDouble {
 
     /// sin and cos, with an absolute error of about 2⁻¹⁰⁰; near zero the relative error of sin is as small.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
-        let turns = (self.high / std::f64::consts::PI).round();
+        let multiple = (self.high / std::f64::consts::PI).round();
         // π has three parts. The largest product is subtracted first: that difference cancels without error.
-        let [a, b, c] = PI_PARTS.map(|part| Self::exact_product(part, turns));
+        let [a, b, c] = PI_PARTS.map(|part| Self::exact_product(part, multiple));
         let rest = ((self - a) - b) - c;
         let square = rest.squared();
         let (mut sin, mut cos) = (Self::ZERO, Self::ZERO);
@@ -83,7 +83,7 @@ impl DoubleDouble {
             sin = inverse[2 * k + 1] - sin * square;
             cos = inverse[2 * k] - cos * square;
         }
-        let sign = if turns % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let sign = if multiple % 2.0 == 0.0 { 1.0 } else { -1.0 };
         (sin * rest * sign, cos * sign)
     }
 
@@ -210,7 +210,7 @@ impl Real for DoubleDouble {
 }
 
 impl Extended for DoubleDouble {
-    /// 2⁻¹⁰⁰: six of the 106 bits are left to the roundings inside an operation.
+    /// 2⁻¹⁰⁰: six of the 106 bits are a margin for the rounding errors inside an operation.
     const EPSILON: f64 = 7.9e-31;
     /// A flight takes some tens of microseconds.
     const SUDDEN_BUDGET: usize = 100_000;

@@ -1,12 +1,12 @@
-//! What the formulas of a flight ask of the numbers they are computed with.
+//! The operations that the formulas of a flight need from a number type.
 
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Real numbers to a fixed relative precision: `f64`, or an [`Extended`] arithmetic.
 ///
-/// The formulas of a flight (`HalfTime`, `NearFixedPoint` in the room `landing`) are written once, for all of
-/// them. For `f64` the methods are single calls, which compile to the code of formulas written for `f64` alone.
+/// The formulas of a flight (`HalfTime`, `NearFixedPoint` in the room `landing`) are written once, for all of these
+/// types. For `f64` the methods are single calls, which compile to the same code as formulas for `f64` alone.
 pub(crate) trait Real:
     Copy
     + Debug
@@ -22,8 +22,8 @@ pub(crate) trait Real:
     /// The nearest `f64`.
     fn nearest(self) -> f64;
 
-    /// sin and cos: of an [`Extended`] number with an error of EPSILON (1 + |self|), and of EPSILON |self| near
-    /// zero; of an `f64` correctly rounded.
+    /// sin and cos. For an [`Extended`] number the error is EPSILON (1 + |self|), and EPSILON |self| near zero. For an
+    /// `f64` the results are correctly rounded.
     fn sin_cos(self) -> (Self, Self);
 
     /// self − sin self and self²/2 − 1 + cos self, without cancellation near zero; given sin self and cos self.
@@ -40,12 +40,13 @@ pub(crate) trait Real:
 
 /// Numbers longer than `f64`.
 pub(crate) trait Extended: Real {
-    /// Bound on the relative rounding error of an operation. It is some bits larger than the true bound.
+    /// Bound on the relative rounding error of an operation, with a margin of some bits.
     const EPSILON: f64;
-    /// Sudden lift-offs up to which a hop is computed in this arithmetic. Chosen so that the computation takes
-    /// at most some seconds; a longer chain keeps the result of the shorter arithmetic, or is undecided.
+    /// Largest number of sudden lift-offs for which a hop is computed in this arithmetic. The value is chosen so that
+    /// the computation takes at most some seconds. For a longer chain the result of the shorter arithmetic is used, or
+    /// the hop is undecided.
     const SUDDEN_BUDGET: usize;
-    /// Newton steps that bring a number of 100 right bits to the full precision.
+    /// Newton steps from a number with 100 right bits to the full precision.
     const STEPS_FROM_100_BITS: u32;
 
     /// self / `divisor`, for a small integer.
@@ -65,8 +66,8 @@ impl Real for f64 {
         pxfm::f_sincos(self)
     }
 
-    /// By pxfm's sin x − x, which is right to an ulp everywhere; t²/2 − 1 + cos t = 2 (η − sin η)(η + sin η),
-    /// η = t/2. The sine and cosine of t itself are not needed.
+    /// From pxfm's sin x − x, which is right to an ulp everywhere, and t²/2 − 1 + cos t = 2 (η − sin η)(η + sin η), η =
+    /// t/2. The sine and cosine of t itself are not needed.
     #[inline]
     fn sine_remainders(self, _: f64, _: f64) -> (f64, f64) {
         let half = 0.5 * self;
@@ -82,7 +83,7 @@ impl Real for f64 {
 
 /// [`Real::sine_remainders`] of an extended number.
 pub(crate) fn extended_sine_remainders<R: Extended>(t: R, sin: R, cos: R) -> (R, R) {
-    // From |t| = 1 on the differences cancel five bits at most (1/2 − 1 + cos 1 = 0.04), which EPSILON has to spare.
+    // From |t| = 1 on the differences lose five bits at most (1/2 − 1 + cos 1 = 0.04). EPSILON has a margin for them.
     if t.nearest().abs() < 1.0 {
         remainder_series(t)
     } else {

@@ -1,13 +1,13 @@
 //! A block of hops, from their speeds to their next speeds.
 //!
 //! ```text
-//!   find_positions      where the speeds lie in the tables                    vectors
+//!   find_positions   the positions of the speeds in the tables             vectors
 //!   first_flights    Γ from the tables; the list of sudden landings        in groups of eight
 //!   land_below_pi    the flights of the list: guess, two steps, landing    vectors
 //!   land_from_pi     the same for V ≥ π                                    vectors
-//!   add              sums; the list of the flights that follow             one by one
-//!       ... the last three again until the list is empty
-//!   end_hops         α′ and whether its verdicts are decided               vectors
+//!   add              sums; the list of the next flights                    one by one
+//!       the last three steps are repeated until the list is empty
+//!   end_hops         α′, and whether all decisions are conclusive          vectors
 //! ```
 
 use crate::kernel::batch::hop_rows::HopRows;
@@ -21,7 +21,7 @@ use std::cell::Cell;
 /// The arrays of a block.
 pub(crate) struct HopBlock {
     hops: HopRows,
-    /// The flights of this round and those of the next.
+    /// The flights of this round and of the next round.
     lists: [FlightList; 2],
     ends: FlightEnds,
 }
@@ -33,9 +33,9 @@ impl HopBlock {
         ends: FlightEnds::EMPTY,
     };
 
-    /// Calls `work` with the arrays of this thread. A thread allocates them once, when it first needs them.
+    /// Calls `work` with the arrays of this thread. A thread allocates them at the first call.
     ///
-    /// They are taken out while `work` runs: if `work` asks for a block itself, it gets a second one.
+    /// The arrays are moved out of the thread's storage while `work` runs: a call inside `work` gets a second block.
     pub(crate) fn of_this_thread(work: impl FnOnce(&mut HopBlock)) {
         thread_local!(static KEPT: Cell<Option<Box<HopBlock>>> = const { Cell::new(None) });
         let mut block = KEPT.take().unwrap_or_else(|| Box::new(HopBlock::EMPTY));
@@ -45,8 +45,8 @@ impl HopBlock {
 
     /// Computes the hops of `entries`, at most BLOCK of them.
     ///
-    /// `from` gives the speed and mass factors of an entry; a speed that is no valid one gives an undecided hop. `to`
-    /// gets the next speed: positive, negative for a grounded hopper, zero where the careful path must decide.
+    /// `from` gives the speed and mass factors of an entry; an invalid speed gives an undecided hop. `to` receives the
+    /// next speed: positive, negative for a grounded hopper, or zero if the general solver must decide.
     #[inline]
     pub(crate) fn hop<H>(
         &mut self,
@@ -72,10 +72,10 @@ impl HopBlock {
         }
     }
 
-    /// The first flights, and the list of the flights that follow.
+    /// The first flights, and the list of the second flights.
     fn first_flights(&mut self, count: usize) {
         let HopBlock { hops, lists: [list, _], .. } = self;
-        // Builds the tables that are needed, before the loop: it has no branch for a missing table.
+        // Builds the missing tables before the loop: the loop has no branch for a missing table.
         let mut tables = FirstFlightTable::all();
         let mut used = 0u64; // bit n: a speed lies in table n
         for (&interval, &piece) in hops.interval.iter().zip(&hops.piece).take(count) {
@@ -90,7 +90,7 @@ impl HopBlock {
         simd::first_flights(hops, &tables, list, count);
     }
 
-    /// The flights of the list `current`; those that follow go to the other list.
+    /// The flights of the list `current`; the flights after them go to the other list.
     fn later_flights(&mut self, current: usize) {
         let (first, second) = self.lists.split_at_mut(1);
         let (list, next) =
@@ -98,7 +98,8 @@ impl HopBlock {
         next.clear();
         simd::land_below_pi(list, &mut self.ends);
         self.hops.add(list, 0..list.below_pi, &self.ends, next);
-        // The second call may overwrite ends of the first one, at most a vector of them (I6): they are added by now.
+        // The second call may overwrite ends of the first call, at most a vector of them (I6). These ends are already
+        // added.
         simd::land_from_pi(list, &mut self.ends);
         self.hops.add(list, BLOCK - list.from_pi..BLOCK, &self.ends, next);
     }

@@ -1,4 +1,4 @@
-//! The hops of a block, one array for each quantity, and the loops over them that vectors speed up.
+//! The hops of a block, one array for each quantity, and the vectorised loops over them.
 
 use crate::kernel::batch::later_flights::{FlightEnds, FlightList};
 use crate::kernel::batch::rows::{BLOCK, LANES, Row, ZERO};
@@ -18,7 +18,7 @@ pub(crate) struct HopRows {
     pub(crate) piece: [u64; BLOCK],
     at: Row,
     sudden: [u64; BLOCK],
-    /// Σ Γ² over the flights of a hop; NaN where the kernel gives up (I7).
+    /// Σ Γ² over the flights of a hop; NaN if the kernel leaves the hop undecided (I7).
     closing_speeds_squared: Row,
     /// Bound on the error of Σ Γ².
     error: Row,
@@ -26,7 +26,7 @@ pub(crate) struct HopRows {
     flights: Row,
     /// Γ of the first flight.
     closing_speed: Row,
-    /// α′; negative for a grounded hopper, zero where the careful path must decide.
+    /// α′; negative for a grounded hopper, zero if the general solver must decide.
     pub(crate) next: Row,
 }
 
@@ -46,7 +46,7 @@ impl HopRows {
         next: ZERO,
     };
 
-    /// Adds the ends of the flights in `range` of `list` to their hops, and to `next` the flights that follow.
+    /// Adds the ends of the flights in `range` of `list` to their hops, and adds the flights after them to `next`.
     pub(crate) fn add(
         &mut self,
         list: &FlightList,
@@ -61,7 +61,8 @@ impl HopRows {
             let mut square = ends.closing_speed_squared[at];
             let mut error = ends.closing_speed_squared_error[at];
             if !(ends.accepted[at] > 0.0) {
-                // One step was not enough, or a verdict is inconclusive: the single flight takes more steps.
+                // One step was not enough, or a decision is inconclusive: `later_flight` takes more steps for this
+                // flight.
                 match later_flight(&list.state(at), list.kappa[at]) {
                     Some(end) => {
                         state = end.state;
@@ -86,7 +87,7 @@ impl HopRows {
     }
 }
 
-/// Finds the first `count` speeds in the tables, and starts their sums.
+/// Finds the first `count` speeds in the tables, and initialises their sums.
 #[inline(always)]
 pub(crate) fn find_positions(hops: &mut HopRows, fixed_points: &FixedPoints, count: usize) {
     let count = count.next_multiple_of(LANES).min(BLOCK); // whole vectors (I6)
@@ -108,12 +109,12 @@ fn polynomials(coefficients: [&Piece; LANES], at: &[f64; LANES]) -> [f64; LANES]
     std::array::from_fn(|k| polynomial(coefficients[k], at[k]))
 }
 
-/// The first flights of the first `count` speeds, and the list of the flights that follow sudden landings.
+/// The first flights of the first `count` speeds, and the list of the second flights, which follow sudden landings.
 ///
-/// The polynomials are summed one by one, because the coefficients of neighbours are far apart in memory. In groups
-/// of eight this takes 5 % less time a hop than in a plain loop over the speeds.
-/// A transposition of the coefficients by hand in AVX-512 registers would save another 4 % (the README has the
-/// measurement). That does not pay for 60 lines of unsafe code.
+/// The polynomials are summed one by one, because the coefficients of neighbouring speeds are far apart in memory. In
+/// groups of eight this takes 5 % less time a hop than in a plain loop over the speeds. A transposition of the
+/// coefficients by hand in AVX-512 registers would save another 4 % (the README has the measurement). The gain does not
+/// justify 60 lines of unsafe code.
 #[inline(always)]
 pub(crate) fn first_flights(
     hops: &mut HopRows,
@@ -121,7 +122,8 @@ pub(crate) fn first_flights(
     list: &mut FlightList,
     count: usize,
 ) {
-    // The hops whose first landing is sudden. Written always and counted only if sudden: no branch.
+    // The hops whose first landing is sudden. Every index is written, but `length` grows only if the landing is sudden:
+    // the loop has no branch.
     let mut sudden = [0u16; BLOCK];
     let mut length = 0;
     let (interval, _) = hops.interval.as_chunks::<LANES>();
@@ -171,7 +173,7 @@ pub(crate) fn first_flights(
     }
 }
 
-/// The verdicts and next speeds of the first `count` hops.
+/// The decisions and next speeds of the first `count` hops.
 #[inline(always)]
 pub(crate) fn end_hops(hops: &mut HopRows, count: usize) {
     let count = count.next_multiple_of(LANES).min(BLOCK); // whole vectors (I6)
@@ -183,12 +185,12 @@ pub(crate) fn end_hops(hops: &mut HopRows, count: usize) {
         let sums = FlightSums {
             closing_speeds_squared: squares[k],
             error: error[k],
-            half_time: 0.0, // not asked for in a batch
+            half_time: 0.0, // not used in a batch
             flights: flights[k],
         };
         let (hop, decided) = sums.end(alpha[k], mu[k]);
         let hops_again = hop.next_speed_squared > 0.0;
-        // The root of a selected argument, not a selected root: vectors compute both sides, and the root of a negative
+        // The argument of the root is selected, not the root: vectors compute both sides, and the root of a negative
         // number would be NaN.
         let root = if hops_again { hop.next_speed_squared } else { 0.0 }.sqrt();
         let speed = if hops_again { root } else { -1.0 };

@@ -1,7 +1,7 @@
 //! Many later flights at once: the list of flights to compute, and the loops that compute them.
 //!
-//! The loops do what [`later_flight`](crate::kernel::scalar::later_flight::later_flight) does in its first round, by the
-//! same functions (I1). A flight that is not accepted then is computed again by that function.
+//! The loops compute the first round of [`later_flight`](crate::kernel::scalar::later_flight::later_flight) with the
+//! same functions (I1). If a flight is not accepted, `later_flight` computes it again.
 
 use crate::kernel::batch::rows::{BLOCK, LANES, Row, ZERO};
 use crate::kernel::scalar::ground_state::GroundState;
@@ -10,9 +10,9 @@ use crate::kernel::scalar::landing_bracket::LandingBracket;
 use crate::kernel::scalar::later_flight::{fourth_order_step, land, third_order_step};
 use std::f64::consts::PI;
 
-/// Flights to compute: those with V < π from the front of the arrays, those with V ≥ π from the back (I9).
+/// Flights to compute: flights with V < π from the front of the arrays, flights with V ≥ π from the back (I9).
 ///
-/// The two kinds have different brackets and guesses. Apart from each other, each is a loop without a branch.
+/// The two kinds have different brackets and guesses. Separate lists give two loops without branches.
 pub(crate) struct FlightList {
     /// Number of flights with V < π.
     pub(crate) below_pi: usize,
@@ -26,7 +26,7 @@ pub(crate) struct FlightList {
     pub(crate) kappa: Row,
 }
 
-/// The ends of the flights of a list, at the same indices; and what the search keeps between its loops.
+/// The ends of the flights of a list, at the same indices, and the values that the search passes from loop to loop.
 pub(crate) struct FlightEnds {
     h: Row,
     left: Row,
@@ -61,7 +61,7 @@ impl FlightList {
         (self.below_pi, self.from_pi) = (0, 0);
     }
 
-    /// Adds the flight of `hop` from `state`; a list has at most one flight of a hop, so that there is room (I9).
+    /// Adds the flight of `hop` from `state`. A list has at most one flight of a hop: the arrays have room for it (I9).
     #[inline(always)]
     pub(crate) fn push(&mut self, hop: u16, state: &GroundState, kappa: f64) {
         let is_below_pi = state.velocity < PI;
@@ -120,8 +120,8 @@ pub(crate) fn land_from_pi(list: &FlightList, ends: &mut FlightEnds) {
 
 /// The ends of the flights from index `begin` to `end`, all on one side of π.
 ///
-/// Three loops without a branch: bracket and guess, first step, last step and landing. Each is short enough that a
-/// processor works on several vectors at a time.
+/// There are three loops without a branch: bracket and guess, first step, last step and landing. Each loop is short
+/// enough that a processor works on several vectors at a time.
 #[inline(always)]
 #[expect(clippy::needless_range_loop, reason = "arrays in step")]
 fn land_all<const FROM_PI: bool>(
@@ -130,7 +130,8 @@ fn land_all<const FROM_PI: bool>(
     end: usize,
     ends: &mut FlightEnds,
 ) {
-    // Whole vectors (I6), and slices of one length, so that the loops have no bounds checks and no exit but their end.
+    // The slices are whole vectors (I6) of one length: the loops then have no bounds checks and no exit except their
+    // end.
     let (begin, end) = (begin / LANES * LANES, end.next_multiple_of(LANES).min(BLOCK));
     let Some(count) = end.checked_sub(begin) else { return };
     let (excess, velocity) = (&list.excess[begin..end], &list.velocity[begin..end]);
@@ -151,7 +152,7 @@ fn land_all<const FROM_PI: bool>(
         (parity_sign[at], certain[at]) = (bracket.parity_sign, bracket.certain);
     }
     let bracket = |at: usize, left: &[f64], right: &[f64], sign: &[f64], certain: &[f64]| {
-        // The guess has done its work in the first loop.
+        // The guess is used in the first loop only.
         let (left, right, certain) = (left[at], right[at], certain[at]);
         LandingBracket { left, right, parity_sign: sign[at], certain, guess: 0.0 }
     };

@@ -1,9 +1,9 @@
-//! Many hops at once, with the bits of single ones.
+//! Many hops at once, with the same bits as single hops.
 //!
 //! ```text
 //!   hop_block.rs       a block of hops, step by step
 //!   simd.rs            the loops, compiled for AVX-512, AVX2 and plain instructions
-//!   hop_rows.rs        arrays of hops: positions in the tables, first flights, sums, verdicts
+//!   hop_rows.rs        arrays of hops: positions in the tables, first flights, sums, decisions
 //!   later_flights.rs   lists of later flights, and the loops that land them
 //!   rows.rs            sizes of the arrays
 //! ```

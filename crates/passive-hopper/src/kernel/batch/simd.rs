@@ -1,8 +1,8 @@
 //! The loops of a batch, compiled for wider vectors. This is the one file with unsafe code.
 //!
-//! Each loop is compiled three times from one text, without fused multiply-adds, hence with the same bits (I1): for
-//! AVX-512, for AVX2, and for the instructions that every processor of the target has. The processor decides at run
-//! time.
+//! Each loop is compiled three times from the same source: for AVX-512, for AVX2, and for the instructions that every
+//! processor of the target has. No version uses fused multiply-adds, so that all give the same bits (I1). The version
+//! is chosen at run time by the features of the processor.
 #![allow(unsafe_code)]
 
 use crate::kernel::batch::hop_rows::{self, HopRows};
@@ -19,15 +19,16 @@ fn has_avx512() -> bool {
 
 /// Defines a function that runs `$body` compiled for the widest vectors of the processor.
 ///
-/// `$body` and all that it calls are `#[inline(always)]`: only so is their text compiled with these instructions.
+/// `$body` and all functions that it calls are `#[inline(always)]`. Otherwise they would not be compiled with these
+/// instructions.
 macro_rules! for_widest_vectors {
     ($(#[$about:meta])* $name:ident = $body:path, ($($argument:ident: $of:ty),*)) => {
         $(#[$about])*
         pub(crate) fn $name($($argument: $of),*) {
             #[cfg(target_arch = "x86_64")]
             {
-                // All four parts of AVX-512 that the compiler uses on these loops; processors with one of them for
-                // servers have all four.
+                // The four parts of AVX-512 that the compiler uses in these loops. Server processors with one of them
+                // have all four.
                 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
                 fn with_avx512($($argument: $of),*) {
                     $body($($argument),*);
@@ -82,7 +83,7 @@ mod tests {
     use crate::kernel::batch::rows::BLOCK;
     use crate::kernel::scalar::ground_state::GroundState;
 
-    /// The loops for the widest vectors and the plain loops give the same bits, for flights without a landing too.
+    /// The loops for the widest vectors and the plain loops give the same bits, also for flights without a landing.
     #[test]
     fn vectors_have_the_bits_of_single_numbers() {
         let mut list = FlightList::EMPTY;

@@ -1,4 +1,4 @@
-//! The half-angle functions of a flight: sine and cosine of h = τ/2, half its time, and D and u made of them.
+//! The half-angle functions of a flight: the sine and cosine of h = τ/2, half its time, and D and u.
 //!
 //! Invariant I1 of the kernel's README: additions and multiplications only, and selections instead of branches.
 
@@ -17,18 +17,18 @@ pub(crate) struct HalfAngle {
 
 /// π/2 as the sum of three numbers (Cody and Waite's reduction; the values are those of fdlibm).
 ///
-/// The first two end in 21 zero bits, so that their products with an integer below 2²⁰ are exact. The third is the
-/// rest, rounded; the sum errs by 10⁻³⁷. Beyond h = 2²⁰ the products round and the reduction loses digits; the
-/// kernel stays below, see `LARGEST_VELOCITY` in `landing_bracket.rs`.
+/// The first two numbers end in 21 zero bits, so that their products with an integer below 2²⁰ are exact. The third is
+/// the remainder, rounded. The error of the sum is 10⁻³⁷. Beyond h = 2²⁰ the products round and the reduction loses
+/// digits. The speeds of the kernel stay below, see `LARGEST_VELOCITY` in `landing_bracket.rs`.
 const HALF_PI: [f64; 3] =
     [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_795_950_6e-21];
 
 /// (sin r − r)/r³ in powers of z = r².
 ///
 /// The polynomial interpolates at the six Chebyshev nodes of 0 ≤ z ≤ (1.0005 π/4)². The interval is a little longer
-/// than |r| ≤ π/4, because the rounded quotient h/(π/2) may put r just outside. Interpolation with longer numbers
-/// on this interval gives these coefficients again, to the last bit. Error: 2·10⁻¹⁷ of r.
-/// Five terms would err by 2·10⁻¹⁴.
+/// than |r| ≤ π/4, because the rounded quotient h/(π/2) may put r just outside. Interpolation in longer arithmetic on
+/// this interval reproduces these coefficients to the last bit. The error is 2·10⁻¹⁷ of r. With five terms it would be
+/// 2·10⁻¹⁴.
 const SIN: [f64; 6] = [
     -0.166_666_666_666_666_66,
     0.008_333_333_333_330_936,
@@ -54,7 +54,7 @@ pub(crate) fn negated_if_odd(x: f64, integer: u64) -> f64 {
     f64::from_bits(x.to_bits() ^ (integer << 63))
 }
 
-/// Σ cⱼ zʲ with j < 6, by pairs: shorter chains of dependent operations than Horner's scheme.
+/// Σ cⱼ zʲ with j < 6, by pairs. Its chains of dependent operations are shorter than in Horner's scheme.
 #[inline(always)]
 fn six_terms(c: &[f64; 6], z: f64) -> f64 {
     let square = z * z;
@@ -62,7 +62,7 @@ fn six_terms(c: &[f64; 6], z: f64) -> f64 {
     low + (square * square) * (c[4] + c[5] * z)
 }
 
-/// The first four terms of the sum: 2·10⁻⁹ of sin r and cos r are left out.
+/// The first four terms of the sum. The omitted terms are 2·10⁻⁹ of sin r and cos r.
 #[inline(always)]
 fn four_terms(c: &[f64; 6], z: f64) -> f64 {
     (c[0] + c[1] * z) + (z * z) * (c[2] + c[3] * z)
@@ -103,8 +103,8 @@ impl HalfAngle {
         let exchanged = bits & 1 == 1;
         let sin = negated_if_odd(if exchanged { cos_r } else { sin_r }, bits >> 1);
         let cos = negated_if_odd(if exchanged { sin_r } else { cos_r }, (bits >> 1) ^ bits);
-        // For h ≤ π/4 both differences cancel (D ~ h³, u ~ h³). There r = h, hence without cancellation
-        // D = h(1−C) − (S−h)C and u = −h(1−C) − (S−h).
+        // For h ≤ π/4 both differences cancel (D ~ h³, u ~ h³). But there r = h, and D = h(1−C) − (S−h)C and u =
+        // −h(1−C) − (S−h) do not cancel.
         let small = quarters < 0.5;
         let d = if small { h * versine - s * cos_r } else { h - sin * cos };
         let u = if small { -(h * versine + s) } else { h * cos - sin };
@@ -122,7 +122,7 @@ mod tests {
         (found - exact).abs() / (exact.abs() * f64::EPSILON)
     }
 
-    /// 400 numbers on either side of each zero of sine and cosine, where an inexact reduction would show.
+    /// 400 numbers on either side of each zero of sine and cosine, where an inexact reduction would be visible.
     #[test]
     fn sine_and_cosine_are_right_near_their_zeros() {
         for k in 1..128u32 {

@@ -1,15 +1,15 @@
-//! One hop: the first flight from its table, later flights one after the other, and the verdict on α′².
+//! One hop: the first flight from its table, later flights one after the other, and the decision on α′².
 
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::later_flight::{FlightEnd, later_flight};
 use crate::landing::error_bound::LANDING_ULPS;
 use crate::landing::first_flight_table::{FirstFlight, TablePosition, fixed_points};
 
-/// Most flights of a hop in the kernel. The careful path computes hops with more.
+/// Most flights of a hop in the kernel. The general solver computes hops with more flights.
 ///
-/// The error bound grows from flight to flight, so that long chains tend to be inconclusive anyway; and in a batch a
-/// few long chains would keep nearly empty vectors busy. 8192 hops of the paper's window have at most ten flights. The
-/// limit changes no result, only the speed.
+/// The error bound grows from flight to flight, so that the decisions of long chains are often inconclusive. In a batch
+/// a few long chains would also keep nearly empty vectors busy. 8192 hops of the paper's window have at most ten
+/// flights. The limit changes the computing time only, not the result.
 pub(crate) const MOST_FLIGHTS: f64 = 64.0;
 
 /// The two functions of M in a hop, μ = M/(1+M)² and κ = M/(1+M).
@@ -24,7 +24,7 @@ pub(crate) struct MassFactors {
 pub(crate) struct FlightSums {
     /// Σ Γ².
     pub(crate) closing_speeds_squared: f64,
-    /// Bound on the part of its error that is propagated from flight to flight.
+    /// Bound on the part of the error of Σ Γ² that is propagated from flight to flight.
     pub(crate) error: f64,
     /// Σ h, half the time of flight.
     pub(crate) half_time: f64,
@@ -32,7 +32,7 @@ pub(crate) struct FlightSums {
     pub(crate) flights: f64,
 }
 
-/// A hop whose verdicts are all larger than their error bounds (I2).
+/// A hop with every decision larger than its error bound (I2).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DecidedHop {
     pub(crate) sums: FlightSums,
@@ -43,8 +43,8 @@ pub(crate) struct DecidedHop {
 }
 
 impl FlightSums {
-    /// The sums after the first flight. Nothing is propagated to it: its error is the rounding of the table, which
-    /// [`end`](Self::end) counts.
+    /// The sums after the first flight. No error is propagated to the first flight. The rounding error of the table is
+    /// counted by [`end`](Self::end).
     #[inline(always)]
     pub(crate) fn of_first(first: &FirstFlight) -> Self {
         let square = first.closing_speed * first.closing_speed;
@@ -69,8 +69,9 @@ impl FlightSums {
 
     /// The end of the hop, and whether the sign of α′² is larger than its error bound (I2).
     ///
-    /// While the hop goes on, μ times the partial sum is below α², because the energy left is positive. The rounding of
-    /// every flight is therefore counted in ulps of α²; 2 more are for α² itself and for the difference.
+    /// As long as the hop continues, μ times the partial sum is below α², because the remaining energy is positive. The
+    /// rounding error of every flight is therefore counted in ulps of α². Two more ulps are for α² itself and for the
+    /// difference.
     #[inline(always)]
     pub(crate) fn end(&self, alpha: f64, mu: f64) -> (DecidedHop, bool) {
         let loss_of_square = mu * self.closing_speeds_squared;
@@ -92,7 +93,7 @@ impl DecidedHop {
 
 /// The state after a sudden first landing: x′ = 2h (α − h), V′ = (α − h) − h + κΓ.
 ///
-/// The table gives α − h to an ulp of itself, so that x′ keeps its digits next to α*_n, where it vanishes.
+/// The table gives α − h to an ulp of α − h. Therefore x′ keeps its digits next to α*_n, where it vanishes.
 #[inline(always)]
 pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> GroundState {
     let FirstFlight { half_time: h, beyond, closing_speed } = *first;
@@ -102,7 +103,7 @@ pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> 
     GroundState { excess, velocity, error: LANDING_ULPS * f64::EPSILON * size }
 }
 
-/// The hop from `alpha`; `None` where the careful path must decide.
+/// The hop from `alpha`; `None` if the general solver must decide.
 #[inline]
 pub(crate) fn kernel_hop(alpha: f64, MassFactors { mu, kappa }: MassFactors) -> Option<DecidedHop> {
     let position = TablePosition::of(alpha, fixed_points());

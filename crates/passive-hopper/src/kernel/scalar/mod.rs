@@ -1,10 +1,10 @@
 //! One hop.
 //!
 //! ```text
-//!   hop.rs               the hop: first flight, later flights, verdict on α′²
+//!   hop.rs               the hop: first flight, later flights, decision on α′²
 //!   later_flight.rs      from (x, V) to the landing: steps, first-order correction, error bound
 //!   landing_bracket.rs   the interval that holds the landing
-//!   initial_guess.rs     polynomials that start the search
+//!   initial_guess.rs     fitted polynomials for the start of the search
 //!   half_angle.rs        sine and cosine of half the time, D and u
 //!   ground_state.rs      (x, V) with an error bound
 //! ```

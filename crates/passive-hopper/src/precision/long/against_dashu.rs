@@ -1,8 +1,9 @@
 //! Every function against dashu-float, whose results are correctly rounded.
 //!
 //! A million arguments of each function in 256 bits, fewer in 512 and 1024 bits: the code is the same for all lengths.
-//! A sine of dashu-float takes 75 µs and more. The sines of a million sums a + b are therefore computed from those of
-//! 2000 numbers a and 2000 numbers b by the addition theorem, in dashu-float's arithmetic with 128 bits more than ours.
+//! A sine of dashu-float takes 75 µs and more. Therefore the sines of a million sums a + b are computed from the sines
+//! of 2000 numbers a and 2000 numbers b by the addition theorem, in dashu-float's arithmetic with 128 bits more than
+//! ours.
 //!
 //! The largest errors found, in units of 2^(−64 W): 2 for sums and products, 3.7 for quotients and roots, 36 (1 + |x|) for
 //! sines and cosines, 0.6 for π.
@@ -16,14 +17,15 @@ mod tests {
 
     type Reference = FBig<HalfEven, 2>;
 
-    /// Binary logarithm of the largest relative error of a sum or product, in units of 2^(−64 W). A truncated mantissa errs
-    /// by less than 1 unit and is at least ½.
+    /// Binary logarithm of the largest relative error of a sum or product, in units of 2^(−64 W). The error of a
+    /// truncated mantissa is less than 1 unit, and the mantissa is at least ½.
     const SUM_ERROR: isize = 1;
 
-    /// The same for a quotient or root by Newton's method, whose last step has several truncations: measured, not derived.
+    /// As [`SUM_ERROR`], for a quotient or root by Newton's method, whose last step has several truncations. Measured,
+    /// not derived.
     const QUOTIENT_ERROR: isize = 3;
 
-    /// The same for a sine or cosine: EPSILON, which the traits promise.
+    /// As [`SUM_ERROR`], for a sine or cosine: the EPSILON that the traits promise.
     const SINE_ERROR: isize = 12;
 
     /// Bits of the reference beyond those of a [`Long`].
@@ -45,7 +47,7 @@ mod tests {
             self.generator.bits(self.drawn)
         }
 
-        /// A number with random bits; every fourth has words of zeros or ones, where a carry goes far.
+        /// A number with random bits. Every fourth has words of zeros or ones, where a carry runs through many words.
         fn long<const W: usize>(&mut self, exponents: i64) -> Long<W> {
             let mut words = [0; W];
             let special = self.word().is_multiple_of(4);

@@ -10,11 +10,11 @@ impl<const W: usize> Real for Long<W> {
 
     /// By the Taylor series of the argument reduced to [−π/2, π/2].
     ///
-    /// The reduction subtracts a multiple of π of about the size of the argument, whose error is ε |self|. The
-    /// error of the result is therefore ε (1 + |self|); only where no multiple is subtracted is it relative.
+    /// The reduction subtracts a multiple of π of about the size of the argument, whose error is ε |self|. Therefore
+    /// the error of the result is ε (1 + |self|). It is relative only if no multiple is subtracted.
     fn sin_cos(self) -> (Self, Self) {
-        let half_turns = (self.nearest() / std::f64::consts::PI).round();
-        let rest = self - Self::pi() * half_turns;
+        let multiple = (self.nearest() / std::f64::consts::PI).round();
+        let rest = self - Self::pi() * multiple;
         let minus_square = -rest.squared();
         let (mut sin, mut cos) = (rest, Self::from(1.0));
         let (mut odd, mut even) = (sin, cos);
@@ -27,7 +27,7 @@ impl<const W: usize> Real for Long<W> {
             }
         }
         // sin(r + kπ) = (−1)^k sin r, and likewise cos.
-        if half_turns % 2.0 == 0.0 { (sin, cos) } else { (-sin, -cos) }
+        if multiple % 2.0 == 0.0 { (sin, cos) } else { (-sin, -cos) }
     }
 
     fn sine_remainders(self, sin: Self, cos: Self) -> (Self, Self) {
@@ -44,10 +44,10 @@ impl<const W: usize> Extended for Long<W> {
     /// 2^(12 − 64 W): twelve bits for the truncations inside a function. Sums and products use one of them, quotients and
     /// roots two, sines and cosines six (the last three measured, in `against_dashu.rs`).
     const EPSILON: f64 = power_of_two(12 - 64 * W as i32);
-    /// 62 500, 15 625 and 3 906 flights in 256, 512 and 1024 bits. A product takes W² steps, and a flight a number
-    /// of products that grows with W, hence some seconds in each.
+    /// 62 500, 15 625 and 3 906 flights in 256, 512 and 1024 bits. A product takes W² steps, and the number of products
+    /// of a flight grows with W. These budgets therefore take some seconds each.
     const SUDDEN_BUDGET: usize = 1_000_000 / (W * W);
-    /// As many as from 50 bits: one more than needed.
+    /// As many steps as from 50 bits: one more than needed.
     const STEPS_FROM_100_BITS: u32 = doublings(W);
 
     fn over(self, divisor: u32) -> Self {
@@ -59,7 +59,7 @@ impl<const W: usize> Extended for Long<W> {
             return Self::ZERO;
         }
         // √(m 2^(2k)) = √m 2^k with m in [¼, 2): there the f64 root neither overflows nor underflows.
-        // Heron's r ← (r + m/r)/2 doubles the right bits, from 50.
+        // Heron's r ← (r + m/r)/2 doubles the number of right bits, from 50.
         let half = self.exponent.div_euclid(2);
         let mantissa = Long { exponent: self.exponent - 2 * half, ..self };
         let mut root = Self::from(mantissa.nearest().sqrt());

@@ -17,11 +17,11 @@
 //!   sin and cos     3900          74000   14100         134000    71500        278000
 //! ```
 //!
-//! A flight takes five sines and cosines in 256 bits, and seven in 1024 bits. They dominate: by these figures a flight
-//! costs some 30 µs instead of 380 µs in 256 bits, and 0.6 ms instead of 2 ms in 1024 bits. Users would notice the
-//! difference in long chains: at M = 10⁴ a hop may have a thousand sudden lift-offs. The crate would also bring five
-//! others, and numbers that are not `Copy`. So this arithmetic stays, and dashu-float is the reference of its tests: a
-//! million arguments of every function, in `against_dashu.rs`.
+//! A flight takes five sines and cosines in 256 bits, and seven in 1024 bits, which take most of the time. By these
+//! figures a flight takes some 30 µs instead of 380 µs in 256 bits, and 0.6 ms instead of 2 ms in 1024 bits. Users
+//! would notice the difference in long chains: at M = 10⁴ a hop may have a thousand sudden lift-offs. The crate would
+//! also add five other crates, and its numbers are not `Copy`. Therefore this arithmetic is used, and dashu-float is
+//! the reference of its tests: a million arguments of every function, in `against_dashu.rs`.
 
 mod against_dashu;
 mod functions;
@@ -31,7 +31,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Most words of any [`Long`]: 1024 bits. Buffers on the stack have this size for every W, because the size of an array
-/// cannot be computed from W. A hop that 1024 bits leave undecided is reported as such.
+/// cannot be computed from W. A hop that is inconclusive in 1024 bits is reported as uncertain.
 const MOST: usize = 16;
 
 /// π/4 to 1024 bits, the least significant word first.
@@ -105,7 +105,7 @@ impl<const W: usize> Long<W> {
         wide
     }
 
-    /// |self| against |other|, neither zero.
+    /// Compares |self| with |other|, neither zero.
     fn compare_size(&self, other: &Self) -> Ordering {
         let words = self.words.iter().rev().cmp(other.words.iter().rev());
         self.exponent.cmp(&other.exponent).then(words)
@@ -113,10 +113,12 @@ impl<const W: usize> Long<W> {
 
     /// The nearest `f64`.
     fn nearest(self) -> f64 {
-        // 64 leading bits, the last of them set if any lower bit is, round to 53 bits as the whole number does.
+        // The 64 leading bits are rounded to 53 bits. Their last bit is set if any lower bit is: the result is then the
+        // rounding of the whole number.
         let rest = self.words[..W - 1].iter().any(|&word| word != 0);
         let leading = self.words[W - 1] | u64::from(rest);
-        // Below 2⁻¹⁰²² an f64 has fewer than 53 bits. They are rounded here: rounding to 53 bits first would round twice.
+        // Below 2⁻¹⁰²² an f64 has fewer than 53 bits. The number is rounded to this length here, because rounding to 53
+        // bits first would round twice.
         let kept = (self.exponent + 1074).clamp(-1, 64);
         let size = if kept >= 53 {
             scale(leading as f64, self.exponent - 64)
@@ -151,7 +153,7 @@ impl<const W: usize> Long<W> {
         self * divisor.reciprocal()
     }
 
-    /// 1/self, by Newton's x ← x + x (1 − self x). The `f64` start has 50 right bits, and a step doubles them.
+    /// 1/self, by Newton's x ← x + x (1 − self x). The `f64` start has 50 right bits, and a step doubles their number.
     fn reciprocal(self) -> Self {
         let mantissa = Long { exponent: 0, ..self };
         let mut inverse = Self::from(1.0 / mantissa.nearest());
@@ -168,7 +170,7 @@ const fn doublings(words: usize) -> u32 {
 }
 
 impl<const W: usize> From<f64> for Long<W> {
-    /// Exact for finite numbers. Others give zero; no caller passes them.
+    /// Exact for finite numbers. Other values give zero; no caller passes them.
     fn from(value: f64) -> Self {
         if value == 0.0 || !value.is_finite() {
             return Self::ZERO;
@@ -220,7 +222,7 @@ impl<const W: usize> Add for Long<W> {
             };
             (*word, carry) = (total, first || second);
         }
-        // The free word at the top stands for 2⁶⁴.
+        // The free word at the top has the weight 2⁶⁴.
         Self::normalised(large.negative, large.exponent + 64, &sum)
     }
 }
@@ -281,7 +283,7 @@ const fn power_of_two(exponent: i32) -> f64 {
 
 /// x · 2^exponent, exact unless the result itself is out of range.
 fn scale(x: f64, exponent: i64) -> f64 {
-    // Beyond ±2200 every f64 becomes 0 or ∞, and the loop takes three steps at most.
+    // Beyond ±2200 every f64 becomes 0 or ∞. With this limit the loop takes three steps at most.
     let mut left = exponent.clamp(-2200, 2200) as i32;
     let mut result = x;
     while left != 0 {
