@@ -1,4 +1,4 @@
-//! Claims about β, λ and Δ: the approximate map, its erratum, and the trapping region.
+//! Claims about β, λ and Δ: the approximate map, its erratum, and the trap.
 
 use super::claim::{Claim, largest};
 use super::fixed_points::coefficient;
