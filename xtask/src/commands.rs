@@ -10,7 +10,7 @@ use std::process::{Command, ExitCode};
 /// A command.
 struct Task {
     name: &'static str,
-    /// The purpose of the command, in one line.
+    /// The effect of the command, in one line.
     about: &'static str,
     /// The package whose program runs the command; `None` for a command of this program.
     package: Option<&'static str>,

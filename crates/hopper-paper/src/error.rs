@@ -35,7 +35,7 @@ pub enum Error {
     /// A name that does not exist.
     #[error("there is no {kind} '{name}'; there are: {known}")]
     UnknownName {
-        /// The kind of the name.
+        /// The kind of thing that the name was taken for.
         kind: &'static str,
         /// The given name.
         name: String,

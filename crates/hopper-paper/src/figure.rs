@@ -7,11 +7,11 @@ use journal_figures::{DataFile, Svg};
 pub struct Figure {
     /// File name without its ending.
     pub name: &'static str,
-    /// The content of the figure, as markup.
+    /// The title of the figure, as markup.
     pub title: String,
-    /// The paper's statement about it, in our words.
+    /// The statement of the paper about it, in our words.
     pub paper: String,
-    /// The choices where details of the paper are lost, and remarks on the figure.
+    /// The choices made where the paper's details are illegible in our copy, and the content of the figure.
     pub notes: String,
     /// The drawing.
     pub svg: Svg,

@@ -183,7 +183,7 @@ mod tests {
 
     /// The lock file appears and disappears all the time; two threads never hold the lock at once.
     #[test]
-    fn two_threads_never_hold_the_lock_together() {
+    fn two_threads_never_hold_a_lock_at_once() {
         let folder = folder("never");
         let (inside, taken) = (AtomicUsize::new(0), AtomicUsize::new(0));
         std::thread::scope(|scope| {

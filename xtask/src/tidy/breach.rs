@@ -7,7 +7,7 @@ pub(super) struct Breach {
     pub(super) file: String,
     /// The line, from one; zero for the whole file.
     pub(super) line: usize,
-    /// The breach, and the remedy.
+    /// The defect, and its remedy.
     pub(super) rule: String,
 }
 

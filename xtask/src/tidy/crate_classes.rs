@@ -6,7 +6,7 @@ use CrateClass::{Computing, Files, Program, TestSupport};
 /// The actions that a crate may take besides computing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum CrateClass {
-    /// Nothing else: the same input gives the same result, on any machine and in a browser.
+    /// No other actions: the same input gives the same result, on any machine and in a browser.
     Computing,
     /// Panic, like the tests that use it.
     TestSupport,

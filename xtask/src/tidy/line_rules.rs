@@ -45,7 +45,7 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
     if in_crate.is_some() && source.in_src().is_some() && !text.starts_with("//!") {
         breach(1, "a library file starts with what it holds: //!");
     }
-    // A crate without a class is treated as the strictest one; `crate_classes` reports it.
+    // A crate without a class is treated like the strictest class; `crate_classes` reports it.
     let class = in_crate.map(|name| class_of(name).unwrap_or(CrateClass::Computing));
     for (at, line) in (1..).zip(text.lines()) {
         let code = line.trim_start();

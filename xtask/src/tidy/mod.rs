@@ -9,6 +9,7 @@
 //! | no imports through `lib.rs` | `lib_imports.rs` |
 //! | the root of the repository holds known names only | `root_folder.rs` |
 //! | citations of `docs/theory.md` name statements that exist | `theory_citations.rs` |
+//! | the files and tests that the documentation names exist | `names_in_pages.rs` |
 
 mod breach;
 mod crate_classes;
@@ -17,6 +18,7 @@ mod imports;
 mod lib_imports;
 mod line_rules;
 mod module_tree;
+mod names_in_pages;
 mod root_folder;
 mod sources;
 mod theory_citations;
@@ -60,6 +62,7 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     root_folder::check(root, &mut breaches)?;
     let documents = sources::documents(root)?;
     theory_citations::check(&sources, &documents, &mut breaches);
+    names_in_pages::check(&sources::pages(root)?, &sources, &mut breaches);
     Ok(breaches)
 }
 

@@ -77,7 +77,12 @@ impl Source {
 pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
     let mut names = Vec::new();
     for folder in ["crates", "xtask"] {
-        collect_in(root, folder, &[".rs", ".toml"], &mut names)?;
+        collect_in(
+            root,
+            folder,
+            &|name| name.ends_with(".rs") || name.ends_with(".toml"),
+            &mut names,
+        )?;
     }
     names.sort();
     let mut sources: Vec<Source> =
@@ -90,8 +95,18 @@ pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
 pub(super) fn documents(root: &Path) -> Result<Vec<Source>, Error> {
     let mut names = vec!["README.md".to_owned()];
     for folder in ["crates", "docs", "xtask"] {
-        collect_in(root, folder, &[".md"], &mut names)?;
+        collect_in(root, folder, &|name| name.ends_with(".md"), &mut names)?;
     }
+    names.sort();
+    names.iter().map(|name| read(root, name)).collect()
+}
+
+/// The pages of the documentation, sorted by name: `README.md`, those in `docs`, and those beside the code they explain.
+pub(super) fn pages(root: &Path) -> Result<Vec<Source>, Error> {
+    let mut names = vec!["README.md".to_owned()];
+    collect_in(root, "docs", &|name| name.ends_with(".md"), &mut names)?;
+    let beside_code = |name: &str| name.contains("/src/") && name.ends_with("/README.md");
+    collect_in(root, "crates", &beside_code, &mut names)?;
     names.sort();
     names.iter().map(|name| read(root, name)).collect()
 }
@@ -102,11 +117,10 @@ fn mark_tests(sources: &mut [Source]) {
     sources.iter_mut().for_each(|source| source.is_test = tests.contains(&source.name));
 }
 
-/// Adds the files of a folder, and of those in it, whose names have one of the endings.
 fn collect_in(
     root: &Path,
     folder: &str,
-    endings: &[&str],
+    chosen: &impl Fn(&str) -> bool,
     names: &mut Vec<String>,
 ) -> Result<(), Error> {
     let path = root.join(folder);
@@ -118,9 +132,9 @@ fn collect_in(
         if entry.path().is_dir() {
             // Build results: a fuzz crate has its own `target`.
             if file != "target" {
-                collect_in(root, &name, endings, names)?;
+                collect_in(root, &name, chosen, names)?;
             }
-        } else if endings.iter().any(|ending| name.ends_with(ending)) {
+        } else if chosen(&name) {
             names.push(name);
         }
     }
