@@ -90,7 +90,7 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         name: "guards",
         title: "How a guard along a flow can meet zero".into(),
         paper: "Not in the paper.".into(),
-        notes: "Falling guards as signals; what the search returns is marked.".into(),
+        notes: "Falling guards as quasi-polynomials; the result of the search is marked.".into(),
         svg,
         data: Vec::new(),
     })
