@@ -47,7 +47,7 @@ pub enum Error {
         reason: String,
     },
     /// The software that is compared with could not be run.
-    #[error("the peers cannot be compared with: {reason}")]
+    #[error("the comparison with the peers failed: {reason}")]
     Peers {
         /// The reason.
         reason: String,

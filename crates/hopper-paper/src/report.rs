@@ -18,7 +18,7 @@ const ILLEGIBLE: &[&str] = &[
     "The mass ratio of Fig. 3: 0.8, at which all four segments exist.",
     "The scale of Fig. 5, which is a sketch in the paper: the real map at $M$ = 0.4.",
     "The lower limit of $M$ in Fig. 6, the upper limits of $α$ in Figs. 6 and 7, all limits of Fig. 8: [0.02, 1] × [$α$^{∗}_{1}, $α$^{∗}_{6}], [1, 10] × [$α$^{∗}_{1}, $α$^{∗}_{6}] and [0.1, 0.2] × [14.066, 20.371].",
-    "A digit of the measure at $M$ = 0.2: read as 0.037, which is what comes out.",
+    "A digit of the measure at $M$ = 0.2: read as 0.037, which is also the computed value.",
     "The factor 6 in $β$ (printed like a B), and a minus sign in Eq. 13.",
     "Colours beyond the third fixed point: purple, then near black.",
 ];
@@ -37,7 +37,7 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
         table(&mut out, claims);
         erratum(&mut out, claims);
     } else {
-        out.push_str("<p>Only some figures were asked for; the claims were not checked.</p>");
+        out.push_str("<p>Only some figures were requested; the claims were not checked.</p>");
     }
     out.push_str("<h2>Figures</h2>");
     for (figure, rendered) in figures {

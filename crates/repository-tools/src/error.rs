@@ -26,7 +26,7 @@ pub enum Error {
         reason: String,
     },
     /// A file without reference values, or without values that can be compared.
-    #[error("{path}: this file holds no reference value; a check of it would check nothing")]
+    #[error("{path}: this file holds no reference value, so that a check with it would be empty")]
     NoReference {
         /// The file.
         path: PathBuf,

@@ -42,7 +42,7 @@ pub(crate) struct Laps {
     humps: Vec<LapsOfHump>,
 }
 
-/// The relative distance of a speed from the ends of its lap, at least.
+/// The least relative distance of a speed from the ends of its lap.
 ///
 /// The distance covers the rounding errors of the computed ends, which are some ulps; it is a hundred times larger than
 /// needed. With a larger distance more orbits next to the ends would have no lap; a smaller one gains nothing. If μ

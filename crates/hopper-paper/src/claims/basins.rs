@@ -33,7 +33,7 @@ fn multimodal() -> Result<Claim, Error> {
         .paper("the map has many humps, one between any two neighbouring fixed points")
         .ours(format!("at $M$ = 0.2 each of the first five humps has one maximum and one minimum; {blind_turning_points} turning points in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}]"))
         .error("–")
-        .how("critical points 4$μ$ sin $h$ (sin $h$ − $h$ cos $h$) = 1 on the contact parts, and a search at 40 001 points that knows nothing of them")
+        .how("critical points 4$μ$ sin $h$ (sin $h$ − $h$ cos $h$) = 1 on the contact parts, and a search at 40 001 points that does not use them")
         .holds(turning_points.iter().all(|&t| t == 2) && blind_turning_points == 10))
 }
 
@@ -57,7 +57,7 @@ fn above_first() -> Result<Claim, Error> {
     let (light, heavy) = (lowest(0.05)?, lowest(0.1)?);
     Ok(Claim::new("Sec. V", "small M: the whole map is above α*₁")
         .paper("for low $M$ the entire map lies above the line $α$′ = $α$^{∗}_{1}: the whole range is attracted")
-        .ours(format!("on [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}] the map is at least $α$^{{∗}}_{{1}} + {:.4} at $M$ = 0.05 and + {:.4} at $M$ = 0.1, but for the fixed point itself", light.1 - star, heavy.1 - star))
+        .ours(format!("on [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}] the map is at least $α$^{{∗}}_{{1}} + {:.4} at $M$ = 0.05 and + {:.4} at $M$ = 0.1, except at the fixed point itself", light.1 - star, heavy.1 - star))
         .error("–")
         .how("least value over the ends of all monotone branches")
         .holds([light.0, heavy.0].iter().all(|&v| v >= star - BELOW_FIRST)))
@@ -106,7 +106,7 @@ fn measures(progress: &Progress) -> Result<Vec<Claim>, Error> {
     bar.finish();
     let total: Vec<f64> = results.iter().map(BasinFractions::incessant).collect();
     let first = results[0].of(1);
-    let how = "10 000 equally spaced points, the middles of equal parts, on each of the five intervals [$α$^{∗}_{i}, $α$^{∗}_{i+1}], fractions averaged; fates by traps. (The paper does not say whether it takes the ends: the double nearest to $α$^{∗}_{i} may lie on its left, which is another basin.)";
+    let how = "10 000 equally spaced points, the middles of equal parts, on each of the five intervals [$α$^{∗}_{i}, $α$^{∗}_{i+1}], fractions averaged; fates by traps. (The paper does not state whether the ends are included: the double nearest to $α$^{∗}_{i} may lie on its left, which is another basin.)";
     let claim = |name: &str, paper: &str, value: f64, printed: f64, allowed: f64| {
         Claim::new("Sec. VI B", name)
             .paper(paper)
@@ -152,6 +152,6 @@ fn changes_of_fate_at_finer_scales() -> Result<Claim, Error> {
         .paper("the basins show structure at ever finer scales")
         .ours(format!("{} changes of fate along $M$ = 0.175 in the windows of Figs. 6, 8 and 9 and in [17.25, 17.33]", counts.join(", ")))
         .error("–")
-        .how("10 000 equally spaced points a window; down to the scales one can plot it looks so, though the boundary is countable (see the construction)")
+        .how("10 000 equally spaced points a window; at the scales of a plot the claim seems to hold, although the boundary is countable (see the construction)")
         .holds(changes.iter().all(|&count| count >= FEWEST_CHANGES)))
 }

@@ -82,7 +82,7 @@ fn limit(levels: &[IntervalSet]) -> Result<Claim, Error> {
     let ends: usize = levels.iter().map(|level| 2 * level.intervals().len()).sum();
     Ok(Claim::new("Sec. VI A", "a Cantor set?")
         .paper("in the limit the segments form a Cantor set")
-        .ours(format!("not in a bounded window: $f$($α$) < $α$ off the fixed points, so no orbit returns, each level has finitely many ends ({ends} up to level {DEPTH}), and the boundary is their countable closed union, of box dimension 1/4"))
+        .ours(format!("not in a bounded window: $f$($α$) < $α$ except at the fixed points, so that no other orbit returns, each level has finitely many ends ({ends} up to level {DEPTH}), and the boundary is their countable closed union, of box dimension 1/4"))
         .error(format!("{rises} of 96 probes do not fall"))
         .how("proof in docs/model.md; the loss $α$ − $f$($α$) computed without cancellation at 10^{−1} … 10^{−12} on either side of the first four fixed points")
         .corrected(rises == 0))

@@ -79,7 +79,7 @@ fn all_are_fixed() -> Result<Claim, Error> {
     let worst = largest(errors);
     Ok(Claim::new("Sec. II", "incessant hopping is possible")
         .paper(
-            "at $α$ = $α$^{∗} the landing costs nothing and the hop repeats for ever, for any $M$",
+            "at $α$ = $α$^{∗} the landing takes no energy and the hop repeats for ever, for any $M$",
         )
         .ours("$f$($α$^{∗}_{n}) = $α$^{∗}_{n} for $n$ ≤ 30 and seven mass ratios from 0.02 to 50")
         .error(format!("{worst:.1e} relative"))
@@ -98,7 +98,7 @@ fn found_from_the_map() -> Result<Claim, Error> {
         .paper("the map has infinitely many fixed points, where tan $α$ = $α$, and stays below the diagonal")
         .ours(format!("{} fixed points on [$α$^{{∗}}_{{1}} − 1, $α$^{{∗}}_{{5}} + 1] at $M$ = 0.2, all touching", found.len()))
         .error(format!("largest distance from $α$^{{∗}}_{{n}}: {worst:.1e}"))
-        .how("searched from the map alone, at 4001 points and by golden section; $f$ − $α$ falls like the 4/3 power, so that rounding hides 10^{−11}")
+        .how("searched with the map only, at 4001 points and by golden section; $f$ − $α$ falls like the 4/3 power, so that rounding hides 10^{−11}")
         .holds(found.len() == 5 && touching && worst < FOUND))
 }
 
@@ -174,7 +174,7 @@ fn exponents() -> Result<Claim, Error> {
     }
     let (exponent, factor) = (largest(exponents), largest(factors));
     Ok(Claim::new("Sec. IV, Eq. 19", "the exponent 4/3, and 10 on the left")
-        .paper("$f$ ≈ $α$ − $λ$($α$ − $α$^{∗})^{4/3}; nothing is said of the left")
+        .paper("$f$ ≈ $α$ − $λ$($α$ − $α$^{∗})^{4/3}; the left side is not described")
         .ours("4/3 on both sides; the left loses 10 times as much: its second landing is three times as fast, 1 + 3^{2} = 10")
         .error(format!("exponent {exponent:.1e}; factor 10 (1 ± {factor:.1e})"))
         .how("exponents from the map at |$δ$| = 2.5·10^{−8} and 1.25·10^{−8}; the factor from ($δ$ − $δ$′)/|$δ$|^{4/3} at 10^{−6}, /8 and /64 on each side, extrapolated in |$δ$|^{1/3}; $n$ = 1, 2, 3, 10, seven mass ratios")

@@ -93,7 +93,7 @@ pub(super) fn check(progress: &Progress) -> Result<Vec<Claim>, Error> {
             .paper("$f$($α$; $M$) = $f$($α$; 1/$M$) when no landing between is sudden")
             .ours(format!("holds for all {PAIRS} random ($M$, $α$) on the contact intervals"))
             .error(format!("largest difference of $α$′^{{2}}: {worst:.1e} $α$^{{2}}; of $f$: {worst_image:.1e} $α$^{{2}}/$f$"))
-            .how("$M$ log-uniform in [10^{−3}, 10^{3}], $α$ uniform on the contact part of one of the first 19 humps; it is exact, since $α$′^{2} = $α$^{2} − $μΓ$^{2} has no other $M$; bound: 8 ulps of $α$^{2}, for the rounding of 1/$M$ and of both $μ$")
+            .how("$M$ log-uniform in [10^{−3}, 10^{3}], $α$ uniform on the contact part of one of the first 19 humps; it is exact, since $α$′^{2} = $α$^{2} − $μΓ$^{2} contains $M$ only in $μ$; bound: 8 ulps of $α$^{2}, for the rounding of 1/$M$ and of both $μ$")
             .holds(agree && worst <= ROUNDING && worst_image <= ROUNDING),
         Claim::new("Sec. IV B", "no invariance with sudden lift-offs")
             .paper("the entire map between two fixed points is not invariant")
@@ -127,7 +127,7 @@ fn sudden_windows() -> Result<Claim, Error> {
     }
     Ok(Claim::new("Sec. III", "where landings are sudden")
         .paper("left of a fixed point $y$_{1} > 1 at impact, right of it $y$_{1} < 1")
-        .ours("sudden exactly on ($nπ$, $α$^{∗}_{n}), whatever $M$")
+        .ours("sudden exactly on ($nπ$, $α$^{∗}_{n}), for every $M$")
         .error(format!("{wrong} wrong of {probed}"))
         .how("both ends of the first 200 windows, an ulp or 10^{−12} on either side, five mass ratios")
         .holds(wrong == 0))
