@@ -14,7 +14,7 @@ until the printed digits no longer change.
 
 import math
 
-from mpmath import mp, mpf, cos_sin, sqrt, atan2, acos, ceil, floor, nstr
+from mpmath import mp, mpf, cos_sin, sqrt, atan2, acos, cbrt, ceil, floor, nstr
 
 
 class Stuck(Exception):
@@ -29,7 +29,19 @@ def height(y, v, t):
 
 
 def guess(y, v, start, left, right):
-    """A place in [left, right] near the zero of G, found in f64; `start` where f64 finds none."""
+    """A place in [left, right] near the zero of G; `start` where none is known.
+
+    Near a fixed point, and for the short flight after a sudden lift-off there, G is nearly a cube and f64 sees
+    nothing: the leading order serves. Elsewhere Newton's method in f64 does.
+    """
+    if y == 1:
+        n = int(floor(v / mp.pi))
+        star = alpha_star(n) if n else mpf(0)
+        offset = v - star
+        if n and abs(offset) < 0.01:
+            return 2 * star + mp.sign(offset) * cbrt(12 * star**2 / (1 + star**2) * abs(offset))
+    elif v < 0 and y - 1 < 0.01:
+        return 3 * (y - 1) / -v
     y, v, t = float(y), float(v), float(start)
     low, high = float(left), float(right)
     for _ in range(60):
@@ -76,24 +88,27 @@ def newton(y, v, start, left, right):
     raise Stuck("Newton's method does not end")
 
 
-def lowest(y, v, left, right):
-    """The zero of G' in a convex cell with G'(left) < 0 < G'(right): bisection, then Newton inside the bracket."""
+def dip(y, v, left, right):
+    """A place with G < 0 in a convex cell with G'(left) < 0 < G'(right); None where G > 0 on the whole cell.
+
+    The bracket always holds the lowest point. G lies above each of its tangents, which ends the search.
+    """
     t = (left + right) / 2
     for _ in range(20 * mp.prec):
-        _, slope, curvature = height(y, v, t)
+        g, slope, curvature = height(y, v, t)
+        if g < 0:
+            return t
         if slope < 0:
             left = t
-        elif slope > 0:
-            right = t
         else:
-            return t
+            right = t
+        if g - abs(slope) * (right - left) > 0:
+            return None
         moved = t - slope / curvature if curvature > 0 else left
         if not left < moved < right:
             moved = (left + right) / 2
-        if moved == t or abs(moved - t) <= mp.eps * abs(t):
-            return t
         t = moved
-    raise Stuck("no lowest point")
+    raise Stuck("a touch or a landing")
 
 
 def first_landing(y, v):
@@ -132,8 +147,8 @@ def first_landing(y, v):
                 return newton(y, v, left, left, right)
             slope_left, slope_right = height(y, v, left)[1], height(y, v, right)[1]
             if slope_left < 0 < slope_right:
-                bottom = lowest(y, v, left, right)
-                if height(y, v, bottom)[0] < 0:
+                bottom = dip(y, v, left, right)
+                if bottom is not None:
                     return newton(y, v, left, left, bottom)
         cell += 1
 
