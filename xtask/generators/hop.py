@@ -219,13 +219,15 @@ def alpha_star(n):
     return _stars[key]
 
 
-PRECISIONS = (70, 110, 170, 260, 400, 620, 960, 1500, 2400)
+def confirmed(make, smallest=1.0):
+    """`make()` at rising precision, until two successive results are equal.
 
-
-def confirmed(make):
-    """`make()` at rising precision, until two successive results are equal."""
+    `smallest` is the speed, or its distance from a fixed point. G is of its fourth power at small speeds, so the
+    first precision holds 70 digits beside that.
+    """
+    digits = 70 + int(4 * abs(math.log10(abs(smallest))))
     last = None
-    for digits in PRECISIONS:
+    for _ in range(9):
         with mp.workdps(digits):
             try:
                 found = make()
@@ -233,7 +235,7 @@ def confirmed(make):
                 found = None
         if found is not None and found == last:
             return found
-        last = found
+        last, digits = found, digits * 3 // 2
     raise Stuck("the digits do not settle")
 
 

@@ -31,7 +31,7 @@ def hop(record):
             made["dalpha_next_dM"] = text(found.slopes[1], SLOPE_DIGITS)
         return made
 
-    return confirmed(make)
+    return confirmed(make, record["alpha"])
 
 
 def near_fixed_point(record):
@@ -47,7 +47,7 @@ def near_fixed_point(record):
         made["alpha_next"] = text(found.next)
         return made
 
-    return confirmed(make)
+    return confirmed(make, record["offset"])
 
 
 def hard_offset(record):
@@ -61,7 +61,7 @@ def hard_offset(record):
         made["offset_next"] = None if found.next is None else nstr(found.next - star, 40)
         return made
 
-    return confirmed(make)
+    return confirmed(make, record["offset"])
 
 
 def hard_verdict(record):
@@ -74,7 +74,7 @@ def hard_verdict(record):
         made["sudden"], made["alpha_next"] = found.sudden, text(found.next, digits)
         return made
 
-    return confirmed(make)
+    return confirmed(make, record["alpha"])
 
 
 def tiny_loss(record):
@@ -84,7 +84,7 @@ def tiny_loss(record):
         found = Hop(record["mass_ratio"], mpf(record["alpha"]))
         return dict(record, loss=scientific(found.loss))
 
-    return confirmed(make)
+    return confirmed(make, record["alpha"])
 
 
 def loss_near_fixed_point(record):
@@ -106,7 +106,7 @@ def loss_near_fixed_point(record):
             made["alpha_offset"] = scientific(offset)
         return made
 
-    return confirmed(make)
+    return confirmed(make, record["offset"])
 
 
 def orbit(record):
@@ -119,7 +119,7 @@ def orbit(record):
             alpha = Hop(record["mass_ratio"], alpha).next
         return dict(record, offset_after=scientific(alpha - star))
 
-    return confirmed(make)
+    return confirmed(make, record["offset"])
 
 
 def fixed_point(record):

@@ -34,7 +34,7 @@ class Table(NamedTuple):
         """The text of the file with these records."""
         if self.is_lines():
             return "".join(json.dumps(record) + "\n" for record in records)
-        return json.dumps(records, indent=0) + "\n"
+        return json.dumps(records, indent=0)
 
 
 def _hopper(name, remake, sample):
