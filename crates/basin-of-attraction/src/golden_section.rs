@@ -1,4 +1,7 @@
 //! Golden-section search, and the number behind it.
+//!
+//! `hybrid-system` has the same search for minima. This crate has its own ten lines, because a dependency on
+//! `hybrid-system` would bring its linear algebra to everyone who only wants basins.
 
 /// (√5 − 1)/2, the inverse of the golden ratio.
 ///

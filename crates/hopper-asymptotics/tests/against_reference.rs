@@ -8,6 +8,7 @@ use hopper_asymptotics::{
     Coefficients, Decay, Error, Form, LeftExpansion, RIGHT_RANGE, RightExpansion,
     SMALL_ALPHA_RANGE, fixed_point_series, small_hop_loss, trap_length_series,
 };
+use hopper_reference::{Row, rows};
 use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, alpha_star};
 
 /// Computed with 50 to 130 digits (mpmath), independently of this project.
@@ -18,11 +19,11 @@ const ROUNDING: f64 = 2e-15;
 
 #[test]
 fn coefficients_agree_with_forty_digits() {
-    let rows: Vec<serde_json::Value> = serde_json::from_str(REFERENCE).unwrap();
+    let rows: Vec<Row> = rows(REFERENCE).collect();
     assert_eq!(rows.len(), 110);
     for row in &rows {
-        let number = |key: &str| row[key].as_str().unwrap().parse::<f64>().unwrap();
-        let n = row["n"].as_u64().unwrap();
+        let number = |key: &str| row.result(key).unwrap();
+        let n = row.integer("n");
         let ratio = MassRatio::new(number("mass_ratio")).unwrap();
         let printed = Coefficients::new(n, ratio, Form::Printed).unwrap();
         let corrected = Coefficients::new(n, ratio, Form::Corrected).unwrap();
@@ -130,12 +131,12 @@ fn remainders_of_both_sides_have_the_stated_exponents() {
 /// Exact Δ of 40 digits, exact α*_n and exact small hops lie within the stated errors.
 #[test]
 fn trap_lengths_fixed_points_and_small_hops_lie_within_their_errors() {
-    let rows: Vec<serde_json::Value> = serde_json::from_str(REFERENCE).unwrap();
+    let rows: Vec<Row> = rows(REFERENCE).collect();
     let mut compared = 0;
     for row in &rows {
-        let number = |key: &str| row[key].as_str().unwrap().parse::<f64>().unwrap();
+        let number = |key: &str| row.result(key).unwrap();
         let ratio = MassRatio::new(number("mass_ratio")).unwrap();
-        let Ok(length) = trap_length_series(row["n"].as_u64().unwrap(), ratio) else { continue };
+        let Ok(length) = trap_length_series(row.integer("n"), ratio) else { continue };
         assert!((length.value - number("delta_exact")).abs() <= length.error, "{row} {length:?}");
         compared += 1;
     }
@@ -255,10 +256,11 @@ fn remainders_of_the_other_expansions_have_the_stated_exponents() {
     let slope = (rest(1e-5) / rest(1e-7)).ln() / 100f64.ln();
     assert!((slope - Decay::NEGLECTED_EXPONENT).abs() < 0.06, "{slope}");
     // Length of the trapping region: in λ, at one fixed point.
-    let rows: Vec<serde_json::Value> = serde_json::from_str(REFERENCE).unwrap();
+    let rows: Vec<Row> = rows(REFERENCE).collect();
     let point = |m: &str| {
-        let row = rows.iter().find(|row| row["n"] == 10 && row["mass_ratio"] == m).unwrap();
-        let exact: f64 = row["delta_exact"].as_str().unwrap().parse().unwrap();
+        let row =
+            rows.iter().find(|row| row.integer("n") == 10 && row.text("mass_ratio") == m).unwrap();
+        let exact = row.result("delta_exact").unwrap();
         let ratio = MassRatio::new(m.parse().unwrap()).unwrap();
         let found = trap_length_series(10, ratio).unwrap();
         let lambda = Coefficients::new(10, ratio, Form::Corrected).unwrap().lambda;

@@ -9,28 +9,20 @@ use hopper_basin::{
     Fates, HopperFate, ImmediateBasinEdge, Trap, TrapEdge, basin_fractions, crisis, grounding,
     hopper_basins, immediate_basin, upper_crisis_bracket,
 };
+use hopper_reference::rows;
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
-use serde_json::Value;
-
-fn rows(text: &str) -> Vec<Value> {
-    serde_json::from_str(text).unwrap()
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
-}
 
 /// The reference was computed with 50 to 130 digits (mpmath). The largest α is 36, the smallest Δ 4e-5.
 #[test]
 fn delta_agrees_with_forty_digits_on_the_contact_intervals() {
     let mut compared = 0;
     for row in rows(include_str!("data/local_basin.json")) {
-        let n = row["n"].as_u64().unwrap();
-        let ratio = MassRatio::new(number(&row["mass_ratio"])).unwrap();
+        let n = row.integer("n");
+        let ratio = MassRatio::new(row.result("mass_ratio").unwrap()).unwrap();
         let trap = Trap::new(n, ratio).unwrap();
-        if row["edge"].as_str().unwrap().starts_with("contact") {
+        if row.text("edge").starts_with("contact") {
             assert_eq!(trap.edge, TrapEdge::Crossing);
-            let error = (trap.delta - number(&row["delta_exact"])).abs();
+            let error = (trap.delta - row.result("delta_exact").unwrap()).abs();
             // M is a decimal number: half an ulp of it shifts Δ by some ulps more.
             assert!(error <= trap.error + 4.0 * f64::EPSILON * trap.delta, "{row} {trap:?}");
             assert!(trap.error < 1e-13 * trap.delta, "{trap:?}");
@@ -45,10 +37,10 @@ fn delta_agrees_with_forty_digits_on_the_contact_intervals() {
 #[test]
 fn crises_agree_with_thirty_digits() {
     for row in rows(include_str!("data/critical.json")) {
-        let found = crisis(row["n"].as_u64().unwrap()).unwrap();
-        assert_relative_eq!(found.mu, number(&row["mu_c"]), max_relative = 1e-14);
-        assert_relative_eq!(found.mass_ratio, number(&row["M_c"]), max_relative = 1e-14);
-        assert_relative_eq!(found.alpha, number(&row["alpha_touch"]), max_relative = 1e-9);
+        let found = crisis(row.integer("n")).unwrap();
+        assert_relative_eq!(found.mu, row.result("mu_c").unwrap(), max_relative = 1e-14);
+        assert_relative_eq!(found.mass_ratio, row.result("M_c").unwrap(), max_relative = 1e-14);
+        assert_relative_eq!(found.alpha, row.result("alpha_touch").unwrap(), max_relative = 1e-9);
     }
 }
 
@@ -68,17 +60,16 @@ fn grounding_opens_where_theory_says() {
 #[test]
 fn fates_agree_with_the_reference() {
     let mut seen = [0; 3];
-    for line in include_str!("data/fates.jsonl").lines() {
-        let row: Value = serde_json::from_str(line).unwrap();
-        let ratio = MassRatio::new(row["mass_ratio"].as_f64().unwrap()).unwrap();
-        let fate = Fates::new(ratio).unwrap().fate(row["alpha"].as_f64().unwrap()).unwrap();
-        let (expected, kind) = match row["fate"].as_str().unwrap() {
-            "incessant" => (HopperFate::Incessant { n: row["n"].as_u64().unwrap() }, 0),
+    for row in rows(include_str!("data/fates.jsonl")) {
+        let ratio = MassRatio::new(row.input("mass_ratio")).unwrap();
+        let fate = Fates::new(ratio).unwrap().fate(row.input("alpha")).unwrap();
+        let (expected, kind) = match row.text("fate") {
+            "incessant" => (HopperFate::Incessant { n: row.integer("n") }, 0),
             "decaying" => (HopperFate::Decaying, 1),
             "grounded" => (HopperFate::Grounded, 2),
             other => panic!("{other}"),
         };
-        assert_eq!(fate, expected, "{line}");
+        assert_eq!(fate, expected, "{row}");
         seen[kind] += 1;
     }
     assert!(seen.iter().all(|&count| count > 100), "{seen:?}");

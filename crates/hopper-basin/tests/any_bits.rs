@@ -1,4 +1,4 @@
-//! The body of the fuzz target as a property test.
+//! The body of the fuzz target `any_bits` as a property test.
 
 #![allow(missing_docs, clippy::panic, clippy::disallowed_methods, unreachable_pub)]
 
@@ -11,7 +11,7 @@ mod body {
 fn word() -> impl Strategy<Value = u64> {
     prop_oneof![
         any::<u64>(),
-        // Most bit patterns are far from 1: numbers of ordinary size, and small integers.
+        // Most bit patterns are numbers far from 1. So numbers of ordinary size and small integers are drawn as well.
         (-4.0..4.0f64, any::<bool>()).prop_map(|(exponent, negative)| {
             let size = 10f64.powf(exponent);
             (if negative { -size } else { size }).to_bits()

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use hopper_basin::HopperFate;
+use hopper_reference::error_unit;
 use passive_hopper::MassRatio;
 use repository_tools::{Error as RowError, number, numbered_rows, repository, whole};
 use serde_json::Value;
@@ -45,12 +46,8 @@ pub(crate) struct Hop {
 impl Hop {
     /// The unit of its error: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
     pub(crate) fn unit(&self) -> f64 {
-        let scale = self.next.map_or(0.0, |next| {
-            next + self.slope_alpha * self.alpha
-                + self.slope_mass_ratio * self.mass_ratio.value()
-                + self.alpha * (self.alpha / next)
-        });
-        0.5 * f64::EPSILON * scale
+        let alpha = (self.alpha, self.slope_alpha);
+        error_unit(self.next, alpha, (self.mass_ratio.value(), self.slope_mass_ratio))
     }
 
     /// The allowed error of α′: `limit` units for each landing.
@@ -59,11 +56,7 @@ impl Hop {
     }
 }
 
-/// Units of error that are allowed for each landing, by default. Chosen by measurement: the stable form stays within
-/// it on all classes of docs/accuracy.md. A larger limit would hide the loss of a digit.
-pub(crate) const LIMIT: f64 = 4.0;
-
-/// The loss of a small hop.
+/// A hop so small that α′ rounds to α, and the loss α − α′ is compared instead.
 pub(crate) struct Loss {
     pub(crate) mass_ratio: MassRatio,
     pub(crate) alpha: f64,
@@ -84,7 +77,7 @@ pub(crate) fn window_hops() -> Result<Vec<Hop>, Error> {
     if hops.is_empty() { Err(RowError::NoReference { path }.into()) } else { Ok(hops) }
 }
 
-/// All lines of a file, each with its number.
+/// All lines of a file, each with its number from one.
 ///
 /// # Errors
 /// [`Error::ReferenceLine`] for a line of no known kind; [`Error::NoReference`] if there is no line whose answer can

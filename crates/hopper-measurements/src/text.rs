@@ -3,12 +3,12 @@
 use crate::error::Error;
 use std::time::Duration;
 
-/// An error to one digit.
+/// An error with one digit.
 pub(crate) fn digit(error: f64) -> String {
     if error == 0.0 { "0".into() } else { format!("{error:.0e}") }
 }
 
-/// Two digits and a unit.
+/// A time with two digits and a unit.
 pub(crate) fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     let (value, unit) = match seconds {
@@ -21,7 +21,10 @@ pub(crate) fn duration(time: Duration) -> String {
     format!("{value:.digits$} {unit}")
 }
 
-/// `text` with what stands between the markers of `name` replaced by `block`.
+/// `text` with a new block between the markers `<!-- begin NAME -->` and `<!-- end NAME -->`.
+///
+/// # Errors
+/// [`Error::Render`] if `text` lacks one of the markers.
 pub(crate) fn replace_block(text: &str, name: &str, block: &str) -> Result<String, Error> {
     let (begin, end) = (format!("<!-- begin {name} -->\n"), format!("<!-- end {name} -->"));
     let missing = || Error::Render {

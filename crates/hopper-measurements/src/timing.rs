@@ -1,12 +1,13 @@
-//! Times, as medians over repeats.
+//! Times as medians over repeats.
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-/// Repeats of which the median is taken.
+/// Repeats of which the median counts: three of them may be disturbed by other processes.
 const REPEATS: usize = 7;
 
-/// A repeat takes at least this long, or one pass.
+/// A repeat makes as many passes as take this long, at least one. A call to the clock takes tens of nanoseconds, too
+/// little to matter.
 const LEAST: Duration = Duration::from_millis(4);
 
 /// The time of one call of `call`, over the inputs 0, …, `count` − 1.
@@ -14,14 +15,15 @@ pub(crate) fn median_time<T>(count: usize, call: impl Fn(usize) -> T) -> Duratio
     Duration::from_secs_f64(median_seconds(count, call))
 }
 
-/// The same in seconds, with all digits: a `Duration` ends with nanoseconds.
+/// The time of one call in seconds. A `Duration` would round it to nanoseconds, and a hop takes twenty.
 pub(crate) fn median_seconds<T>(count: usize, call: impl Fn(usize) -> T) -> f64 {
     let pass = || (0..count).for_each(|k| drop(black_box(call(black_box(k)))));
     let begin = Instant::now();
     pass();
     let once = begin.elapsed();
+    // 1e-9: a pass that the clock cannot resolve would divide by zero.
     let passes = (LEAST.as_secs_f64() / once.as_secs_f64().max(1e-9)).ceil().max(1.0) as u32;
-    // Slow methods are timed fewer times.
+    // A pass of 0.2 s or more is long enough to be timed once; seven would take minutes over all methods.
     let repeats = if once > 50 * LEAST { 1 } else { REPEATS };
     let mut times: Vec<Duration> = (0..repeats)
         .map(|_| {
@@ -34,13 +36,13 @@ pub(crate) fn median_seconds<T>(count: usize, call: impl Fn(usize) -> T) -> f64 
     times[repeats / 2].as_secs_f64() / count.max(1) as f64
 }
 
-/// The time of one `f64::sin_cos` on arguments in [0, 50]: the unit of speed.
+/// The time of one `f64::sin_cos` on arguments in [0, 50], the range of the phases of a hop: the unit of speed.
 pub(crate) fn sin_cos_time() -> Duration {
     Duration::from_secs_f64(sin_cos_seconds())
 }
 
-/// The same in seconds.
-#[allow(clippy::disallowed_methods)] // the comparison is with std's
+/// The time of one `f64::sin_cos` in seconds.
+#[allow(clippy::disallowed_methods)] // the unit is the standard library's own function
 pub(crate) fn sin_cos_seconds() -> f64 {
     let arguments: Vec<f64> = (0..10_000).map(|k| 0.005 * f64::from(k)).collect();
     median_seconds(arguments.len(), |k| arguments[k].sin_cos())

@@ -1,4 +1,4 @@
-//! `report.html`: one file that opens anywhere.
+//! `report.html`: one file with its images inside, for any browser.
 
 use crate::beyond::Finding;
 use crate::claims::{Claim, Verdict};
@@ -12,7 +12,7 @@ figcaption{font-size:.93em}.paper{border-left:3px solid #bbb;padding-left:.8em;c
 th,td{border-bottom:1px solid #ccc;padding:.35em .5em;text-align:left;vertical-align:top}th{border-bottom:2px solid #333}\
 .confirmed{color:#0b6b3a;font-weight:bold}.corrected{color:#9a5b00;font-weight:bold}.fails{color:#b00020;font-weight:bold}small{color:#444}";
 
-/// What the OCR lost, and what was chosen.
+/// Details that our copy of the paper has lost, and what was chosen for each.
 const LOST: &[&str] = &[
     "The mass ratios of Fig. 2: 0.05, 0.1, 0.2 and 1 are shown.",
     "The mass ratio of Fig. 3: 0.8, at which all four segments exist.",
@@ -23,7 +23,7 @@ const LOST: &[&str] = &[
     "Colours beyond the third fixed point: purple, then near black.",
 ];
 
-/// The page.
+/// The report of the paper's figures and claims.
 pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f64) -> String {
     let mut out = format!(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>A simple hopper, recomputed</title>\
@@ -51,7 +51,7 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
     out
 }
 
-/// The page of new results.
+/// The report of the results beyond the paper.
 pub fn findings_page(findings: &[(Finding, Rendered)]) -> String {
     let mut out = format!(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Basins of a simple hopper</title>\
@@ -83,7 +83,7 @@ fn findings_table(finding: &Finding) -> String {
     out
 }
 
-/// A figure with its texts, and what follows them.
+/// A figure with its texts, followed by `after`.
 fn drawing(out: &mut String, figure: &Figure, rendered: &Rendered, after: &str) {
     let _ = write!(
         out,

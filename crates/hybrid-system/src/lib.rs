@@ -19,7 +19,7 @@
 //! | [`VectorField`], `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
-//! | [`bracketed_root`] | Brent's method between two values of opposite sign |
+//! | [`bracketed_root`], [`golden_section_minimum`] | Brent's method between two values of opposite sign; the minimum of a function of one variable |
 //!
 //! A ball that loses half of its speed at every bounce:
 //!
@@ -98,6 +98,7 @@ mod execution;
 mod guard;
 #[cfg(feature = "ode")]
 mod ode;
+mod searched;
 mod sensitivity;
 mod simultaneous;
 mod state;
@@ -107,6 +108,7 @@ mod zeno;
 pub use arc::{Arc, ArcEnd, Event};
 pub use crossing::{
     Certainty, Crossing, Enclosure, FirstCrossing, QuasiPolynomial, bracketed_root,
+    golden_section_minimum,
 };
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
@@ -115,6 +117,7 @@ pub use guard::{Direction, Guard};
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
 };
+pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use state::State;
 pub use system::{HybridSystem, Reset, VectorField};

@@ -3,6 +3,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use basin_of_attraction::SplitMix64;
 use hybrid_system::*;
 use nalgebra::Vector1;
 
@@ -23,15 +24,19 @@ const KNOWN: f64 = 1e-6;
 /// Largest distance of an event from the nearest root of a crowd: the fifth root of a rounding of 1e-13 is 3e-3.
 const CLOSE: f64 = 1e-2;
 
-/// Uniform numbers in [0, 1) (`SplitMix64`).
-struct Random(u64);
+/// Random numbers, one after the other.
+struct Random {
+    generator: SplitMix64,
+    drawn: u64,
+}
 
 impl Random {
+    fn new(state: u64) -> Self {
+        Random { generator: SplitMix64::from_state(state), drawn: 0 }
+    }
     fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.drawn += 1;
+        self.generator.bits(self.drawn)
     }
     fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 * 2f64.powi(-53)
@@ -205,7 +210,7 @@ fn check(roots: &[f64], form: Form) {
 }
 
 fn run(seed: u64, cases: usize, form: Form) {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     for _ in 0..cases {
         check(&random.roots(), form);
     }

@@ -1,9 +1,10 @@
 //! Frames with axes: from data to points on the page.
 
+use crate::curve::smooth;
 use crate::path::Path;
 use crate::svg::{Anchor, Pen, Svg};
 
-/// Linear or logarithmic.
+/// How an axis is laid out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scale {
     /// Equal steps.
@@ -27,13 +28,14 @@ pub struct Frame {
     pub x: (f64, f64),
     /// Vertical range of the data.
     pub y: (f64, f64),
-    /// How x is laid out.
+    /// Layout of the horizontal axis.
     pub x_scale: Scale,
-    /// How y is laid out.
+    /// Layout of the vertical axis.
     pub y_scale: Scale,
 }
 
 const AXIS: Pen = Pen::solid("#000", 0.8);
+/// Length of a tick, in points.
 const TICK: f64 = 4.0;
 /// Size of tick labels, in points.
 pub const TICK_SIZE: f64 = 10.5;
@@ -60,19 +62,19 @@ impl Frame {
         Frame { left, top, width, height, x, y, x_scale: Scale::Linear, y_scale: Scale::Linear }
     }
 
-    /// The same with x laid out in equal factors.
+    /// The frame with a logarithmic horizontal axis; its range must be positive.
     #[must_use]
     pub fn log_x(self) -> Self {
         Frame { x_scale: Scale::Log, ..self }
     }
 
-    /// The same with y laid out in equal factors.
+    /// The frame with a logarithmic vertical axis; its range must be positive.
     #[must_use]
     pub fn log_y(self) -> Self {
         Frame { y_scale: Scale::Log, ..self }
     }
 
-    /// Data to page.
+    /// The point of the page for a point of the data.
     pub fn at(&self, (x, y): (f64, f64)) -> (f64, f64) {
         (
             self.left + self.width * share(x, self.x, self.x_scale),
@@ -80,7 +82,7 @@ impl Frame {
         )
     }
 
-    /// Draws inside the frame only.
+    /// Draws, cut off at the edges of the frame.
     pub fn clipped(&self, svg: &mut Svg, draw: impl FnOnce(&mut Svg)) {
         svg.clipped(self.left, self.top, self.width, self.height, draw);
     }
@@ -88,15 +90,17 @@ impl Frame {
     /// A smooth curve through points of the data plane.
     pub fn curve(&self, svg: &mut Svg, points: &[(f64, f64)], pen: Pen) {
         let on_page: Vec<_> = points.iter().map(|&point| self.at(point)).collect();
-        svg.path(crate::curve::smooth(&on_page), pen);
+        svg.path(smooth(&on_page), pen);
     }
 
-    /// A polygon line through points of the data plane.
+    /// Straight lines from point to point of the data plane.
     pub fn polyline(&self, svg: &mut Svg, points: &[(f64, f64)], pen: Pen) {
         svg.path(Path::polyline(points.iter().map(|&point| self.at(point))), pen);
     }
 
-    /// The box, ticks with their labels, and the names of the axes.
+    /// The box, the ticks with their labels, and the names of the axes.
+    ///
+    /// An empty `y_label` leaves no room for it: two frames may then share one axis.
     pub fn axes(
         &self,
         svg: &mut Svg,
@@ -126,6 +130,7 @@ impl Frame {
         if y_label.is_empty() {
             return;
         }
+        // A character of a tick label is about 5 points wide at [`TICK_SIZE`]: the name of the axis clears the widest.
         let away = 5.0 * widest as f64 + 16.0;
         svg.rotated_text(
             self.left - away,
@@ -138,7 +143,9 @@ impl Frame {
     }
 }
 
-/// Round tick positions on a linear axis, about `count` of them, with labels.
+/// Round tick positions on a linear axis, about `count` of them, with their labels; empty for an empty range.
+///
+/// Steps are 1, 2 or 5 times a power of ten.
 pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
     if !(low < high) {
         return Vec::new();
@@ -149,9 +156,12 @@ pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
     let step = [1.0, 2.0, 5.0, 10.0]
         .into_iter()
         .map(|m| m * unit)
+        // A step that is exactly the rough one may be rounded below it: a thousandth less still counts.
         .find(|&s| s >= rough * 0.999)
         .unwrap_or(unit);
+    // An f64 has 17 digits: more decimals would be noise.
     let decimals = (-pxfm::f_log10(step).floor()).clamp(0.0, 17.0) as usize;
+    // An end that is a multiple of the step gets its tick, although the quotient is rounded: hence 1e-9.
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
     (first..=last)
@@ -162,7 +172,7 @@ pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Powers of ten on a logarithmic axis, every `every`-th.
+/// The powers of ten on a logarithmic axis whose exponent is a multiple of `every`, with their labels.
 pub fn decades((low, high): (f64, f64), every: i32) -> Vec<(f64, String)> {
     let first = (pxfm::f_log10(low) - 1e-9).ceil() as i32;
     let last = (pxfm::f_log10(high) + 1e-9).floor() as i32;

@@ -1,16 +1,20 @@
-//! Curves that stay smooth at any zoom.
+//! Curves of cubic pieces, smooth at any magnification, and graphs of functions.
 
 use crate::path::{Path, Segment};
 
-/// A path of cubic Bézier pieces through points that follow a smooth parametrisation in equal
-/// steps: each tangent is the central difference of the neighbours.
+/// A path of cubic Bézier pieces through points.
+///
+/// The points must follow a smooth curve in equal steps of a parameter t. The tangent at each point is the central
+/// difference of its neighbours. A piece from p to q with the tangents s and t has the control points p + s/3 and
+/// q − t/3. An empty slice gives an empty path.
 pub fn smooth(points: &[(f64, f64)]) -> Path {
     let mut path = Path::default();
     let Some(&(x, y)) = points.first() else { return path };
     path.push(Segment::Move((x, y)));
     let last = points.len() - 1;
     let tangent = |k: usize| {
-        // One-sided differences of second order at the ends.
+        // At the ends the difference is one-sided and of second order, −3/2, 2, −1/2: a parabola is drawn exactly.
+        // Two points have no second neighbour: the piece is straight.
         let (a, b, c) = match k {
             _ if last < 2 => return ((points[last].0 - x) / 1.0, (points[last].1 - y) / 1.0),
             0 => (points[0], points[1], points[2]),
@@ -58,8 +62,9 @@ pub fn graph_pieces(
     pieces
 }
 
-/// The parts of [left, right] on which `value` exists, as far as 64 probes show.
+/// The parts of [left, right] on which `value` exists. A gap or a part shorter than a 64th may be missed.
 fn valued(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Vec<(f64, f64)> {
+    /// A piece of a drawing has some hundred points: a gap between two probes is a few points wide at most.
     const PROBES: usize = 64;
     let at = |k: usize| left + (right - left) * (k as f64 / PROBES as f64);
     let mut parts = Vec::new();
@@ -79,8 +84,9 @@ fn valued(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Vec<(f6
     parts
 }
 
-/// The last point with a value, from `inside` towards `outside`.
+/// The last point with a value on the way from `inside` to `outside`.
 fn edge(value: &impl Fn(f64) -> Option<f64>, mut outside: f64, mut inside: f64) -> f64 {
+    // 54 halvings reach neighbouring f64 if both ends are of one size; the rest serves a bracket with an end near 0.
     for _ in 0..80 {
         let middle = 0.5 * (inside + outside);
         if value(middle).is_some() { inside = middle } else { outside = middle }

@@ -6,7 +6,7 @@ use crate::svg::{Element, Pen, Svg, base64};
 use std::fmt::Write;
 
 /// The text of an SVG file.
-pub(super) fn document(svg: &Svg) -> String {
+pub(crate) fn document(svg: &Svg) -> String {
     let (width, height) = (svg.width, svg.height);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" \

@@ -14,7 +14,7 @@ const STIX: &[u8] = include_bytes!("../assets/STIX-Regular.otf");
 /// Why a text cannot be set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
-pub enum FontError {
+pub(crate) enum FontError {
     /// The font has no glyph for a character.
     #[error("the font has no glyph for '{0}' (U+{code:04X})", code = u32::from(*.0))]
     MissingGlyph(char),
@@ -24,7 +24,7 @@ pub enum FontError {
 }
 
 /// A font with the parts of its layout tables that Latin and Greek labels need.
-pub(super) struct Font {
+pub(crate) struct Font {
     face: Face<'static>,
     /// Glyph sequences drawn as one glyph, such as fi.
     ligatures: Vec<LigatureSubstitution<'static>>,
@@ -34,7 +34,7 @@ pub(super) struct Font {
 
 impl Font {
     /// The font that is shipped, parsed once.
-    pub(super) fn shipped() -> Result<&'static Font, FontError> {
+    pub(crate) fn shipped() -> Result<&'static Font, FontError> {
         static SHIPPED: LazyLock<Result<Font, FontError>> = LazyLock::new(|| Font::parse(STIX));
         SHIPPED.as_ref().map_err(|&error| error)
     }
@@ -57,7 +57,7 @@ impl Font {
 
     /// Adds the outlines of `text` to `path`, from `start` on its baseline, and returns the x at
     /// which the text ends.
-    pub(super) fn set(
+    pub(crate) fn set(
         &self,
         text: &str,
         size: f64,

@@ -4,9 +4,12 @@ use crate::font::{Font, FontError};
 use crate::path::Path;
 use std::fmt::Write;
 
-/// Script size and shifts in units of the font size.
+/// Size of scripts, in units of the font size, as TeX has 7-point scripts for 10-point text.
 const SCRIPT: f64 = 0.7;
+/// Distance by which subscripts are lowered, in units of the font size. TeX has 0.247 beneath a superscript; one value
+/// for all subscripts keeps those of a label on one line.
 const DOWN: f64 = 0.25;
+/// Distance by which superscripts are raised, in units of the font size. TeX has 0.413.
 const UP: f64 = 0.4;
 
 /// Where a piece of a label stands.
@@ -27,7 +30,7 @@ struct Span {
 /// The outlines of a label that starts at (0, 0) on its baseline, and its width.
 ///
 /// A superscript followed at once by a subscript is stacked, as in `$α$^{*}_{1}`.
-pub(super) fn outline(markup: &str, size: f64) -> Result<(Path, f64), FontError> {
+pub(crate) fn outline(markup: &str, size: f64) -> Result<(Path, f64), FontError> {
     let font = Font::shipped()?;
     let mut path = Path::default();
     let mut end = 0.0f64;

@@ -10,7 +10,8 @@
 //! | [`Marker`] | symbols that differ by shape as well as by colour |
 //! | [`smooth`], [`graph_pieces`] | curves and graphs of functions that do not exist everywhere |
 //! | [`palette`] | colours for categories |
-//! | [`html`], [`tspans`](label::tspans) | the labels' markup as HTML and as SVG |
+//! | [`html`] | the markup of labels as HTML |
+//! | [`Path`], [`Segment`] | outlines of straight lines and cubic Bézier pieces |
 //! | [`render`], [`indexed_png`] | a drawing as SVG with outlined labels and as PNG; a PNG with a palette |
 //! | [`csv_file`], [`csv_text`] | the data beside a drawing |
 //!
@@ -22,7 +23,7 @@
 //! let parabola: Vec<_> = (0..=20).map(|k| 0.1 * f64::from(k)).map(|x| (x, x * x)).collect();
 //! frame.clipped(&mut svg, |svg| frame.curve(svg, &parabola, Pen::solid("#000", 1.5)));
 //! frame.axes(&mut svg, &ticks(frame.x, 4), &ticks(frame.y, 4), "$x$", "$x$^{2}");
-//! let rendered = render("parabola", &svg.finish(), 2.0)?; // 2 pixels a point
+//! let rendered = render("parabola", &svg, 2.0)?; // 2 pixels for each 1/96 inch
 //! assert!(rendered.svg.starts_with("<svg") && rendered.png.starts_with(b"\x89PNG"));
 //! # Ok::<(), journal_figures::Error>(())
 //! ```
@@ -34,14 +35,15 @@
 //!
 //! # Not here
 //!
-//! No choice of fonts, no legends that place themselves, no three-dimensional drawings, no files.
+//! No choice of fonts, no scripts but Latin, Greek and mathematical italics (a character that the font lacks is an
+//! error), no legends that place themselves, no three-dimensional drawings, no files.
 
 pub mod axes;
 mod curve;
 mod data;
 mod document;
 mod error;
-pub mod font;
+mod font;
 pub mod label;
 mod marker;
 pub mod palette;
@@ -56,6 +58,6 @@ pub use data::{DataFile, csv_file, csv_text};
 pub use error::Error;
 pub use label::html;
 pub use marker::Marker;
-pub use path::{Path, Point};
+pub use path::{Path, Point, Segment};
 pub use render::{Rendered, indexed_png, render};
 pub use svg::{Anchor, Pen, Svg, base64};

@@ -1,4 +1,4 @@
-//! Symbols for points, told apart by shape as well as by colour.
+//! Symbols for points, which differ by shape as well as by colour.
 
 use crate::path::Path;
 use crate::svg::{Pen, Svg};
@@ -27,6 +27,7 @@ pub enum Marker {
 impl Svg {
     /// A symbol about `size` wide.
     pub fn marker(&mut self, (x, y): (f64, f64), marker: Marker, size: f64, color: &'static str) {
+        // The corners are chosen by eye, so that all symbols look about equally large.
         let r = 0.5 * size;
         let polygon = |corners: &[(f64, f64)]| {
             Path::polygon(corners.iter().map(|&(dx, dy)| (x + dx * r, y + dy * r)))

@@ -113,7 +113,7 @@ impl Path {
 #[cfg(test)]
 impl Path {
     /// Left, upper, right and lower limit of the ends of all steps.
-    pub(super) fn limits_of_ends(&self) -> [f64; 4] {
+    pub(crate) fn limits_of_ends(&self) -> [f64; 4] {
         let ends = self.segments.iter().filter_map(|segment| match *segment {
             Segment::Move(p) | Segment::Line(p) | Segment::Cubic(_, _, p) => Some(p),
             Segment::Close => None,
@@ -134,7 +134,7 @@ fn points(d: &mut String, letter: char, points: &[Point]) {
 }
 
 /// Writes a number with three decimals at most: a thousandth of a point cannot be seen.
-pub(super) fn number(out: &mut String, value: f64) {
+pub(crate) fn number(out: &mut String, value: f64) {
     let start = out.len();
     let _ = write!(out, "{value:.3}");
     let short = out.trim_end_matches('0').trim_end_matches('.').len();

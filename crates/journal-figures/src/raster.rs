@@ -8,7 +8,7 @@ use tiny_skia::{
 };
 
 /// Draws `svg` at `scale` pixels a point. The reason is returned if this is not possible.
-pub(super) fn rasterize(svg: &Svg, scale: f64) -> Result<Pixmap, String> {
+pub(crate) fn rasterize(svg: &Svg, scale: f64) -> Result<Pixmap, String> {
     let (width, height) = ((svg.width * scale).ceil(), (svg.height * scale).ceil());
     let pixmap = Pixmap::new(width as u32, height as u32)
         .ok_or_else(|| format!("no image of {width} × {height} pixels"))?;

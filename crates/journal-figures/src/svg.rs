@@ -39,7 +39,7 @@ pub enum Anchor {
 
 /// A thing that is drawn; later ones cover earlier ones.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Element {
+pub(crate) enum Element {
     /// A path, filled first, then stroked.
     Shape { path: Path, fill: Option<&'static str>, pen: Option<Pen> },
     /// The outlines of a label, and its text for readers that cannot see them.
@@ -56,12 +56,12 @@ const WHITE_RIM: Pen = Pen::solid("#fff", 0.6);
 /// A drawing, in points, y downwards.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Svg {
-    pub(super) width: f64,
-    pub(super) height: f64,
-    pub(super) elements: Vec<Element>,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+    pub(crate) elements: Vec<Element>,
     /// The first label that could not be set, and the reason. The methods that draw return nothing;
-    /// [`super::render::render`] reports it.
-    pub(super) failure: Option<(String, FontError)>,
+    /// [`crate::render::render`] reports it.
+    pub(crate) failure: Option<(String, FontError)>,
 }
 
 impl Svg {
@@ -94,6 +94,7 @@ impl Svg {
         let (dx, dy) = (to.0 - from.0, to.1 - from.1);
         let length = pxfm::f_hypot(dx, dy).max(1e-9);
         let (ux, uy) = (dx / length, dy / length);
+        // Length and half width of the head, chosen by eye; both grow with the pen, so that thick arrows stay arrows.
         let head = 3.0 + 2.5 * pen.width;
         let base = (to.0 - head * ux, to.1 - head * uy);
         self.line(from, base, pen);

@@ -1,4 +1,4 @@
-//! One hop, by every way of computing it, over the paper's window.
+//! A hop by every method of the crate, over the paper's window.
 
 #![allow(missing_docs)]
 
@@ -9,7 +9,8 @@ use passive_hopper::{
 };
 use std::hint::black_box;
 
-/// (M, α) from the paper's window, M in [0.05, 20], α in [α*_1, α*_6].
+/// 256 pairs (M, α) from the paper's window, M in [0.05, 20], α in [α*_1, α*_6]: a sequence of golden and plastic
+/// ratios, which fills it evenly.
 fn inputs() -> Vec<(MassRatio, f64)> {
     let (low, high) = (alpha_star(1), alpha_star(6));
     (0..256)
@@ -69,7 +70,7 @@ fn hops(criterion: &mut Criterion) {
         });
     });
     group.bench_function("f64::sin_cos", |bencher| {
-        // The yardstick: std's own pair, on arguments as they occur.
+        // The unit of docs/performance.md: sine and cosine of the standard library, on the same arguments.
         #[allow(clippy::disallowed_methods)]
         bencher.iter(|| inputs.iter().map(|&(_, alpha)| black_box(alpha).sin_cos().0).sum::<f64>());
     });

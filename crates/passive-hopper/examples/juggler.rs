@@ -1,13 +1,13 @@
-//! A passive juggler (Chatterjee, Pratap, Reddy, Ruina 2002): a hand on a spring, a ball that it catches without a
-//! bounce and throws again.
+//! A passive juggler (Chatterjee, Pratap, Reddy, Ruina 2002): a hand on a spring catches a ball without a bounce and
+//! throws it again.
 //!
-//! Nothing here knows of the hopper: hand, ball, spring and gravity in SI units, two modes, two guards. Yet the
-//! map from one throw to the next is the hopper's, α′ = f(α; M) with M = m_h/m_b and α the speed of the throw over
-//! g √(m_h/k).
+//! The model has hand, ball, spring and gravity in SI units, two modes and two guards, and uses no formula of the
+//! hopper. Its map from one throw to the next is the hopper's all the same: α′ = f(α; M) with M = m_h/m_b, where α is
+//! the speed of the throw over g √(m_h/k).
 //!
 //! Run with `cargo run -p passive-hopper --example juggler`.
 
-#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and bits do not matter
+#![allow(clippy::print_stdout, clippy::disallowed_methods)] // a program, and its last bits do not matter
 
 use hybrid_system::*;
 use nalgebra::{SVector, Vector1, Vector4};
@@ -18,7 +18,7 @@ use return_map::{ReturnMap, Section};
 enum Mode {
     /// The ball is in the air.
     Free,
-    /// It lies in the hand.
+    /// The ball lies in the hand.
     Held,
 }
 
@@ -30,7 +30,8 @@ enum Surface {
     Throw,
 }
 
-/// State: heights y of the hand, above its own rest, and z of the ball; their velocities.
+/// Parameters in SI units. A state is (y, z, ẏ, ż): the height y of the hand above its rest without the ball, the
+/// height z of the ball, and their velocities.
 #[derive(Debug, Clone, Copy)]
 struct Juggler {
     hand: f64,
@@ -48,12 +49,12 @@ impl Juggler {
         (self.stiffness / (self.hand + self.ball)).sqrt()
     }
 
-    /// Where the hand rests with the ball.
+    /// Height at which the hand rests with the ball in it.
     fn held_rest(&self) -> f64 {
         -self.ball * self.gravity / self.stiffness
     }
 
-    /// Height at which hand and ball fall freely: there the ball leaves.
+    /// Height at which the spring is relaxed: hand and ball fall freely there, and the ball leaves.
     fn throw_height(&self) -> f64 {
         self.hand * self.gravity / self.stiffness
     }
@@ -127,7 +128,7 @@ impl HybridSystem<4> for Juggler {
         match surface {
             Surface::Catch => {
                 let speed = (self.ball * x[3] + self.hand * x[2]) / (self.ball + self.hand);
-                // Above the height of the throw the hand falls faster than the ball: it leaves at once.
+                // Above the height of the throw the hand falls faster than the ball: the ball leaves at once.
                 let mode = if x[0] < self.throw_height() { Mode::Held } else { Mode::Free };
                 Reset::Jump { mode, state: Vector4::new(x[0], x[0], speed, speed) }
             }
@@ -140,7 +141,7 @@ impl HybridSystem<4> for Juggler {
     }
 }
 
-/// The throws, by α.
+/// The section of throws, with α as its coordinate.
 struct Throws(Juggler);
 
 impl Section<Juggler, 4, 1> for Throws {
@@ -154,10 +155,11 @@ impl Section<Juggler, 4, 1> for Throws {
     }
 }
 
-/// The next throw after one with α; nothing if the ball stays in the hand.
+/// The α of the next throw after one with `alpha`; `None` if the ball stays in the hand.
 fn next_throw(juggler: Juggler, alpha: f64) -> Result<Option<f64>, return_map::Error> {
     let section = Throws(juggler);
-    // Long enough for any flight, and for half a swing after it.
+    // A flight takes about 2α units of time, and the ball stays in the hand for less than a swing of both,
+    // 2π √(1 + m_b/m_h) units. The limit is far above.
     let unit = 1.0 / juggler.free_frequency();
     let limits = Limits::new((10.0 * alpha + 1000.0) * unit, 10_000);
     let map = ReturnMap::new(&juggler, &section, limits);
@@ -186,10 +188,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 mod tests {
     use super::*;
 
-    /// From throw to throw it is the hopper's map, whatever the units: sudden throws and lost balls included.
+    /// In any units, throws at once after a catch and balls that stay in the hand included.
     #[test]
-    fn the_map_of_the_hopper() {
-        let mut lost = 0;
+    fn the_map_from_throw_to_throw_is_that_of_the_hopper() {
+        let mut stays = 0;
         for (hand, ball, stiffness, gravity) in [
             (0.3, 0.5, 80.0, 9.81),
             (2.0, 0.7, 15.0, 1.62),
@@ -202,16 +204,16 @@ mod tests {
                 let alpha = 0.1 * f64::from(k);
                 match (next_throw(juggler, alpha).unwrap(), map.image(alpha).unwrap()) {
                     (Some(own), Some(hopper)) => {
-                        // Near α*_n a catch is a triple root, and this model does not know it.
+                        // Near α*_n a catch is close to a triple root; the search finds its time to fewer digits.
                         assert!((own - hopper).abs() < 1e-9, "{alpha}: {own} {hopper}");
                     }
                     (own, hopper) => {
                         assert_eq!(own, hopper, "{alpha}");
-                        lost += 1;
+                        stays += 1;
                     }
                 }
             }
         }
-        assert!(lost > 0);
+        assert!(stays > 0);
     }
 }

@@ -1,4 +1,4 @@
-//! What can be wrong with a hopper's parameters, states and hops.
+//! Errors of a hopper's parameters, states and hops.
 
 use thiserror::Error;
 
@@ -26,9 +26,9 @@ pub enum Error {
         /// The value given.
         value: f64,
     },
-    /// The lift-off speed is so large that neighbouring numbers belong to different motions.
+    /// The lift-off speed is so large that an ulp of it is too coarse for the spring's phase.
     #[error(
-        "the lift-off speed {value} is over {largest}, where an f64 no longer resolves the motion"
+        "the lift-off speed {value} is over {largest}, above which an f64 does not resolve the motion"
     )]
     LiftOffSpeedTooLarge {
         /// The value given.
@@ -36,9 +36,9 @@ pub enum Error {
         /// The largest accepted.
         largest: f64,
     },
-    /// An offset outside the cell of its fixed point, or too small to be resolved.
+    /// The offset from a fixed point reaches beyond nπ or (n+1)π, or is too small to be resolved.
     #[error(
-        "an offset from α*_{n} must be zero or of size 1e-300 at least, and in ({left}, {right}), \
+        "the offset from α*_{n} must be zero or at least 1e-300 in size, and in ({left}, {right}), \
          with n ≥ 1; not {delta}"
     )]
     Offset {
@@ -51,64 +51,68 @@ pub enum Error {
         /// (n+1)π − α*_n.
         right: f64,
     },
-    /// A state so large that an f64 no longer resolves the spring's phase, or not finite.
+    /// A state so large that an f64 does not resolve the spring's phase, or not finite.
     #[error(
-        "a coordinate of the motion is {value}, over {largest}, where an f64 no longer resolves it"
+        "a coordinate of the motion is {value}; it must be finite and at most {largest}, above which an f64 \
+         does not resolve the motion"
     )]
     MotionTooLarge {
-        /// The coordinate, in the model's units (times 1+M for the height).
+        /// The coordinate or rate, in the model's units; times 1+M for those of the height.
         value: f64,
         /// The largest accepted.
         largest: f64,
     },
-    /// A state with the lower mass under the ground.
+    /// A state with the lower mass below the ground.
     #[error("the lower mass is below the ground: y2 = {height}")]
     BelowGround {
         /// Its height.
         height: f64,
     },
     /// A contact phase with the lower mass off the ground or moving.
-    #[error("in contact the lower mass rests on the ground: y2 = {height}, velocity {velocity}")]
+    #[error(
+        "in contact the lower mass must rest on the ground, not have y2 = {height}, velocity {velocity}"
+    )]
     NotInContact {
         /// Its height.
         height: f64,
         /// Its velocity.
         velocity: f64,
     },
-    /// A hop on whose way a verdict is smaller than the rounding error of 1024 bits, or of fewer if
-    /// more would take minutes.
+    /// A decision of the hop (sudden or not, on which branch, grounded or not) depends on a number smaller than the
+    /// bound on its error in 1024 bits, or in fewer bits if more would take minutes.
     #[error(
-        "the hop from {alpha}, with about {sudden} sudden lift-offs, cannot be decided within 1024 bits \
-         and some seconds"
+        "the hop from {alpha}, with about {sudden} sudden lift-offs, cannot be decided with 1024 bits \
+         in some seconds"
     )]
     Undecided {
         /// The lift-off speed.
         alpha: f64,
-        /// Sudden lift-offs, as far as they could be told.
+        /// Sudden lift-offs that were computed; the true number may differ.
         sudden: usize,
     },
     /// A number that must be finite is not.
     #[error("{name} must be finite, not {value}")]
     NotFinite {
-        /// What it is.
+        /// Its name.
         name: &'static str,
         /// The value given.
         value: f64,
     },
-    /// More sudden lift-offs in one hop than the budget allows; the hop is left unfinished.
+    /// More sudden lift-offs in one hop than the budget allows; the computation stops before the hop ends.
     #[error(
-        "{sudden} sudden lift-offs and no gradual one: the hop is left at stretch 1 + {excess}, \
+        "{sudden} sudden lift-offs and no gradual one: the computation stopped at stretch 1 + {excess}, \
          velocity {velocity}"
     )]
     SuddenLiftOffBudget {
-        /// Sudden lift-offs so far, the budget.
+        /// Sudden lift-offs so far: the budget.
         sudden: usize,
         /// Stretch minus one at the last landing.
         excess: f64,
         /// Velocity of the upper mass at the last landing.
         velocity: f64,
     },
-    /// A bracket that the theory guarantees did not hold numerically.
+    /// Rounding errors hid the sign change on an interval that, by theory, holds a landing. Only the printed equations
+    /// give this error.
     #[error(
         "a landing could not be bracketed from stretch 1 + {excess}, velocity {velocity}: {source}"
     )]
@@ -117,7 +121,7 @@ pub enum Error {
         excess: f64,
         /// Velocity of the upper mass at the start of the flight.
         velocity: f64,
-        /// What the root finder said.
+        /// The error of the root finder.
         source: hybrid_system::Error,
     },
 }

@@ -1,11 +1,12 @@
 //! The hopper as a hybrid system: both masses through flights, collisions and contacts.
 
+use crate::landing::first_landing::first_landing;
+use crate::landing::flight_ends::{TakeOff, is_sudden};
 use crate::landing::from_air::landing_time;
-use crate::landing::from_ground::TakeOff;
-use crate::landing::from_ground::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
-use crate::model::contact::{contact_flow, contact_time};
+use crate::landing::next_landing::next_landing;
+use crate::model::contact::{contact_flow, contact_time, lift_off_energy};
 use crate::model::mass_ratio::MassRatio;
-use crate::model::motion::Flight;
+use crate::model::motion::{Flight, LARGEST_LIFT_OFF_SPEED};
 use crate::model::state::HopperState;
 use hybrid_system::{Certainty, Crossing, Error, Guard, HybridSystem, Reset, State};
 
@@ -23,16 +24,16 @@ pub enum Phase {
 pub enum HopperSurface {
     /// y₂ = 0, falling.
     Landing,
-    /// y₁ = 1 on the ground, rising: the contact force vanishes.
+    /// y₁ = 1 in contact, rising: the contact force vanishes.
     LiftOff,
 }
 
 /// The passive hopper with state (y₁, ẏ₁, y₂, ẏ₂).
 ///
-/// Landings and lift-offs are solved for, never stepped to. After a collision the spring pulls the
-/// lower mass off again at once (a sudden lift-off: the event leads back to flight) or the contact
-/// phase follows. Energy never grows at an event by more than rounding: some 10⁻¹⁵ of it, and from
-/// speeds of 10¹¹ on, where an ulp of the time is no small angle, the square of that ulp.
+/// Landings and lift-offs are solved for in closed form; no integrator steps to them. After a collision the spring pulls
+/// the lower mass off again at once (a sudden lift-off: the event leads back to flight), or the contact phase follows.
+/// Energy never grows at an event by more than rounding: by some 10⁻¹⁵ of it, and from speeds of 10¹¹ on, where an ulp of
+/// the time is no small angle, by the square of that ulp.
 ///
 /// ```
 /// use hybrid_system::{Execution, Limits};
@@ -63,6 +64,7 @@ impl Hopper {
         self.mass_ratio
     }
 
+    /// Time and state of the landing after a lift-off from the ground.
     fn landing_from_ground(&self, start: TakeOff) -> (f64, HopperState) {
         let kappa = self.mass_ratio.kappa();
         let landing = if start.excess > 0.0 {
@@ -79,6 +81,7 @@ impl Hopper {
         (landing.time, state)
     }
 
+    /// The end of the contact phase; `None` if the hopper stays on the ground.
     fn lift_off(
         &self,
         start: &HopperState,
@@ -92,11 +95,7 @@ impl Hopper {
             return Ok(None);
         };
         let state = if time > 0.0 {
-            let energy = crate::model::contact::lift_off_energy(
-                self.mass_ratio,
-                excess,
-                start.upper_velocity,
-            );
+            let energy = lift_off_energy(self.mass_ratio, excess, start.upper_velocity);
             HopperState::lift_off(energy.sqrt())
         } else {
             *start
@@ -109,7 +108,7 @@ impl Hopper {
         }))
     }
 
-    /// The first landing; the start itself if it lands at once.
+    /// The first landing; at time zero if the lower mass is on the ground and not leaving it.
     fn landing(&self, start: &HopperState) -> Result<Crossing<HopperSurface, 4>, Error> {
         if start.lower_position < 0.0 {
             return Err(refused(crate::error::Error::BelowGround { height: start.lower_position }));
@@ -122,15 +121,15 @@ impl Hopper {
         let excess = start.upper_position - 1.0;
         let velocity = start.upper_velocity;
         let on_ground = start.lower_position == 0.0 && start.lower_velocity == 0.0;
-        let (time, state) = if on_ground && (excess > 0.0 || (excess == 0.0 && velocity > 0.0)) {
+        let (time, state) = if on_ground && is_sudden(excess, velocity) {
             self.landing_from_ground(TakeOff { excess, velocity })
         } else {
             let time = landing_time(&flight)?;
-            // On the ground y₁ is the stretch itself: P, which may be huge, has no part in it.
+            // On the ground y₁ is the stretch itself. Computed from P, which may be huge, it would lose digits.
             let upper_position = flight.stretch(time).0;
             (time, HopperState { upper_position, lower_position: 0.0, ..flight.state(time) })
         };
-        // Bracketed by theory, then refined.
+        // Certain: theory gives a bracket with the first landing alone, and the search refines it.
         Ok(Crossing {
             surface: HopperSurface::Landing,
             time,
@@ -140,7 +139,7 @@ impl Hopper {
     }
 }
 
-/// The hopper's own error, in the words of the hybrid system.
+/// The hopper's own error as an error of the hybrid system.
 fn refused(error: crate::error::Error) -> Error {
     Error::Model { reason: error.to_string() }
 }
@@ -176,7 +175,7 @@ impl HybridSystem<4> for Hopper {
         let (y1, v1) = (landed.upper_position, landed.upper_velocity);
         let mode = match surface {
             HopperSurface::LiftOff => Phase::Flight,
-            HopperSurface::Landing if y1 > 1.0 || (y1 == 1.0 && v1 > 0.0) => Phase::Flight,
+            HopperSurface::Landing if is_sudden(y1 - 1.0, v1) => Phase::Flight,
             HopperSurface::Landing => Phase::Contact,
         };
         Reset::Jump { mode, state: landed.into() }

@@ -1,11 +1,11 @@
-//! Hops allocate nothing, one by one or at once.
+//! Hops do not allocate memory, neither one by one nor many at once.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 
 #[test]
-fn hops_allocate_nothing() {
+fn hops_do_not_allocate() {
     let (low, high) = (alpha_star(1), alpha_star(6));
     let speeds: Vec<_> = (0..4000u32)
         .map(|k| Some(low + (high - low) * (f64::from(k) * 0.754_877_666_246_693).fract()))
@@ -26,7 +26,7 @@ fn hops_allocate_nothing() {
         }
         LiftOffMap::images_of_pairs(&mut each).unwrap();
     };
-    // The tables are built once.
+    // The first call builds the tables of the first flight and the arrays of the batch.
     hops();
     let info = allocation_counter::measure(hops);
     assert_eq!(info.count_total, 0, "{info:?}");

@@ -4,11 +4,11 @@
 
 use passive_hopper::{LiftOffMap, MassRatio};
 
-/// FNV-1a over the bits of a million images and losses, M in [1/64, 64) and α in (0, 60) from a fixed
-/// sequence of products, with the grounded hops as zeros; then over the hashes of ten parts.
+/// The hash of a million hops: α′, loss and number of sudden lift-offs, with zeros for a grounded hopper.
 ///
-/// Computed on an x86-64 machine, by the portable build and by one with `-C target-cpu=native`
-/// (fused multiply-add, AVX-512).
+/// M in [1/64, 64) and α in (0, 60) come from a fixed sequence of products. The hash is FNV-1a, first over each of ten
+/// parts, then over the hashes of the parts. An x86-64 machine gave it, both with the portable build and with
+/// `-C target-cpu=native` (fused multiply-add, AVX-512).
 const MILLION_HOPS: u64 = 0x33b4_bccf_16af_bf6b;
 
 const PARTS: u64 = 10;
@@ -22,7 +22,7 @@ fn part(number: u64) -> u64 {
     let share = |k: u64, factor: u64| (k.wrapping_mul(factor) >> 11) as f64 / (1u64 << 53) as f64;
     let mut hash = 0xcbf2_9ce4_8422_2325u64;
     for k in number * SIZE + 1..=(number + 1) * SIZE {
-        // A power of two times a number in [1, 2): no elementary function in the inputs.
+        // A power of two times a number in [1, 2), so that the inputs need no elementary function.
         let power = (k % 12) as i32 - 6;
         let m = 2f64.powi(power) * (1.0 + share(k, 0x9e37_79b9_7f4a_7c15));
         let alpha = 60.0 * share(k, 0xbf58_476d_1ce4_e5b9) + 1e-9;

@@ -1,21 +1,13 @@
-//! Derivatives of the map.
+//! Derivatives of the map, against references and near fixed points.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
+use hopper_reference::{map, rows};
 use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio};
-use serde_json::Value;
 use std::f64::consts::PI;
 
-fn map(mass_ratio: f64) -> LiftOffMap {
-    LiftOffMap::new(MassRatio::new(mass_ratio).unwrap())
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
-}
-
-/// Errors are judged by what an ulp of α does to the slopes, and by their own size.
+/// The allowed error of a slope is its change within an ulp of α, times 64, and 1e-13 of its size.
 #[test]
 fn slopes_agree_with_the_reference() {
     let files = [
@@ -24,21 +16,20 @@ fn slopes_agree_with_the_reference() {
         include_str!("data/hops_extreme.jsonl"),
     ];
     let mut compared = 0;
-    for line in files.into_iter().flat_map(str::lines) {
-        let row: Value = serde_json::from_str(line).unwrap();
-        let (m, alpha) = (row["mass_ratio"].as_f64().unwrap(), row["alpha"].as_f64().unwrap());
+    for row in files.into_iter().flat_map(rows) {
+        let (m, alpha) = (row.input("mass_ratio"), row.input("alpha"));
         let slopes = |alpha: f64| map(m).slopes(alpha).unwrap();
         let found = slopes(alpha);
-        assert_eq!(found.is_none(), row["alpha_next"].is_null());
-        let (Some(found), Some(_)) = (found, row["dalpha_next_dalpha"].as_str()) else { continue };
+        assert_eq!(found.is_none(), row.is_grounded("alpha_next"), "{row}");
+        let (Some(found), Some(_)) = (found, row.result("dalpha_next_dalpha")) else { continue };
         let (up, down) = (slopes(alpha.next_up()), slopes(alpha.next_down()));
         let (Some(up), Some(down)) = (up, down) else { continue };
         let judge = |slope: fn(&passive_hopper::Slopes) -> f64, key: &str, size: f64| {
             let condition =
                 (slope(&up) - slope(&found)).abs() + (slope(&down) - slope(&found)).abs();
-            let error = (slope(&found) - number(&row[key])).abs();
+            let error = (slope(&found) - row.result(key).unwrap()).abs();
             let allowed = 64.0 * condition + 1e-13 * (slope(&found).abs() + size);
-            assert!(error <= allowed, "{line}: {error:e} over {allowed:e}");
+            assert!(error <= allowed, "{row}: {error:e} over {allowed:e}");
         };
         judge(|s| s.by_speed, "dalpha_next_dalpha", 1.0);
         judge(|s| s.by_mass_ratio, "dalpha_next_dM", (1.0 + alpha) / (1.0 + m));
@@ -67,7 +58,7 @@ fn slopes_next_to_fixed_points() {
     assert_eq!(map(1.0).slopes(PI).unwrap(), None);
 }
 
-/// A hop that was decided in longer arithmetic has the slopes of that hop.
+/// Where plain `f64` finds other landings than longer arithmetic, the slopes follow the latter.
 #[test]
 fn slopes_follow_the_decided_landings() {
     let (m, alpha) = (1.979_049_840_015_386, 4_619_303.598_589_695);

@@ -2,11 +2,11 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// Where progress goes: to standard error, and only if that is a terminal.
+/// Shows bars on standard error, if that is a terminal; in a pipe it shows none.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Progress;
 
-/// One bar.
+/// A bar.
 #[derive(Debug)]
 pub struct Bar(ProgressBar);
 
@@ -24,11 +24,11 @@ impl Progress {
 }
 
 impl Bar {
-    /// How far it is.
+    /// Moves the bar to `position` of its length.
     pub fn set(&self, position: u64) {
         self.0.set_position(position);
     }
-    /// Done: the bar goes.
+    /// Removes the bar from the terminal.
     pub fn finish(&self) {
         self.0.finish_and_clear();
     }

@@ -1,7 +1,8 @@
 //! Fixed points of scalar maps: where the graph crosses the diagonal, and where it touches it.
 
 use crate::error::Error;
-use hybrid_system::bracketed_root;
+use hybrid_system::{bracketed_root, golden_section_minimum};
+use std::cell::Cell;
 
 /// How the graph of f meets the diagonal at a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,13 +32,6 @@ const TANGENT_ULPS: f64 = 8.0;
 /// A sign change is a crossing if the residual is at most this part of the point's size. At a jump through the diagonal
 /// the residual keeps the size of the jump; smaller jumps than this are taken for crossings. Chosen.
 const CROSSING_RESIDUAL: f64 = 1e-8;
-
-/// (√5 − 1)/2: a golden-section search divides its interval in this ratio.
-const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
-
-/// Each step multiplies the interval by 0.618, so 120 steps shrink it by 10⁻²⁵: below the spacing of `f64` unless the
-/// extremum is close to 0. Further steps would not move it.
-const GOLDEN_SECTION_STEPS: usize = 120;
 
 /// The fixed points of `map` that `samples` equally spaced points of [left, right] reveal, from left to right.
 ///
@@ -125,28 +119,19 @@ fn transverse_point(gap: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> 
 
 /// The tangent fixed point at the minimum of `height` ≥ 0, by golden-section search; `None` if the minimum is not zero
 /// to rounding, or if the map has a gap there.
-fn tangent_point(
-    height: impl Fn(f64) -> Option<f64>,
-    mut left: f64,
-    mut right: f64,
-) -> Option<FixedPoint> {
-    const RATIO: f64 = INVERSE_GOLDEN_RATIO;
-    // Of the two inner points one is an inner point of the next interval too, so that a step costs one value.
-    let mut inner = [right - RATIO * (right - left), left + RATIO * (right - left)];
-    let mut heights = [height(inner[0])?, height(inner[1])?];
-    for _ in 0..GOLDEN_SECTION_STEPS {
-        if heights[0] < heights[1] {
-            right = inner[1];
-            inner = [right - RATIO * (right - left), inner[0]];
-            heights = [height(inner[0])?, heights[0]];
-        } else {
-            left = inner[0];
-            inner = [inner[1], left + RATIO * (right - left)];
-            heights = [heights[1], height(inner[1])?];
-        }
-    }
-    let best = if heights[0] < heights[1] { 0 } else { 1 };
-    let (location, residual) = (inner[best], heights[best]);
+fn tangent_point(height: impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Option<FixedPoint> {
+    let gap = Cell::new(false);
+    let location = golden_section_minimum(
+        |x| {
+            height(x).unwrap_or_else(|| {
+                gap.set(true);
+                f64::INFINITY
+            })
+        },
+        left,
+        right,
+    );
+    let residual = height(location).filter(|_| !gap.get())?;
     let rounding = TANGENT_ULPS * f64::EPSILON * location.abs().max(right - left);
     (residual.abs() <= rounding).then_some(FixedPoint {
         location,

@@ -1,13 +1,15 @@
 //! Which crates may print, read files or look at clocks.
 
 use super::breach::Breach;
-use Class::{Computing, Files, Program};
+use Class::{Computing, Files, Program, TestSupport};
 
 /// What a crate may do besides computing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Class {
     /// Nothing else: the same input gives the same result, on any machine and in a browser.
     Computing,
+    /// Panic, like the tests that use it.
+    TestSupport,
     /// Read and write files, without printing: its callers decide what a user sees.
     Files,
     /// Print, read, write, look at clocks and start processes.
@@ -15,13 +17,19 @@ pub(super) enum Class {
 }
 
 /// Every crate in `crates/`, with its class and the reason for it.
-const CLASSES: [(&str, Class, &str); 11] = [
+const CLASSES: [(&str, Class, &str); 13] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
     ("basin-of-attraction", Computing, "random points come from a seed argument"),
     ("passive-hopper", Computing, "hops are functions of α and M"),
     ("hopper-asymptotics", Computing, "expansions are functions of n and M"),
     ("hopper-basin", Computing, "fates are functions of α and M"),
+    ("example-systems", Computing, "models are functions of their parameters"),
+    (
+        "hopper-reference",
+        TestSupport,
+        "a reference value that is missing must fail the test that reads it",
+    ),
     ("journal-figures", Computing, "figures are bytes; its font is part of the crate"),
     ("resumable-job", Files, "finished pieces must survive a kill, so they are on disk"),
     ("repository-tools", Program, "the file and terminal access that the programs share"),

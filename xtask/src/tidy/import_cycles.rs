@@ -2,6 +2,9 @@
 //!
 //! Two files that import each other can only be read together. Without cycles the files of a crate have
 //! layers, and each can be read after those that it imports.
+//!
+//! A re-export, `pub use door::Door` in `room/mod.rs`, is no import of its own: it is a table of contents. Who imports
+//! `room::Door` depends on `room/door.rs`.
 
 use super::breach::Breach;
 use super::imports::imports;
@@ -9,15 +12,9 @@ use super::module_tree::{Module, module_of, modules};
 use super::sources::Source;
 use std::collections::VecDeque;
 
-/// Crates whose cycles are known and being removed.
-const NOT_YET: [&str; 1] = ["passive-hopper"];
-
 /// Reports one shortest cycle for each group of files that import one another.
 pub(super) fn check(files: &[Source], breaches: &mut Vec<Breach>) {
     let modules = modules(files);
-    if modules.iter().any(|m| m.source.crate_name().is_some_and(|name| NOT_YET.contains(&name))) {
-        return;
-    }
     let edges: Vec<Vec<usize>> = modules.iter().map(|module| targets(module, &modules)).collect();
     let mut reported = vec![false; modules.len()];
     for start in 0..modules.len() {
@@ -38,11 +35,31 @@ pub(super) fn check(files: &[Source], breaches: &mut Vec<Breach>) {
 
 /// The other files that a file imports from.
 fn targets(module: &Module, modules: &[Module]) -> Vec<usize> {
+    let own = imports(module, modules).into_iter();
+    let used = own.filter(|import| !(import.is_public && is_below(module, &import.path)));
     let file = |path: &[String]| {
-        let target = module_of(modules, path)?;
-        modules.iter().position(|other| other.path == target.path && other.path != module.path)
+        let target = definition(path, modules, MOST_RE_EXPORTS)?;
+        modules.iter().position(|other| other.path == target && other.path != module.path)
     };
-    imports(module).iter().filter_map(|import| file(&import.path)).collect()
+    used.filter_map(|import| file(&import.path)).collect()
+}
+
+/// Whether a path leads into the module's own folder.
+fn is_below(module: &Module, path: &[String]) -> bool {
+    path.len() > module.path.len() && module.path.iter().zip(path).all(|(a, b)| a == b)
+}
+
+/// Re-exports of re-exports that are followed. A room inside a room has two; the limit ends a circle of them.
+const MOST_RE_EXPORTS: usize = 8;
+
+/// The path of the module that defines an item, through the re-exports on the way.
+fn definition<'a>(path: &[String], modules: &[Module<'a>], left: usize) -> Option<Vec<&'a str>> {
+    let found = module_of(modules, path)?;
+    let export = path.get(found.path.len()).filter(|_| left > 0).and_then(|item| {
+        let public = imports(found, modules).into_iter().filter(|import| import.is_public);
+        public.map(|import| import.path).find(|path| path.last() == Some(item))
+    });
+    export.map_or_else(|| Some(found.path.clone()), |path| definition(&path, modules, left - 1))
 }
 
 fn short<'a>(module: &Module<'a>) -> &'a str {
@@ -105,6 +122,28 @@ mod tests {
         ]);
         assert_eq!(rules.len(), 1);
         assert!(rules[0].contains("a.rs → room/door.rs → room/wall.rs → a.rs"), "{rules:?}");
+    }
+
+    #[test]
+    fn a_cycle_through_re_exports_is_found() {
+        let rules = rules(&[
+            ("lib.rs", ""),
+            ("room/door.rs", "use super::Wall;\n"),
+            ("room/mod.rs", "mod door;\nmod wall;\npub use door::Door;\npub use wall::Wall;\n"),
+            ("room/wall.rs", "use crate::room::Door;\n"),
+        ]);
+        assert_eq!(rules.len(), 1);
+        assert!(rules[0].contains("room/door.rs → room/wall.rs → room/door.rs"), "{rules:?}");
+    }
+
+    #[test]
+    fn a_folder_and_its_file_may_not_import_each_other() {
+        let rules = rules(&[
+            ("lib.rs", ""),
+            ("room/door.rs", "use super::Key;\n"),
+            ("room/mod.rs", "mod door;\nuse door::Door;\npub struct Key;\n"),
+        ]);
+        assert!(rules.len() == 1 && rules[0].contains("room/mod.rs"), "{rules:?}");
     }
 
     #[test]

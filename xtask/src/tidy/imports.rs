@@ -9,29 +9,30 @@ pub(super) struct Import {
     pub(super) line: usize,
     /// The path from the crate's root, without `crate`; the last name may be an item.
     pub(super) path: Vec<String>,
+    /// Whether it is `pub`, so that other files find the item here too.
+    pub(super) is_public: bool,
 }
 
-/// The imports of a file from its own crate: `use crate::…` and `use super::…`, with or without `pub`.
+/// The imports of a file from its own crate: `use crate::…`, `use super::…`, and `use child::…` of a file with
+/// modules.
 ///
-/// The tests at the end of a file are left out: they may use whatever the crate has.
-pub(super) fn imports(module: &Module) -> Vec<Import> {
+/// Tests are left out: they may use whatever the crate has.
+pub(super) fn imports(module: &Module, modules: &[Module]) -> Vec<Import> {
     let mut found = Vec::new();
-    let mut statement: Option<(usize, String)> = None;
-    for (line, text) in (1..).zip(module.source.text.lines()) {
-        if text.starts_with("#[cfg(test)]") {
-            break;
-        }
+    let mut statement: Option<(usize, bool, String)> = None;
+    for (line, text) in module.source.lines_before_tests() {
         let code = text.split("//").next().unwrap_or_default().trim();
-        if statement.is_none() {
-            statement = after_use(code).map(|rest| (line, rest.to_owned()));
-        } else if let Some((_, so_far)) = &mut statement {
+        if let Some((.., so_far)) = &mut statement {
             so_far.push_str(code);
+        } else {
+            statement =
+                after_use(code).map(|rest| (line, code.starts_with("pub"), rest.to_owned()));
         }
-        if let Some((line, whole)) = statement.take_if(|(_, so_far)| so_far.contains(';')) {
+        if let Some((line, is_public, whole)) = statement.take_if(|(.., text)| text.contains(';')) {
             let tree = whole.split(';').next().unwrap_or_default();
-            for path in paths(tree) {
-                found.extend(from_root(module, &path).map(|path| Import { line, path }));
-            }
+            let paths =
+                paths(tree).into_iter().filter_map(|path| from_root(module, modules, &path));
+            found.extend(paths.map(|path| Import { line, path, is_public }));
         }
     }
     found
@@ -80,12 +81,23 @@ fn split_outside_braces(text: &str) -> Vec<&str> {
     parts
 }
 
-/// The path from the crate's root; `None` if it does not begin with `crate` or `super`.
-fn from_root(module: &Module, path: &[String]) -> Option<Vec<String>> {
+/// The path from the crate's root; `None` if it leads to another crate.
+fn from_root(module: &Module, modules: &[Module], path: &[String]) -> Option<Vec<String>> {
     let supers = path.iter().take_while(|name| *name == "super").count();
-    let (above, rest) = match path.first().map(String::as_str) {
-        Some("crate") => (0, &path[1..]),
-        Some("super") => (module.path.len().checked_sub(supers)?, &path[supers..]),
+    let is_child = |name: &str| {
+        let child = |other: &Module| {
+            other
+                .path
+                .split_last()
+                .is_some_and(|(last, above)| *last == name && above == module.path)
+        };
+        modules.iter().any(child)
+    };
+    let (above, rest) = match path.first().map(String::as_str)? {
+        "crate" => (0, &path[1..]),
+        "super" => (module.path.len().checked_sub(supers)?, &path[supers..]),
+        "self" => (module.path.len(), &path[1..]),
+        name if is_child(name) => (module.path.len(), path),
         _ => return None,
     };
     let names = rest.iter().filter(|name| *name != "self").cloned();
@@ -101,7 +113,7 @@ mod tests {
         let files = planted::files(&[("lib.rs", ""), (file, text)]);
         let modules = modules(&files);
         let module = modules.iter().find(|module| module.source.name.ends_with(file)).unwrap();
-        imports(module).into_iter().map(|import| import.path.join("::")).collect()
+        imports(module, &modules).into_iter().map(|import| import.path.join("::")).collect()
     }
 
     #[test]

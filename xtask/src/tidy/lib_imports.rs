@@ -8,24 +8,11 @@ use super::imports::imports;
 use super::module_tree::{module_of, modules};
 use super::sources::Source;
 
-/// Crates whose imports are known to be wrong and being mended.
-const NOT_YET: [&str; 6] = [
-    "basin-of-attraction",
-    "hopper-asymptotics",
-    "hopper-basin",
-    "hybrid-system",
-    "passive-hopper",
-    "return-map",
-];
-
 /// Reports each import of a name that `lib.rs` has from another file.
 pub(super) fn check(files: &[Source], breaches: &mut Vec<Breach>) {
     let modules = modules(files);
-    if modules.iter().any(|m| m.source.crate_name().is_some_and(|name| NOT_YET.contains(&name))) {
-        return;
-    }
     for module in modules.iter().filter(|module| !module.is_root()) {
-        for import in imports(module) {
+        for import in imports(module, &modules) {
             if module_of(&modules, &import.path).is_some_and(|target| target.is_root()) {
                 let name = import.path.join("::");
                 let rule = format!(

@@ -24,9 +24,8 @@ pub(super) fn modules(files: &[Source]) -> Vec<Module<'_>> {
     let inside = |source: &Source| source.in_src().map(str::to_owned);
     let has_library = files.iter().any(|source| inside(source).as_deref() == Some("lib.rs"));
     let library = |source: &&Source| {
-        let is_module =
-            |file: String| !(has_library && file == "main.rs") && !file.starts_with("bin/");
-        inside(source).is_some_and(is_module)
+        let is_program = |file: &str| file.starts_with("bin/") || has_library && file == "main.rs";
+        inside(source).is_some_and(|file| !is_program(&file))
     };
     let module = |source| Module { path: path_of(source), source };
     files.iter().filter(library).map(module).collect()
@@ -43,7 +42,10 @@ fn path_of(source: &Source) -> Vec<&str> {
 }
 
 /// The module that defines what `path` names: the longest part of the path that is a module.
-pub(super) fn module_of<'m>(modules: &'m [Module<'m>], path: &[String]) -> Option<&'m Module<'m>> {
+pub(super) fn module_of<'m, 's>(
+    modules: &'m [Module<'s>],
+    path: &[String],
+) -> Option<&'m Module<'s>> {
     let is = |module: &&Module, length: usize| {
         module.path.len() == length && module.path.iter().zip(path).all(|(a, b)| a == b)
     };
@@ -56,10 +58,8 @@ pub(super) mod planted {
 
     /// Files of a crate `x`, by their names in `src`.
     pub(in super::super) fn files(files: &[(&str, &str)]) -> Vec<Source> {
-        let source = |&(name, text): &(&str, &str)| Source {
-            name: format!("crates/x/src/{name}"),
-            text: text.to_owned(),
-        };
+        let source =
+            |&(name, text): &(&str, &str)| Source::new(&format!("crates/x/src/{name}"), text);
         files.iter().map(source).collect()
     }
 }

@@ -10,6 +10,8 @@ pub(super) struct Source {
     pub(super) name: String,
     /// Contents.
     pub(super) text: String,
+    /// Whether the whole file is a test: its parent declares it as `#[cfg(test)] mod NAME;`.
+    pub(super) is_test: bool,
 }
 
 impl Source {
@@ -31,6 +33,46 @@ impl Source {
     }
 }
 
+impl Source {
+    /// A file that is no test.
+    pub(super) fn new(name: &str, text: &str) -> Self {
+        Source { name: name.to_owned(), text: text.to_owned(), is_test: false }
+    }
+
+    /// The lines of the file that are no tests, each with its number from one: all before `#[cfg(test)]` and
+    /// `mod tests {`, which end a file.
+    pub(super) fn lines_before_tests(&self) -> impl Iterator<Item = (usize, &str)> {
+        let mut lines = (1..).zip(self.text.lines()).peekable();
+        let is_test = self.is_test;
+        std::iter::from_fn(move || {
+            let (at, line) = lines.next().filter(|_| !is_test)?;
+            let next = lines.peek().map_or("", |(_, next)| next);
+            // A declaration such as `#[cfg(test)] mod planted;` does not end the file: code may follow.
+            let ends =
+                line.starts_with("#[cfg(test)]") && next.contains("mod ") && next.ends_with('{');
+            (!ends).then_some((at, line))
+        })
+        .fuse()
+    }
+
+    /// The names of the files that this one declares as tests.
+    fn test_modules(&self) -> Vec<String> {
+        let folder = match self.name.rsplit_once('/') {
+            Some((folder, "mod.rs" | "lib.rs" | "main.rs")) => folder.to_owned(),
+            _ => self.name.trim_end_matches(".rs").to_owned(),
+        };
+        let pairs = self.text.lines().zip(self.text.lines().skip(1));
+        let declared = pairs.filter(|(line, _)| line.trim() == "#[cfg(test)]");
+        let name = |(_, next): (&str, &str)| {
+            next.trim().strip_suffix(';')?.rsplit_once("mod ").map(|(_, name)| name.to_owned())
+        };
+        declared
+            .filter_map(name)
+            .flat_map(|name| [format!("{folder}/{name}.rs"), format!("{folder}/{name}/mod.rs")])
+            .collect()
+    }
+}
+
 /// All Rust files and manifests in `crates` and `xtask`, sorted by name.
 pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
     let mut names = Vec::new();
@@ -38,7 +80,16 @@ pub(super) fn collect(root: &Path) -> Result<Vec<Source>, Error> {
         collect_in(root, folder, &mut names)?;
     }
     names.sort();
-    names.iter().map(|name| read(root, name)).collect()
+    let mut sources: Vec<Source> =
+        names.iter().map(|name| read(root, name)).collect::<Result<_, _>>()?;
+    mark_tests(&mut sources);
+    Ok(sources)
+}
+
+/// Marks the files that others declare as tests.
+fn mark_tests(sources: &mut [Source]) {
+    let tests: Vec<String> = sources.iter().flat_map(Source::test_modules).collect();
+    sources.iter_mut().for_each(|source| source.is_test = tests.contains(&source.name));
 }
 
 fn collect_in(root: &Path, folder: &str, names: &mut Vec<String>) -> Result<(), Error> {
@@ -64,7 +115,7 @@ fn collect_in(root: &Path, folder: &str, names: &mut Vec<String>) -> Result<(), 
 pub(super) fn read(root: &Path, name: &str) -> Result<Source, Error> {
     let path = root.join(name);
     let text = std::fs::read_to_string(&path).map_err(|source| Error::File { path, source })?;
-    Ok(Source { name: name.to_owned(), text })
+    Ok(Source::new(name, &text))
 }
 
 #[cfg(test)]
@@ -73,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_file_knows_its_package() {
-        let source = |name: &str| Source { name: name.into(), text: String::new() };
+        let source = |name: &str| Source::new(name, "");
         let library = source("crates/return-map/src/orbit/mod.rs");
         assert_eq!(library.package(), "crates/return-map");
         assert_eq!(library.crate_name(), Some("return-map"));
@@ -83,5 +134,21 @@ mod tests {
         let task = source("xtask/src/main.rs");
         assert_eq!((task.package(), task.crate_name()), ("xtask", None));
         assert_eq!(task.in_src(), Some("main.rs"));
+    }
+
+    #[test]
+    fn tests_are_left_out() {
+        let text = "a\n#[cfg(test)]\nmod planted;\nb\n#[cfg(test)]\nmod tests {\n    c\n}\n";
+        let mut sources = [
+            Source::new("crates/x/src/y.rs", text),
+            Source::new("crates/x/src/y/planted.rs", "d\n"),
+        ];
+        let lines = |source: &Source| {
+            source.lines_before_tests().map(|(at, line)| format!("{at} {line}")).collect::<Vec<_>>()
+        };
+        assert_eq!(lines(&sources[0]), ["1 a", "2 #[cfg(test)]", "3 mod planted;", "4 b"]);
+        assert_eq!(lines(&sources[1]), ["1 d"]);
+        mark_tests(&mut sources);
+        assert_eq!(lines(&sources[1]), [""; 0]);
     }
 }

@@ -1,5 +1,5 @@
-//! Arbitrary bit patterns to every public function of the hopper's crates:
-//! `cargo +nightly fuzz run any_bits`, in `crates/hopper-basin`.
+//! Gives arbitrary bit patterns to every public function of the hopper's crates. To run it, in `crates/hopper-basin`:
+//! `cargo +nightly fuzz run any_bits`.
 //!
 //! The body is shared with the property test `hopper-basin/tests/any_bits.rs`.
 

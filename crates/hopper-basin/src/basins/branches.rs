@@ -7,9 +7,9 @@ use basin_of_attraction::{Branch, Interval, monotone_branches};
 use passive_hopper::alpha_star;
 use std::f64::consts::PI;
 
-/// Samples of a part on which the map is known to be monotone. Such a part may contain one edge of grounding, and two
-/// samples on either side of it would suffice to bracket it. 64 intervals leave room for a gap of grounding that takes up
-/// nearly all of a part.
+/// Samples of a part on which the map is known to be monotone. Such a part may contain one edge of grounding, and
+/// two samples on either side of it would suffice to bracket it. 64 intervals leave room for a gap of grounding
+/// that takes up nearly all of a part.
 const SAMPLES_OF_MONOTONE_PART: usize = 65;
 
 /// The monotone branches of the map from α*_`from` to α*_`to`.

@@ -31,8 +31,8 @@ impl BasinFractions {
 
 /// The basin fractions on [α*_from, α*_to] by the paper's protocol (Sec. VI).
 ///
-/// Each interval between neighbouring fixed points has `points` equally spaced points. So the fractions of the intervals
-/// are averaged with equal weights, although the intervals differ in length.
+/// Each interval between neighbouring fixed points has `points` equally spaced points. So the fractions of the
+/// intervals are averaged with equal weights, although the intervals differ in length.
 ///
 /// # Errors
 /// As [`Fates::new`], and [`Error::NoPoints`] if `points` is zero or `from` is not below `to`.

@@ -22,8 +22,9 @@ pub fn basin_levels(
     let branches = branches(fates, n, top, samples)?;
     let mut level = Interval::new(trap.fixed_point.value(), trap.right())?;
     if trap.edge == TrapEdge::Crossing {
-        // The end of the trap is where f falls to α*_n. The computed map crosses α*_n some ulps beside the computed end.
-        // Those ulps would be an interval of level 1 of its own, so that level 0 takes the end of the computed map.
+        // The end of the trap is where f falls to α*_n. The computed map crosses α*_n some ulps beside the computed
+        // end. Those ulps would be an interval of level 1 of its own, so that level 0 takes the end of the computed
+        // map.
         let own = branches.iter().filter_map(|branch| branch.preimage(fates, &level));
         level.right = own.filter(|p| p.left < level.right).fold(level.right, |r, p| r.max(p.right));
     }

@@ -26,8 +26,8 @@ pub fn basin_raster(
 /// The largest number of columns in a strip. More columns fill the vectors of a processor no better.
 const WIDEST_STRIP: usize = 16;
 
-/// The largest number of pixels of a strip with more than one column: its orbits and tables, some 50 bytes a pixel, then
-/// stay in a processor's second-level cache. Taller rasters have narrower strips.
+/// The largest number of pixels of a strip with more than one column: its orbits and tables, some 50 bytes a pixel,
+/// then stay in a processor's second-level cache. Taller rasters have narrower strips.
 const LARGEST_STRIP: usize = 16_384;
 
 /// A raster has at least this many strips, if it has as many columns, so that many threads have work.
@@ -38,8 +38,8 @@ fn strip_width(grid: &Grid) -> usize {
     (LARGEST_STRIP / grid.rows.max(1)).min(grid.columns / FEWEST_STRIPS).clamp(1, WIDEST_STRIP)
 }
 
-/// The labels of some columns of a [`basin_raster`], from the lowest speed up, for rasters too large for memory. An empty
-/// range gives an empty vector.
+/// The labels of some columns of a [`basin_raster`], from the lowest speed up, for rasters too large for memory. An
+/// empty range gives an empty vector.
 ///
 /// Sixteen neighbouring columns take less time together than one by one, because their orbits hop together.
 ///

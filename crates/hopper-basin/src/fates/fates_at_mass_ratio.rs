@@ -13,8 +13,8 @@ const KEPT_TRAPS: usize = 64;
 
 /// The number of hops after which a fate is given up as [undecided](HopperFate::Undecided).
 ///
-/// A million hops take less than a second if each has few sudden lift-offs. For M above 10⁴ a hop may have thousands; give
-/// [`fate_within`](Fates::fate_within) a smaller budget there.
+/// A million hops take less than a second if each has few sudden lift-offs. For M above 10⁴ a hop may have
+/// thousands; give [`fate_within`](Fates::fate_within) a smaller budget there.
 ///
 /// The slowest orbits start an ulp below a fixed point. From a distance δ they need about 3/(10 λ δ^{1/3})
 /// hops to leave, some 10⁵/(3λ) for δ = 10⁻¹⁵, with λ proportional to μ. For the small M at which this would

@@ -17,7 +17,8 @@ pub(crate) struct Column<'a> {
     /// The laps of the map; `None` for mass ratios without laps.
     pub(crate) laps: Option<Laps>,
     pub(crate) labels: Vec<u16>,
-    /// The itineraries of the speeds whose orbits have ended; `None` for speeds that are not followed, or not yet to the end.
+    /// The itineraries of the speeds whose orbits have ended; `None` for speeds that are not followed, or not yet
+    /// to the end.
     itineraries: Vec<Option<Itinerary>>,
     /// For every speed, whether the gap between it and the next is closed: all its speeds have the fate of both.
     closed: Vec<bool>,
@@ -42,8 +43,8 @@ impl<'a> Column<'a> {
         match self.traps.find(alpha) {
             Lookup::Trap(n, ends) => Some((fate_in_trap(n), ends)),
             Lookup::NoTrap => None,
-            // The ends are unknown. NaN keeps the itinerary from agreeing with others: an orbit next to this one may lie
-            // outside the trap.
+            // The ends are unknown. NaN keeps the itinerary from agreeing with others: an orbit next to this one
+            // may lie outside the trap.
             Lookup::NotIndexed => {
                 let label = self.fates.label(alpha)?;
                 Some((KnownFate { itinerary: Itinerary::START, label }, (f64::NAN, f64::NAN)))
@@ -74,8 +75,8 @@ impl<'a> Column<'a> {
         (right - left >= 2).then(|| left.midpoint(right))
     }
 
-    /// The closed intervals among the speeds of `range`, each as long as possible: the speeds from the first to the last,
-    /// which is not included, the common itinerary and the label.
+    /// The closed intervals among the speeds of `range`, each as long as possible: the speeds from the first to the
+    /// last, which is not included, the common itinerary and the label.
     pub(crate) fn closed_intervals(
         &self,
         range: Range<usize>,

@@ -29,11 +29,12 @@ pub(crate) struct Itinerary {
 
 /// The errors of two hops, one of the orbit between and one of the orbit beside it, in units of (α/α′) (s + 2) α.
 ///
-/// `LiftOffMap` errs by at most 4 (1 + sudden lift-offs) · 2⁻⁵³ of its unit. On a lap a hop has at most one sudden lift-off,
-/// and the unit is at most (s + 2) (α/α′) α; a test below checks both. ε = 2⁻⁵².
+/// `LiftOffMap` errs by at most 4 (1 + sudden lift-offs) · 2⁻⁵³ of its unit. On a lap a hop has at most one sudden
+/// lift-off, and the unit is at most (s + 2) (α/α′) α; a test below checks both. ε = 2⁻⁵².
 const TWO_HOP_ERRORS: f64 = 8.0 * f64::EPSILON;
 
-/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.17 would do (README.md).
+/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.17 would do
+/// (README.md).
 const CURVATURE: f64 = 1.25;
 
 /// The largest error bound allowed, relative to α′; the proof of [`CURVATURE`] relies on it. Orbits that come near the
@@ -63,9 +64,9 @@ impl Itinerary {
             return;
         }
         let error = f64::from(self.error);
-        // After twelve laps the leading one is at bit 60, and no thirteenth lap fits. The itinerary is then given up, and
-        // the raster follows the orbits beside this one. This is rare: an orbit of Fig. 6's window hops 3.9 times on
-        // the average.
+        // After twelve laps the leading one is at bit 60, and no thirteenth lap fits. The itinerary is then given
+        // up, and the raster follows the orbits beside this one. This is rare: an orbit of Fig. 6's window hops 3.9
+        // times on the average.
         let room = self.laps >> (64 - ID_BITS) == 0;
         // LAP: all orbits between must be on one lap.
         let Some(lap) = laps.lap(alpha, error).filter(|_| room) else {
@@ -85,9 +86,9 @@ impl Itinerary {
             }
             None => {
                 self.end = GROUND;
-                // GROUND: at the first hop the orbits between start between the two, and α′² is monotone: they are grounded
-                // as well, and the verdicts of the map are certain. At later hops α′² must be negative by more than the
-                // errors can change it.
+                // GROUND: at the first hop the orbits between start between the two, and α′² is monotone: they are
+                // grounded as well, and the verdicts of the map are certain. At later hops α′² must be negative by
+                // more than the errors can change it.
                 let margin = GROUND_MARGIN * alpha * propagated;
                 if error > 0.0 && !map.hop(alpha).is_ok_and(|hop| hop.next_speed_squared < -margin)
                 {

@@ -33,8 +33,8 @@ pub(crate) const NO_INTERVAL: u32 = 0;
 
 /// Guesses which speed of a column is the largest one below a given speed.
 ///
-/// The guess is right if the speeds are equally spaced, as in a raster. Elsewhere it may be wrong; `find` then misses the
-/// interval. The speeds have two parts, each with its own spacing.
+/// The guess is right if the speeds are equally spaced, as in a raster. Elsewhere it may be wrong; `find` then
+/// misses the interval. The speeds have two parts, each with its own spacing.
 #[derive(Debug, Clone, Copy)]
 struct SpeedIndex {
     /// The first speed of the upper part.

@@ -60,8 +60,9 @@ const LARGEST_MASS_RATIO: f64 = 1.0;
 /// The bits of a lap's number in an itinerary.
 pub(crate) const ID_BITS: u32 = 5;
 
-/// The number of humps with laps: 3 laps each, 30 in all, have numbers below 2⁵. All speeds above α*_10 ≈ 33 are followed
-/// one by one. With more humps a number would need six bits, and an itinerary could hold ten laps instead of twelve.
+/// The number of humps with laps: 3 laps each, 30 in all, have numbers below 2⁵. All speeds above α*_10 ≈ 33 are
+/// followed one by one. With more humps a number would need six bits, and an itinerary could hold ten laps instead
+/// of twelve.
 pub(crate) const HUMPS_WITH_LAPS: u64 = (1 << ID_BITS) / 3;
 
 impl Laps {

@@ -65,9 +65,10 @@ mod tests {
     //!   A = 2(−Γ₂ sin τ₂ − x₂ (1−cos τ₂)),  B = 2(−Γ₂ (1−cos τ₂) − x₂ (τ₂ − sin τ₂))       second flight
     //! ```
     //!
-    //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight is
-    //! monotone in x and V. So the range of each over an interval is given by its values at the ends. The intervals are not
-    //! rounded outwards. Instead the bounds must hold with 10⁻⁶ to spare, a thousand times what the roundings amount to.
+    //! S, C, D, u, ρ, Γ of the first flight are monotone in h on a window, and half the time of the second flight
+    //! is monotone in x and V. So the range of each over an interval is given by its values at the ends. The
+    //! intervals are not rounded outwards. Instead the bounds must hold with 10⁻⁶ to spare, a thousand times what
+    //! the roundings amount to.
 
     #![allow(clippy::disallowed_methods)]
 
@@ -109,8 +110,8 @@ mod tests {
         }
     }
 
-    /// Half the time of the flight from (x, V), V < π, by bisection: V(h) increases on (max(V, 0), π). Sixty halvings reach
-    /// neighbouring `f64`.
+    /// Half the time of the flight from (x, V), V < π, by bisection: V(h) increases on (max(V, 0), π). Sixty
+    /// halvings reach neighbouring `f64`.
     fn second(x: f64, v: f64) -> f64 {
         let (mut left, mut right) = (v.max(0.0), PI);
         for _ in 0..60 {
@@ -126,9 +127,9 @@ mod tests {
         let between = |f: fn(&HalfFlight) -> f64| Range::of(f(&begin), f(&end));
         let kappa = Range(m.0 / (1.0 + m.0), m.1 / (1.0 + m.1));
         let mu = Range(m.0 / (1.0 + m.0).powi(2), m.1 / (1.0 + m.1).powi(2));
-        let d = between(|half| half.d);
+        let d = between(|half| half.d());
         let closing = between(|half| half.closing_speed(0.0));
-        let b = between(|half| half.sin).times(between(|half| half.rho));
+        let b = between(|half| half.sin()).times(between(|half| half.rho()));
         // b = Sρ ≥ 0 on a window; at its ends rounding may give less.
         let b = Range(b.0.max(0.0), b.1);
         let alpha = between(|half| half.start_speed(0.0));
@@ -144,15 +145,15 @@ mod tests {
         // At h = 0 the functions divide by zero; 10⁻⁹ changes them by less than the 10⁻⁶ to spare.
         let half = |h: f64| HalfFlight::at(h.max(1e-9));
         let (begin, end) = (half(h2.0), half(h2.1));
-        let top = if h2.0 < PI / 2.0 && h2.1 > PI / 2.0 { 1.0 } else { begin.sin.max(end.sin) };
-        let sin = Range(begin.sin.min(end.sin), top);
-        let cos = Range(end.cos, begin.cos);
-        let u = Range(-begin.u, -end.u);
-        let rho = Range(-begin.rho, -end.rho);
+        let top = if h2.0 < PI / 2.0 && h2.1 > PI / 2.0 { 1.0 } else { begin.sin().max(end.sin()) };
+        let sin = Range(begin.sin().min(end.sin()), top);
+        let cos = Range(end.cos(), begin.cos());
+        let u = Range(-begin.u(), -end.u());
+        let rho = Range(-begin.rho(), -end.rho());
         let closing2 = rho.times(u.plus(x.times(sin))).scaled(2.0);
         let x2 = x.plus(h2.times(v.minus(h2)).scaled(2.0));
         let versine = sin.times(sin).scaled(2.0);
-        let delay = Range(begin.d, end.d).scaled(2.0);
+        let delay = Range(begin.d(), end.d()).scaled(2.0);
         let by_x = closing2.times(sin.times(cos)).scaled(2.0).plus(x2.times(versine)).scaled(-2.0);
         let by_v = closing2.times(versine).plus(x2.times(delay)).scaled(-2.0);
         let taken = by_x.times(x_slope).plus(by_v.times(v_slope)).over(alpha.times(g).scaled(2.0));
@@ -168,8 +169,8 @@ mod tests {
         if found.0 > 1e-6 && found.1 + 1e-6 < steepest {
             return;
         }
-        // The longer side is halved. Lengths of h count relative to the distance from α*_n, on which the slope depends; the
-        // factor 2 of M was chosen for few boxes.
+        // The longer side is halved. Lengths of h count relative to the distance from α*_n, on which the slope
+        // depends. How the factor 2 was chosen is not recorded; it changes the number of boxes only.
         if (h.1 - h.0) / (star - h.0).min(0.5) > 2.0 * (m.1 - m.0) {
             let middle = 0.5 * (h.0 + h.1);
             prove(Range(h.0, middle), m, (star, steepest), boxes);

@@ -43,7 +43,8 @@ struct Followed {
     itinerary: Itinerary,
 }
 
-/// The orbits of a hump. `index`, `hops` and `before` have one entry for every orbit that has not ended (invariant LISTS).
+/// The orbits of a hump. `index`, `hops` and `before` have one entry for every orbit that has not ended (invariant
+/// LISTS).
 #[derive(Default)]
 struct Orbits<'a> {
     /// All orbits that have been started.
@@ -106,8 +107,8 @@ impl Strip<'_> {
         let last = self.speeds.last().map_or(Ok(0), |&speed| index_below(speed))?;
         let with_laps = self.columns.iter().any(|column| column.laps.is_some());
         let mut first = 0;
-        // DOWN: orbits only descend, so that the intervals of lower humps are complete when an orbit comes down to them.
-        // Without laps there are no such intervals, and all humps are one.
+        // DOWN: orbits only descend, so that the intervals of lower humps are complete when an orbit comes down to
+        // them. Without laps there are no such intervals, and all humps are one.
         for n in 0..if with_laps { HUMPS_WITH_LAPS.min(last + 1) } else { 0 } {
             let star = alpha_star(n + 1);
             let end = first + self.speeds[first..].partition_point(|&speed| speed < star);
@@ -240,8 +241,8 @@ impl Strip<'_> {
             return true;
         };
         if alpha != before && alpha > 0.0 && self.orbits.count <= HOP_BUDGET {
-            // The table of intervals misses parts of traps. An orbit must end at the hop that enters a trap, as it does in
-            // `Fates::fate`: the computed map may leave the last ulps of a trap again (invariant TRAP).
+            // The table of intervals misses parts of traps. An orbit must end at the hop that enters a trap, as it
+            // does in `Fates::fate`: the computed map may leave the last ulps of a trap again (invariant TRAP).
             match column.trap(alpha) {
                 None => return false,
                 Some(trap) if u64::from(trap.0.label) != HopperFate::LARGEST_LABEL => {

@@ -170,12 +170,12 @@ impl Hump {
         if rest <= 0.0 {
             return Ok(None);
         }
-        let reach = (rest / middle).sqrt();
+        let half_width = (rest / middle).sqrt();
         let end = |sign: f64| {
-            let mut h = middle + sign * reach;
+            let mut h = middle + sign * half_width;
             for _ in 0..NEWTON_STEPS {
                 let half = HalfFlight::at(h);
-                let slope = half.sin * half.cos - h * (1.0 - 2.0 * half.sin * half.sin);
+                let slope = half.sin() * half.cos() - h * (1.0 - 2.0 * half.sin() * half.sin());
                 let step = (half.w() - level) / slope;
                 h -= step;
                 // A step over the maximum of W would lead to the other root, one below α*_n to another hump.
@@ -217,7 +217,7 @@ impl Hump {
             let h = self.star.value() + 0.5 * t;
             let half = HalfFlight::at(h);
             let alpha = self.star.value() + self.delta(t);
-            let slope = alpha * (1.0 - 4.0 * mu * self.w(t)) * self.closing_speed(t) / half.d;
+            let slope = alpha * (1.0 - 4.0 * mu * self.w(t)) * self.closing_speed(t) / half.d();
             let step = above(t) / slope;
             t -= step;
             if !(slope < 0.0 && t > 0.0 && t < right) {
@@ -238,14 +238,14 @@ impl Hump {
             let half = HalfFlight::at(h);
             let (alpha, closing) = (half.start_speed(0.0), half.closing_speed(0.0));
             let above = alpha * alpha - square - mu * closing * closing;
-            let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d;
+            let slope = 2.0 * alpha * (1.0 - 4.0 * mu * half.w()) * closing / half.d();
             let step = above / slope;
             h -= step;
             if !(slope < 0.0 && h > self.star.value()) {
                 return None;
             }
-            // One more step, which doubles the six digits, is left to the exact functions. Next to α*_n the cancellation
-            // may prevent six digits; the steps then run out, which costs time and no accuracy.
+            // One more step, which doubles the six digits, is left to the exact functions. Next to α*_n the
+            // cancellation may prevent six digits; the steps then run out, which costs time and no accuracy.
             if step.abs() < 1e-6 * (h - self.star.value()) {
                 break;
             }

@@ -1,8 +1,9 @@
 //! `check-reference`: compares the map and the fates with files of reference values.
 
 use crate::error::Error;
-use crate::reference::{Edge, Hop, LIMIT, Line, Loss, parse};
+use crate::reference::{Edge, Hop, Line, Loss, parse};
 use hopper_basin::{Fates, ImmediateBasinEdge, crisis, immediate_basin};
+use hopper_reference::UNITS_PER_FLIGHT;
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -16,7 +17,7 @@ pub struct Options {
     /// units of two ulps of the next offset are allowed for any number of lift-offs. For a loss the unit is the
     /// effect of half an ulp in the inputs; for α*_n half an ulp; for a trapping region a quarter of its stated
     /// bound; for a crisis two ulps
-    #[arg(long, value_name = "K", default_value_t = LIMIT, value_parser = limit, allow_hyphen_values = true)]
+    #[arg(long, value_name = "K", default_value_t = UNITS_PER_FLIGHT, value_parser = limit, allow_hyphen_values = true)]
     limit: f64,
     /// Files with one JSON object a line, or one array of objects: hops, losses, hops near a fixed point,
     /// fates, fixed points, trapping regions, crises. A file without any is an error
@@ -26,7 +27,7 @@ pub struct Options {
 
 /// The largest accepted limit. The unit of K is about 10⁻¹⁶ of the value compared: past 10¹⁵ an error of a tenth of
 /// the value would pass, and the check would check no digit.
-const LARGEST_LIMIT: f64 = 1e15;
+const LARGEST_UNITS_PER_FLIGHT: f64 = 1e15;
 
 /// Copies of a hop that are computed together. `LiftOffMap::images` computes fewer than 16 one by one; with more it
 /// takes its vector loops, which are compared here with the loop for one hop.
@@ -36,8 +37,8 @@ const AT_ONCE: usize = 24;
 fn limit(text: &str) -> Result<f64, String> {
     let limit: Option<f64> = text.parse().ok();
     limit
-        .filter(|k| *k > 0.0 && *k <= LARGEST_LIMIT)
-        .ok_or_else(|| format!("K must be a number with 0 < K ≤ {LARGEST_LIMIT:e}"))
+        .filter(|k| *k > 0.0 && *k <= LARGEST_UNITS_PER_FLIGHT)
+        .ok_or_else(|| format!("K must be a number with 0 < K ≤ {LARGEST_UNITS_PER_FLIGHT:e}"))
 }
 
 /// The tally of a class.

@@ -1,4 +1,4 @@
-//! `compare-peers`: the same hops by heyoka, SciPy, numba and ours.
+//! `compare-peers`: the same hops by heyoka, SciPy, numba and this repository.
 
 use crate::error::Error;
 use crate::peers::{Python, csv, markdown, measure, peers_figure};

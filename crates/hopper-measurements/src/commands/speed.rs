@@ -1,4 +1,4 @@
-//! `speed`: the figures of speed, each after a check of its output.
+//! `speed`: the figures of speed, each measured after a check of its output.
 
 use crate::error::Error;
 use crate::speed::{Measured, measure};

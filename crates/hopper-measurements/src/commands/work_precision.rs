@@ -1,4 +1,4 @@
-//! `work-precision`: time against error of every way to compute a hop.
+//! `work-precision`: time against error of every method that computes a hop.
 
 use crate::error::Error;
 use crate::text::{duration, replace_block};
@@ -14,7 +14,7 @@ pub struct Options {
     /// Folder for the results [default: target/work-precision in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Renew the tables and the figure of docs/accuracy.md with what is measured
+    /// Renew the tables, the CSV file and the figure of docs/accuracy.md from this run
     #[arg(long)]
     bless: bool,
 }
@@ -24,12 +24,13 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "work-precision")?;
     let before = sin_cos_time();
     let scores = measure(&Progress)?;
-    // A processor that has just woken up is slower.
+    // A processor runs slower just after it was idle: the smaller of two times counts.
     let unit = before.min(sin_cos_time());
     let scenes = scenes(&scores)?;
     let svg = work_precision_figure(&scores, unit);
     let rendered = render("work_precision", &svg, 2.0)?;
-    folder.write("work_precision.csv", &table::csv(&scores, unit)?.bytes)?;
+    let csv = table::csv(&scores, unit)?.bytes;
+    folder.write("work_precision.csv", &csv)?;
     folder.write("work_precision.svg", rendered.svg.as_bytes())?;
     folder.write("work_precision.png", &rendered.png)?;
     let (methods, scenes) = (table::methods(&scores, unit), table::scenes(&scenes));
@@ -47,6 +48,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let text = replace_block(&text, "methods", &format!("{unit}\n\n{methods}"))?;
     let text = replace_block(&text, "scenes", &scenes)?;
     docs.write("accuracy.md", text.as_bytes())?;
+    docs.write("work_precision.csv", &csv)?;
     docs.write("figures/work_precision.svg", rendered.svg.as_bytes())?;
     Ok(())
 }

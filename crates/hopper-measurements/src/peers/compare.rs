@@ -8,7 +8,7 @@ use crate::work_precision::{Case, Method};
 use repository_tools::Progress;
 use std::path::Path;
 
-/// What a peer says of the hops, in their order.
+/// The results of one program for all hops, in their order.
 #[derive(Debug, Clone, serde::Deserialize)]
 struct Found {
     name: String,
@@ -16,7 +16,7 @@ struct Found {
     next: Vec<Option<f64>>,
 }
 
-/// All of them on the paper's window.
+/// All programs on the hops of the paper's window.
 pub(crate) fn measure(
     python: &Python,
     folder: &Path,
@@ -34,7 +34,7 @@ pub(crate) fn measure(
     Ok(peers)
 }
 
-/// The peers' own measurements, in their own process.
+/// The other programs' results, measured by a script in a process of its own.
 fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Error> {
     let (input, output) = (folder.join("hops.json"), folder.join("results.json"));
     let pairs: Vec<_> = hops.iter().map(|hop| (hop.mass_ratio.value(), hop.alpha)).collect();
@@ -45,7 +45,7 @@ fn theirs(python: &Python, folder: &Path, hops: &[Hop]) -> Result<Vec<Found>, Er
     serde_json::from_str(&repository_tools::read(&output)?).map_err(understood)
 }
 
-/// One of our ways.
+/// The results of one of our methods.
 fn ours(method: Method, hops: &[Hop]) -> Found {
     let cases: Vec<Case> = hops.iter().map(Case::of).collect();
     let next = |case: &Case| method.hop(case).and_then(|answer| answer.next);

@@ -1,16 +1,19 @@
-//! Time against error of peers, on the hops of the paper's window.
+//! Time against error of the compared programs, on the hops of the paper's window.
 
 use super::peer::Peer;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, decades};
 
+/// Range of the vertical axis, relative: from below half an ulp to above the worst error of docs/performance.md,
+/// 6e-8. Errors outside are drawn on the edge.
 const ERRORS: (f64, f64) = (1e-17, 1e-6);
+/// Range of the horizontal axis, in seconds: hops take from 2e-8 to 1e-2 s.
 const TIMES: (f64, f64) = (1e-9, 1e-1);
 
-/// Markers of peers and of ours, in the order of their times.
+/// Markers of other programs and of ours, in the order of their times, the slowest first.
 const THEIRS: [Marker; 4] = [Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge];
 const OURS: [Marker; 4] = [Marker::Ring, Marker::Cross, Marker::Disc, Marker::Square];
 
-/// The drawing: worst errors, with a line down to the median.
+/// The drawing: a marker at the worst error, with a line down to the median error.
 pub(crate) fn peers_figure(peers: &[Peer]) -> Svg {
     let mut svg = Svg::new(760.0, 420.0);
     let frame = Frame::linear(70.0, 24.0, 380.0, 340.0, TIMES, ERRORS).log_x().log_y();

@@ -1,4 +1,4 @@
-//! The same hops by other people's software, side by side in one run.
+//! The same hops by heyoka, SciPy, numba and this repository, in one run on one machine.
 
 mod compare;
 mod figure;

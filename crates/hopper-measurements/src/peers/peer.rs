@@ -1,17 +1,17 @@
-//! How one of the compared programs did.
+//! Time and error of one of the compared programs.
 
-/// How one of them did.
+/// Time and error of one program.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Peer {
     pub(crate) name: String,
-    /// One of ours.
+    /// True for a method of this repository.
     pub(crate) ours: bool,
     /// Seconds for a hop.
     pub(crate) seconds: f64,
     /// Hops compared with the reference.
     pub(crate) compared: usize,
-    /// Grounded wrongly, or not.
+    /// Hops that are grounded in the reference alone, or in this program alone.
     pub(crate) wrong: usize,
-    /// Relative errors: median and worst; nothing where no speed is given.
+    /// Relative errors of α′, median and worst; `None` if the program gives no α′ at all.
     pub(crate) errors: Option<(f64, f64)>,
 }

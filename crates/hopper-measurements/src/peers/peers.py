@@ -2,11 +2,11 @@
 
 python peers.py hops.json results.json
 
-A hop is its landings, each the first zero of the height after the take-off; between them, and from the
-last landing to the lift-off speed, the closed forms of collision and contact, the same for every peer. The
-flight is integrated in stretch s and momentum coordinate P, s'' = -s, P'' = -1, height P - s. The height has a
-double or triple zero at the take-off, which no peer can start from: they start a little later, from the
-closed form.
+Each program finds the landings of a hop: a landing is the first zero of the height after the take-off. The
+collisions, and the contact phase after the last landing, have closed forms that are the same for all programs.
+The flight is integrated in the stretch s and the momentum coordinate P: s'' = -s, P'' = -1, height P - s. The
+height has a double or triple zero at the take-off, and no program can start there. All of them start a little
+later, from the closed form.
 """
 
 import json
@@ -20,7 +20,7 @@ import numpy
 import scipy
 from scipy.integrate import solve_ivp
 
-LATEST = 1.0e3  # no flight of these hops lasts that long
+LATEST = 1.0e3  # longer than any flight of these hops
 
 
 def start(x, v, later):

@@ -1,19 +1,22 @@
-//! A Python with the peers' packages, in a virtual environment of its own.
+//! A Python interpreter with the compared packages, in a virtual environment of its own.
 
 use crate::error::Error;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The versions that are compared with.
+/// The compared versions, fixed so that two runs measure the same software.
 const PACKAGES: [&str; 4] = ["heyoka==7.13.2", "scipy==1.17.1", "numba==0.68.1", "numpy==2.4.6"];
 
-/// An interpreter that has them all.
+/// An interpreter that has all of [`PACKAGES`].
 #[derive(Debug, Clone)]
 pub(crate) struct Python(PathBuf);
 
 impl Python {
-    /// The environment in `folder`, made with the interpreter `python` and filled if need be.
+    /// The environment in `folder`.
+    ///
+    /// The interpreter `python` makes it, unless an earlier run has made it with the same packages: a note in the
+    /// environment names the packages and is written last, so that a broken installation has none.
     pub(crate) fn with_packages(python: &str, folder: &Path) -> Result<Self, Error> {
         let environment = folder.join("venv");
         let inside =
@@ -23,7 +26,7 @@ impl Python {
         if std::fs::read_to_string(&note).is_ok_and(|text| text == wanted) {
             return Ok(Python(inside));
         }
-        // It takes a while: 700 MB.
+        // The packages are about 700 MB; without this line the program would be silent for minutes.
         let _ = writeln!(std::io::stderr(), "installing {wanted} in {}", environment.display());
         let make = ["-m", "venv", "--clear", &environment.to_string_lossy()].map(str::to_owned);
         call(
@@ -40,7 +43,7 @@ impl Python {
         Ok(Python(inside))
     }
 
-    /// Runs a script.
+    /// Runs a script with these arguments.
     pub(crate) fn run(&self, script: &str, arguments: &[&Path]) -> Result<(), Error> {
         let mut words = vec!["-c".to_owned(), script.to_owned()];
         words.extend(arguments.iter().map(|path| path.to_string_lossy().into_owned()));
@@ -48,7 +51,7 @@ impl Python {
     }
 }
 
-/// Runs a program to its end; what it complained of is part of the error.
+/// Runs a program to its end. The last lines of its messages are part of the error.
 fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
     let reason = |why: String| Error::Peers { reason: format!("{what} ({why})") };
     let output = Command::new(program)
@@ -58,10 +61,11 @@ fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
     if output.status.success() {
         return Ok(());
     }
-    // Some complain where others print.
+    // pip and venv write some of their errors to standard output.
     let silent = output.stderr.trim_ascii().is_empty();
     let complaint = if silent { &output.stdout } else { &output.stderr };
     let complaint = String::from_utf8_lossy(complaint.trim_ascii());
+    // The cause comes last; three lines hold it without filling the screen.
     let last: Vec<_> = complaint.lines().rev().take(3).collect();
     let last = last.into_iter().rev().collect::<Vec<_>>().join(" / ");
     Err(reason(format!("{}: {}, {last}", program.display(), output.status)))

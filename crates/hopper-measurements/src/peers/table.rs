@@ -1,4 +1,4 @@
-//! The peers as a table and as CSV.
+//! The compared programs as a table and as CSV.
 
 use super::peer::Peer;
 use crate::error::Error;
@@ -7,7 +7,7 @@ use journal_figures::{DataFile, csv_text};
 use std::fmt::Write;
 use std::time::Duration;
 
-/// The slowest first; ratios to the last, the fastest of ours.
+/// A table with the slowest program first; ratios are to the fastest one.
 pub(crate) fn markdown(peers: &[Peer]) -> String {
     let fastest = fastest(peers);
     let mut out = String::from(
@@ -18,6 +18,7 @@ pub(crate) fn markdown(peers: &[Peer]) -> String {
         let Peer { name, seconds, compared, wrong, errors, .. } = peer;
         let time = duration(Duration::from_secs_f64(*seconds));
         let ratio = seconds / fastest;
+        // Two digits: 9.95 is where one decimal would round to 10.0.
         let ratio = if ratio < 9.95 { format!("{ratio:.1}") } else { format!("{ratio:.0}") };
         let (median, worst, wrong, compared) = match errors {
             Some((median, worst)) => {
@@ -33,7 +34,7 @@ pub(crate) fn markdown(peers: &[Peer]) -> String {
     out
 }
 
-/// Seconds for a hop by the fastest.
+/// Seconds for a hop by the fastest program.
 fn fastest(peers: &[Peer]) -> f64 {
     peers.iter().map(|peer| peer.seconds).fold(f64::INFINITY, f64::min)
 }
@@ -44,7 +45,7 @@ fn sorted(peers: &[Peer]) -> Vec<&Peer> {
     sorted
 }
 
-/// One line a peer.
+/// One line for each program.
 pub(crate) fn csv(peers: &[Peer]) -> Result<DataFile, Error> {
     let fastest = fastest(peers);
     let header = [

@@ -1,16 +1,21 @@
-//! Hops of the paper's window, one by one and many at once.
+//! Hops of the paper's window, one by one and many in one call.
 
 use crate::error::Error;
-use crate::reference::{Hop, LIMIT, window_hops};
+use crate::reference::{Hop, window_hops};
 use crate::timing::median_seconds;
 use hopper_basin::first_humps;
+use hopper_reference::UNITS_PER_FLIGHT;
 use passive_hopper::{LiftOffMap, MassRatio};
 
-/// Mass ratios, and speeds for each, of the set that is timed.
+/// Numbers of mass ratios and of speeds for each in the timed set: 65 536 different hops, too many for a branch
+/// predictor to learn by heart.
 const MAPS: usize = 64;
 const SPEEDS: usize = 1024;
 
-/// The paper's window as its class has it: M in [0.05, 20], log-uniform, α in [α*_1, α*_6].
+/// Hops in the paper's window, distributed as in the reference file: M log-uniform in [0.05, 20], α uniform in
+/// [α*₁, α*₆].
+///
+/// Multiples of 1/φ (φ² = φ + 1) and of 1/ρ (ρ³ = ρ + 1) modulo 1 fill an interval evenly, without random numbers.
 fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
     let (low, high) = (first_humps(5).left, first_humps(5).right);
     let part = |k: usize, step: f64| (k as f64 * step).fract();
@@ -24,7 +29,7 @@ fn window_maps() -> Vec<(LiftOffMap, Vec<f64>)> {
         .collect()
 }
 
-/// Single hops against the reference, and hops at once against single ones.
+/// Compares single hops with the reference, and hops in one call with single ones.
 pub(super) fn check() -> Result<String, Error> {
     let hops = window_hops()?;
     for hop in &hops {
@@ -34,7 +39,9 @@ pub(super) fn check() -> Result<String, Error> {
         let found = map.image(hop.alpha)?;
         let right = many.iter().all(|image| *image == found)
             && match (found, hop.next) {
-                (Some(found), Some(exact)) => (found - exact).abs() <= hop.allowed(LIMIT),
+                (Some(found), Some(exact)) => {
+                    (found - exact).abs() <= hop.allowed(UNITS_PER_FLIGHT)
+                }
                 (None, None) => true,
                 _ => false,
             };
@@ -55,7 +62,7 @@ pub(super) fn check() -> Result<String, Error> {
     Ok(format!("{} reference hops; {} at once bit for bit", hops.len(), MAPS * SPEEDS))
 }
 
-/// The sum of what the landings of a hop take, and their number, against the reference.
+/// Compares the number of landings of each hop, and the sum of the energies that they take, with the reference.
 pub(super) fn check_landings() -> Result<String, Error> {
     let mut count = 0;
     for hop in &window_hops()? {
@@ -65,9 +72,10 @@ pub(super) fn check_landings() -> Result<String, Error> {
         let next_speed_squared = hop.alpha * hop.alpha - hop.mass_ratio.mu() * squares;
         let right = landings.len() == 1 + hop.sudden
             && match hop.next {
-                // An error of α′ is half of one of α′², over α′.
+                // α′² = α² − μ Σ v²: an error e of α′ is an error 2α′e of α′².
                 Some(next) => {
-                    (next_speed_squared - next * next).abs() <= 2.0 * next * hop.allowed(LIMIT)
+                    (next_speed_squared - next * next).abs()
+                        <= 2.0 * next * hop.allowed(UNITS_PER_FLIGHT)
                 }
                 None => next_speed_squared < 0.0,
             };
@@ -84,17 +92,17 @@ fn wrong(hop: &Hop, found: &impl std::fmt::Debug) -> Error {
     Error::CheckFailed(format!("M = {m}, α = {alpha}: {found:?}"))
 }
 
-/// A hop by `LiftOffMap::image`.
+/// Seconds for a hop by `LiftOffMap::image`.
 pub(super) fn scalar_time() -> f64 {
     let maps = window_maps();
-    // Mass ratios and speeds mixed, so that nothing is learnt from the hop before.
+    // Neighbouring calls have different M and α, so that a branch predictor cannot use the call before.
     median_seconds(MAPS * SPEEDS, |k| {
         let (map, speeds) = &maps[k % MAPS];
         map.image(speeds[k / MAPS])
     })
 }
 
-/// A hop by `LiftOffMap::images`, on one core.
+/// Seconds for a hop by `LiftOffMap::images`, on one core.
 pub(super) fn bulk_time() -> f64 {
     let maps = window_maps();
     let buffer = std::cell::RefCell::new(vec![None; SPEEDS]);
@@ -108,7 +116,7 @@ pub(super) fn bulk_time() -> f64 {
     }) / SPEEDS as f64
 }
 
-/// A landing by `LiftOffMap::landings`, which gives its time and state.
+/// Seconds for a landing by `LiftOffMap::landings`, which gives the time and the state.
 pub(super) fn landing_time() -> f64 {
     let maps = window_maps();
     let landings = |k: usize| {

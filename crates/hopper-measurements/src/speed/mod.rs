@@ -1,4 +1,4 @@
-//! The figures of speed: every one is measured after its output was compared with the reference.
+//! The figures of speed. Each is measured after its output was compared with the reference.
 
 mod hops;
 mod rasters;
@@ -8,25 +8,27 @@ use crate::timing::sin_cos_seconds;
 use repository_tools::Progress;
 use std::time::Duration;
 
-/// A figure.
+/// A figure of speed.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Measured {
     pub(crate) name: &'static str,
     pub(crate) value: f64,
     pub(crate) unit: &'static str,
-    /// What its output was compared with.
+    /// The reference that its output was compared with.
     pub(crate) checked: String,
 }
 
-/// Repeats of a raster, of which the median is taken.
+/// Repeats of a raster, of which the median counts. A raster takes some 60 ms, so that fifteen take a second; the
+/// median then ignores up to seven repeats that another process disturbed.
 const REPEATS: usize = 15;
 
-/// All figures, in one run.
+/// All figures, measured in one run.
 pub(crate) fn measure(progress: &Progress) -> Result<Vec<Measured>, Error> {
     let bar = progress.bar("speed", 4);
     let (checked, landings) = (hops::check()?, hops::check_landings()?);
     bar.set(1);
-    // A processor that has just woken up is slower: the unit is taken around what it is compared with.
+    // A processor runs slower just after it was idle. The unit is therefore measured before and after the hops, and
+    // the smaller time counts.
     let before = sin_cos_seconds();
     let (scalar, bulk, landing) = (hops::scalar_time(), hops::bulk_time(), hops::landing_time());
     let unit = before.min(sin_cos_seconds());

@@ -10,9 +10,10 @@ use repository_tools::Bar;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+/// Pixels along each side: a megapixel, the size that the documents speak of.
 const SIDE: usize = 1024;
 
-/// The window of Fig. 6 from M = 0.1 on, and that of Fig. 9.
+/// The window of Fig. 6 from M = 0.1 on, or the window of Fig. 9.
 fn grid(figure: u8, side: usize) -> Result<Grid, Error> {
     let (x, y) = match figure {
         6 => ((0.1, 1.0), (first_humps(5).left, first_humps(5).right)),
@@ -26,7 +27,7 @@ fn raster(grid: Grid) -> Result<LabelImage, Error> {
     Ok(basin_raster(grid, |_| ControlFlow::Continue(()))?)
 }
 
-/// The median time of a raster, all of whose pixels are the fates of their middles, and the raster.
+/// The median time of a raster, and the raster. Every pixel is first compared with the fate of its centre.
 fn checked_time(figure: u8, side: usize) -> Result<(Duration, LabelImage), Error> {
     let grid = grid(figure, side)?;
     let image = raster(grid)?;
@@ -55,7 +56,7 @@ fn time(grid: Grid) -> Result<Duration, Error> {
     Ok(median(times.collect::<Result<_, Error>>()?))
 }
 
-/// All figures of rasters.
+/// The figures of rasters.
 pub(super) fn measure(bar: &Bar) -> Result<Vec<Measured>, Error> {
     let figure = |name, value, unit: &'static str, checked: &str| Measured {
         name,

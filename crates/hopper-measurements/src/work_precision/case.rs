@@ -1,9 +1,9 @@
-//! A hop to be computed, with its exact answer, and what a method answers.
+//! A hop to be computed with its exact result, and the result of a method.
 
 use crate::reference::Hop;
 use passive_hopper::{FixedPointSpeed, MassRatio, index_below};
 
-/// What of a hop is compared.
+/// The quantity that is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Quantity {
     /// α′.
@@ -14,21 +14,21 @@ pub(crate) enum Quantity {
     Offset,
 }
 
-/// An input with its exact answer.
+/// An input with its exact result.
 #[derive(Debug, Clone)]
 pub(crate) struct Case {
     pub(crate) mass_ratio: MassRatio,
-    /// The lift-off speed; for a start near a fixed point the nearest `f64`.
+    /// The lift-off speed. For a start near a fixed point it is the `f64` nearest to α*_n + δ.
     pub(crate) alpha: f64,
-    /// (n, δ) with α = α*_n + δ; nothing below π.
+    /// (n, δ) with α = α*_n + δ; `None` below π, where there is no fixed point.
     pub(crate) local: Option<(u64, f64)>,
     pub(crate) sudden: Option<usize>,
-    /// The exact quantity; nothing if the hopper is grounded.
+    /// The exact quantity; `None` if the hopper is grounded.
     pub(crate) exact: Option<f64>,
 }
 
 impl Case {
-    /// Of a reference hop.
+    /// The case of a reference hop.
     pub(crate) fn of(hop: &Hop) -> Self {
         let (mass_ratio, alpha) = (hop.mass_ratio, hop.alpha);
         let (sudden, exact) = (Some(hop.sudden), hop.next);
@@ -36,18 +36,20 @@ impl Case {
     }
 }
 
-/// What a method says of a hop.
+/// The result of a method.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Answer {
+    /// α′; `None` if the method finds the hopper grounded.
     pub(crate) next: Option<f64>,
-    /// The loss, if the method knows it better than as a difference.
+    /// α − α′, if the method computes it without the difference.
     pub(crate) loss: Option<f64>,
-    /// α′ − α*_n, if the method knows it better than as a difference.
+    /// α′ − α*_n, if the method computes it without the difference.
     pub(crate) offset: Option<f64>,
     pub(crate) sudden: Option<usize>,
 }
 
-/// The fixed point in whose cell (nπ, (n+1)π) `alpha` lies, and the offset from it.
+/// The n of the interval (nπ, (n+1)π) that holds `alpha`, and the offset from α*_n, which lies in it; `None`
+/// below π.
 pub(super) fn cell(alpha: f64) -> Option<(u64, f64)> {
     let below = index_below(alpha).ok()?;
     let n = if alpha > (below + 1) as f64 * std::f64::consts::PI { below + 1 } else { below };

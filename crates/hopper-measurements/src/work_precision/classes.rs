@@ -9,7 +9,7 @@ use repository_tools::repository;
 /// Where the files of hops lie in the repository.
 const HOPS: &str = "crates/passive-hopper/tests/data";
 
-/// Inputs of a kind.
+/// Inputs of one kind.
 #[derive(Debug, Clone)]
 pub(crate) struct Class {
     pub(crate) name: String,
@@ -36,7 +36,7 @@ pub(super) fn classes() -> Result<Vec<Class>, Error> {
 
 fn case(line: Line) -> Option<(String, Quantity, Case)> {
     match line {
-        // Its α′ rounds to α: the losses are judged instead.
+        // Here α′ rounds to α, and every method would look exact. The losses of the same hops are compared instead.
         Line::Hop(hop) if hop.class == "tiny_alpha" => None,
         Line::Hop(hop) => {
             let case = Case::of(&hop);
@@ -63,7 +63,7 @@ fn case(line: Line) -> Option<(String, Quantity, Case)> {
             };
             Some(("tiny_alpha".into(), Quantity::Loss, case))
         }
-        _ => None, // not about single hops
+        _ => None, // lines about fates, fixed points and trapping regions
     }
 }
 

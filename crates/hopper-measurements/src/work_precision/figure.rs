@@ -5,12 +5,13 @@ use super::score::Score;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, decades};
 use std::time::Duration;
 
-/// Errors below are drawn here: exact, or nearly.
-const FLOOR: f64 = 1e-17;
-const ERRORS: (f64, f64) = (FLOOR, 1e2);
+/// Range of the vertical axis. Errors outside are drawn on its ends: exact results at 1e-17, below half an ulp,
+/// and results without a right digit at 1e2.
+const ERRORS: (f64, f64) = (1e-17, 1e2);
+/// Range of the horizontal axis, in seconds a hop: from a single formula to an integration at 1e-12.
 const TIMES: (f64, f64) = (1e-9, 1e-1);
 
-/// The look of a method.
+/// The marker, the colour and the name of a method.
 fn look(method: Method) -> (Marker, &'static str, &'static str) {
     match method {
         Method::Stable => (Marker::Disc, "#000000", "stable form"),
@@ -26,7 +27,7 @@ fn look(method: Method) -> (Marker, &'static str, &'static str) {
     }
 }
 
-/// The name of a class as a title.
+/// The title of a class.
 fn title(class: &str) -> &str {
     match class {
         "window" => "the paper’s window",
@@ -43,7 +44,8 @@ fn title(class: &str) -> &str {
     }
 }
 
-/// The drawing.
+/// The drawing: the paper's window in a large panel, the hard classes in small ones. `unit` is the time of one
+/// `sin_cos`.
 pub(crate) fn work_precision_figure(scores: &[Score], unit: Duration) -> Svg {
     let mut svg = Svg::new(980.0, 660.0);
     let mut hard: Vec<&str> = Vec::new();
@@ -87,11 +89,11 @@ fn axes(svg: &mut Svg, frame: &Frame, named_y: bool, named_x: bool) {
     frame.axes(svg, &x_ticks, &y_ticks, x_label, y_label);
 }
 
-/// The cost of one sine and cosine.
+/// A line at the time of one sine and cosine.
 fn unit_line(svg: &mut Svg, frame: &Frame, unit: Duration, named: bool) {
     let seconds = unit.as_secs_f64();
     if seconds < TIMES.0 {
-        // To the left of the frame.
+        // The line would lie to the left of the frame.
         return;
     }
     let x = frame.at((seconds, 1.0)).0;

@@ -1,21 +1,24 @@
 //! The lift-off map as a return map of the hopper as a hybrid system.
 
 use super::case::{Answer, Case};
-use hybrid_system::{Event, Guard, HybridSystem, Limits, Reset, State, Stop};
+use hybrid_system::{Event, HybridSystem, Limits, Searched, State, Stop};
 use nalgebra::SVector;
 use passive_hopper::{Hopper, HopperState, HopperSurface, Phase};
 use return_map::{Error, ReturnMap, Section};
 
-/// Interval of the search for guards.
-pub(crate) const INTERVAL: f64 = 0.02;
+/// Interval at which the search samples a guard.
+///
+/// Fifty samples a radian of the spring's motion. A smaller interval costs time in proportion; a larger one steps over
+/// a guard that is negative for less than it.
+const INTERVAL: f64 = 0.02;
 
-/// A search over more samples than this is refused.
+/// A search over more samples is refused, so that the largest α do not hold up all others.
 const MOST_SAMPLES: f64 = 1e5;
 
-/// Events that one hop may take.
+/// Largest number of events in a hop; past it the hop is refused. The reference hops have up to 7831.
 const EVENTS: usize = 10_000;
 
-/// Gradual lift-offs by their speed α.
+/// The section of gradual lift-offs, with the speed α as coordinate.
 struct GradualLiftOff;
 
 impl<T> Section<T, 4, 1> for GradualLiftOff
@@ -30,36 +33,17 @@ where
     }
 }
 
-/// The hopper without its own landings and lift-offs: only flows, guards and resets.
-struct Searched(Hopper);
-
-impl HybridSystem<4> for Searched {
-    type Mode = Phase;
-    type Surface = HopperSurface;
-    fn flow(&self, phase: Phase, start: &State<4>, time: f64) -> State<4> {
-        self.0.flow(phase, start, time)
-    }
-    fn guards(&self, phase: Phase) -> &[Guard<HopperSurface>] {
-        self.0.guards(phase)
-    }
-    fn guard_value(&self, surface: HopperSurface, state: &State<4>) -> f64 {
-        self.0.guard_value(surface, state)
-    }
-    fn reset(&self, phase: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
-        self.0.reset(phase, surface, before)
-    }
-}
-
-/// By the model's own landings.
+/// The hop by the landings that the model solves.
 pub(super) fn exact_landings(case: &Case) -> Option<Answer> {
     let hopper = Hopper::new(case.mass_ratio);
     answer(&hopper, Limits::new(f64::INFINITY, EVENTS), case)
 }
 
-/// By sampling guards along the flows.
+/// The hop by sampled guards along the flows.
 pub(super) fn searched_landings(case: &Case) -> Option<Answer> {
-    // Long enough for the flights of all but the longest chains, and for a turn of the contact phase:
-    // no lift-off by then counts as grounded, as it must for a search that knows nothing.
+    // A flight from α takes about 2α; ten times α + 10 holds all but the longest chains of sudden lift-offs. The
+    // contact phase has the period 2π/√κ. The search has no theory that excludes a later lift-off: one that has
+    // not come by then counts as grounded.
     let contact = std::f64::consts::TAU / case.mass_ratio.kappa().sqrt();
     let horizon = 10.0 * (case.alpha + 10.0) + contact;
     if horizon > MOST_SAMPLES * INTERVAL {
@@ -75,7 +59,7 @@ where
 {
     let returns = ReturnMap::new(hopper, &GradualLiftOff, limits);
     match returns.next(&SVector::<f64, 1>::new(case.alpha)) {
-        // Landings and the lift-off; all landings but the last are sudden lift-offs.
+        // The events are the landings and the gradual lift-off. All landings but the last are sudden lift-offs.
         Ok(back) => Some(Answer {
             next: Some(back.coordinates[0]),
             sudden: back.events.checked_sub(2),

@@ -1,4 +1,4 @@
-//! The ways to compute a hop.
+//! The methods that compute a hop.
 
 use super::case::{Answer, Case};
 use super::hybrid_hopper::{exact_landings, searched_landings};
@@ -10,7 +10,7 @@ use hopper_asymptotics::{
 use passive_hopper::{FixedPointSpeed, LiftOffMap, printed_image};
 use std::time::Duration;
 
-/// One of them.
+/// A method.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Method {
     /// `LiftOffMap::hop`.
@@ -19,19 +19,19 @@ pub(crate) enum Method {
     AtOnce,
     /// `LiftOffMap::hop_near_fixed_point`.
     Local,
-    /// Expansions, inside their ranges.
+    /// The expansions near fixed points and for small α, inside their ranges.
     Asymptotics,
-    /// `printed_image`.
+    /// `printed_image`: the equations as the paper prints them.
     Printed,
-    /// The hybrid system with its own landings.
+    /// The hybrid system, whose landings the model solves.
     HybridExact,
-    /// The hybrid system with landings and lift-offs searched for at an interval.
+    /// The hybrid system, whose landings and lift-offs are searched for by sampling the guards.
     HybridSearched,
-    /// The differential equations at a tolerance of 10^−k.
+    /// The differential equations, integrated at a tolerance of 10^−k.
     Integrated(u8),
 }
 
-/// All of them, the cheapest first.
+/// All methods, the cheapest first.
 pub(crate) const ALL: &[Method] = &[
     Method::Asymptotics,
     Method::AtOnce,
@@ -53,7 +53,7 @@ pub(crate) const ALL: &[Method] = &[
 ];
 
 impl Method {
-    /// Its name in tables.
+    /// The name in tables.
     pub(crate) fn name(self) -> String {
         match self {
             Method::Stable => "stable form".into(),
@@ -67,7 +67,7 @@ impl Method {
         }
     }
 
-    /// The hop; nothing where the method refuses.
+    /// The hop; `None` where the method refuses the input.
     pub(crate) fn hop(self, case: &Case) -> Option<Answer> {
         let map = LiftOffMap::new(case.mass_ratio);
         match self {
@@ -77,7 +77,7 @@ impl Method {
                 Some(Answer { next, loss, offset: None, sudden })
             }
             Method::AtOnce => {
-                // Enough of them to be taken at once.
+                // From 16 hops on the map computes them together; 32 fill whole vectors on any processor.
                 let mut hops = [(&map, Some(case.alpha)); 32];
                 LiftOffMap::images_of_pairs(&mut hops).ok()?;
                 Some(Answer { next: hops[0].1, ..Answer::default() })
@@ -101,7 +101,7 @@ impl Method {
         }
     }
 
-    /// The time of a hop.
+    /// The median time of a hop over these cases.
     pub(crate) fn time(self, cases: &[&Case]) -> Duration {
         if self != Method::AtOnce {
             return median_time(cases.len(), |k| self.hop(cases[k]).and_then(|a| a.next));
@@ -115,7 +115,10 @@ impl Method {
         median_time(1, |_| all()) / cases.len() as u32
     }
 
-    /// A bound on its relative error on a plain hop, for the test that each does what it should.
+    /// A bound on the relative error for a hop without a sudden lift-off and far from every fixed point.
+    ///
+    /// Chosen by measurement on the hop of the test that uses it. An integration may err by a hundred times its
+    /// tolerance, which holds for one step.
     #[cfg(test)]
     pub(crate) fn expected_error(self) -> f64 {
         match self {
@@ -135,7 +138,7 @@ fn asymptotics(case: &Case) -> Option<Answer> {
         return Some(Answer { next: Some(alpha - loss), loss: Some(loss), ..Answer::default() });
     }
     let (n, delta) = case.local?;
-    // Outside any range nothing has to be prepared.
+    // Outside the ranges the method refuses before it computes any coefficient, so that refusing takes no time.
     if !(-LEFT_RANGE..=RIGHT_RANGE).contains(&delta) {
         return None;
     }

@@ -1,19 +1,23 @@
-//! The hopper by an integrator: nothing known but the equations of motion, the guards and the resets.
+//! The hopper by an integrator that knows the equations of motion, the guards and the resets only.
 
 use super::case::{Answer, Case};
 use hybrid_system::{Integration, State, Tolerances, bracketed_root};
 use nalgebra::{Vector2, Vector4};
 
-/// Places inside a step at which a guard is looked at.
+/// Points inside a step at which a guard is evaluated.
+///
+/// A step is about one radian. Eight points see every dip of a guard that is longer than an eighth of that; a
+/// shorter one is missed, and the hop counts as wrong.
 const LOOKS: u32 = 8;
 
-/// Steps that one phase may take, and flights that one hop may have.
+/// Largest numbers of steps in a phase and of flights in a hop. Beyond them the method refuses: a single hop would
+/// take seconds.
 const STEPS: usize = 20_000;
 const FLIGHTS: usize = 100;
 
-/// The hop by integration at a tolerance; nothing if the integration fails or takes too long.
+/// The hop by integration at a tolerance; `None` if the integration fails or needs too many steps.
 pub(super) fn integrated_hop(case: &Case, tolerance: f64) -> Option<Answer> {
-    // A step is about one radian: longer flights would use up the steps.
+    // A flight from α takes about 2α and a step is about one radian: a longer flight would use up the steps.
     if case.alpha > STEPS as f64 {
         return None;
     }
@@ -39,7 +43,7 @@ pub(super) fn integrated_hop(case: &Case, tolerance: f64) -> Option<Answer> {
     None
 }
 
-/// The state at which a component falls through zero, after it was positive.
+/// The state at which a component falls through zero after it was positive; `None` if a step fails.
 fn falls<F>(mut motion: Integration<F, 4>, component: usize) -> Option<State<4>>
 where
     F: Fn(f64, &State<4>) -> State<4>,
@@ -59,12 +63,13 @@ where
                 _ => {}
             }
         }
-        // Within the next step, brackets start at its beginning.
+        // An interpolant holds on its own step only: the next bracket starts where the next step does.
         last_positive = last_positive.map(|_| to);
     }
 }
 
-/// The speed at which the upper mass comes up through 1; nothing if it turns round before.
+/// The speed at which the upper mass rises through 1. The inner `None` is a grounded hopper: the mass turns before 1.
+/// The outer `None` is a failed step.
 fn lift_off<F>(mut motion: Integration<F, 2>) -> Option<Option<f64>>
 where
     F: Fn(f64, &State<2>) -> State<2>,
@@ -81,7 +86,8 @@ where
                 return root(&mut motion, (before, time), |x| x[0] - 1.0).map(|x| Some(x[1]));
             }
             if last.1[1] > 0.0 && state[1] <= 0.0 {
-                // It turns between the looks: above 1?
+                // The mass turns between two points and is below 1 at both. Its peak may lie above 1: without this
+                // branch a hop of tiny α′ would count as grounded.
                 let peak = time_of(&mut motion, (before, time), |x| x[1])?;
                 if motion.at(peak).ok()?[0] < 1.0 {
                     return Some(None);

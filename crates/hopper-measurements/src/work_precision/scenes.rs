@@ -1,4 +1,4 @@
-//! What to model for which question, with time and error of each choice.
+//! Which model answers which question, with the time and the error of each.
 
 use super::methods::Method;
 use super::score::Score;
@@ -23,12 +23,12 @@ pub(crate) struct Scene {
     pub(crate) model: &'static str,
     pub(crate) call: &'static str,
     pub(crate) time: Duration,
-    /// What one time is for.
+    /// The unit of work that `time` is for.
     pub(crate) per: &'static str,
     pub(crate) error: String,
 }
 
-/// All scenes; those about single hops are taken from the scores.
+/// All scenes. Those about single hops take their numbers from the scores.
 pub(crate) fn scenes(scores: &[Score]) -> Result<Vec<Scene>, Error> {
     Ok([
         single_hops(scores),
@@ -37,6 +37,7 @@ pub(crate) fn scenes(scores: &[Score]) -> Result<Vec<Scene>, Error> {
     .concat())
 }
 
+/// Files of reference values, from the root of the repository.
 const ORBITS: &str = "crates/passive-hopper/tests/data/orbits.jsonl";
 const FATES: &str = "crates/hopper-basin/tests/data/fates.jsonl";
 const TRAPS: &str = "crates/hopper-basin/tests/data/local_basin.json";
@@ -108,7 +109,7 @@ fn slopes() -> Result<Scene, Error> {
     let mut errors = Vec::new();
     for (map, alpha, [by_speed, by_mass_ratio]) in &inputs {
         if let Some(slopes) = map.slopes(*alpha)? {
-            // Derivatives pass through zero: relative to the larger of them and 1.
+            // Derivatives pass through zero, where a relative error has no meaning: the scale is at least 1.
             let scale = by_speed.abs().max(by_mass_ratio.abs()).max(1.0);
             let off = (slopes.by_speed - by_speed).abs();
             errors.push(off.max((slopes.by_mass_ratio - by_mass_ratio).abs()) / scale);
@@ -187,7 +188,7 @@ fn decay() -> Result<Scene, Error> {
     })
 }
 
-/// Pictures of a motion: two arcs, with a hundred states along each.
+/// A picture of the motion: two arcs with a hundred states along each.
 fn motion() -> Result<Scene, Error> {
     const STATES: u32 = 100;
     let mut inputs = Vec::new();
@@ -253,6 +254,7 @@ fn fate() -> Result<Scene, Error> {
 }
 
 fn raster() -> Result<Scene, Error> {
+    /// Pixels along each side: enough for the cost a pixel of a picture, while a raster stays at some milliseconds.
     const SIDE: usize = 256;
     let grid = Grid { x: Interval::new(0.1, 1.0)?, y: first_humps(5), columns: SIDE, rows: SIDE };
     let image = || basin_raster(grid, |_| ControlFlow::Continue(()));

@@ -1,4 +1,4 @@
-//! How each method does on each class.
+//! Time and error of each method on each class.
 
 use super::case::{Answer, Case, Quantity};
 use super::classes::{Class, classes};
@@ -8,19 +8,20 @@ use passive_hopper::FixedPointSpeed;
 use repository_tools::Progress;
 use std::time::Duration;
 
-/// How a method did on a class.
+/// Time and error of a method on a class.
 #[derive(Debug, Clone)]
 pub(crate) struct Score {
     pub(crate) class: String,
     pub(crate) method: Method,
     pub(crate) cases: usize,
-    /// Inputs the method refused, with an error or because they are outside its range.
+    /// Inputs that the method refused, by an error or because they lie outside its range.
     pub(crate) refused: usize,
-    /// Answers with a wrong number of sudden lift-offs, or grounded wrongly or not.
+    /// Results with a wrong number of sudden lift-offs, and results that are grounded where the exact one is not,
+    /// or the reverse.
     pub(crate) wrong: usize,
-    /// Relative errors of the others: median and worst, if there are any.
+    /// Relative errors of all other results, median and worst; `None` if there are none.
     pub(crate) errors: Option<(f64, f64)>,
-    /// Median time for a hop, over passes through the answered inputs.
+    /// Median time of a hop, over passes through the inputs that the method did not refuse.
     pub(crate) time: Option<Duration>,
 }
 
@@ -51,7 +52,7 @@ fn score(class: &Class, method: Method) -> Score {
         match error(class.quantity, case, &answer) {
             None => wrong += 1,
             Some(Some(error)) => errors.push(error),
-            Some(None) => {} // grounded, rightly
+            Some(None) => {} // grounded, as it should be: there is no error to count
         }
     }
     errors.sort_by(f64::total_cmp);
@@ -68,7 +69,8 @@ fn score(class: &Class, method: Method) -> Score {
     }
 }
 
-/// The relative error; none of it for a hopper that is grounded, and nothing for a wrong verdict.
+/// The relative error of a result. `None` stands for a wrong verdict, `Some(None)` for a hopper that is rightly
+/// grounded.
 fn error(quantity: Quantity, case: &Case, answer: &Answer) -> Option<Option<f64>> {
     if answer.sudden.is_some_and(|sudden| case.sudden.is_some_and(|right| right != sudden)) {
         return None;
@@ -94,7 +96,7 @@ mod tests {
     use super::*;
     use passive_hopper::MassRatio;
 
-    /// Every method on a plain hop, 4.55 to 4.5 at M = 0.2: right to its own precision.
+    /// The hop from 4.55 at M = 0.2 has no sudden lift-off and ends near 4.5.
     #[test]
     fn methods_agree_on_a_plain_hop() {
         let alpha = 4.55;

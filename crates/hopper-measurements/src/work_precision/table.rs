@@ -1,6 +1,6 @@
 //! The scores as CSV and as tables of `docs/accuracy.md`.
 
-use super::methods::{ALL as METHODS, Method};
+use super::methods::Method;
 use super::scenes::Scene;
 use super::score::Score;
 use crate::error::Error;
@@ -9,12 +9,16 @@ use journal_figures::{DataFile, csv_text};
 use std::fmt::Write;
 use std::time::Duration;
 
-/// Methods in the tables: not every tolerance.
+/// Whether a method is in the tables: of the tolerances every third is, 1e-3, 1e-6, 1e-9 and 1e-12.
 fn shown(method: Method) -> bool {
     !matches!(method, Method::Integrated(k) if k % 3 != 0)
 }
 
-/// One line a class and method.
+/// The methods in the table of the hard classes: the two that this project recommends, the paper's own equations, and
+/// what a user of an ODE solver would do. The CSV file has all methods.
+const HARD: [Method; 4] = [Method::Stable, Method::Local, Method::Printed, Method::Integrated(9)];
+
+/// One line for each class and method.
 pub(crate) fn csv(scores: &[Score], unit: Duration) -> Result<DataFile, Error> {
     let header = [
         "class",
@@ -45,7 +49,8 @@ pub(crate) fn csv(scores: &[Score], unit: Duration) -> Result<DataFile, Error> {
     Ok(csv_text("work_precision.csv", &header, rows)?)
 }
 
-/// The paper's window in full, and the hard classes by their worst errors.
+/// A table of the paper's window with all numbers, and one of the hard classes for the methods in [`HARD`]. `unit` is
+/// the time of one `sin_cos`.
 pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
     let mut out = String::from(
         "| on the paper's window | time a hop | in `sin_cos` | median error | worst error | wrong | refused |\n\
@@ -72,7 +77,8 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
         );
     }
     out.push_str(
-        "\nThe hard classes: worst error, time a hop; then, if any, wrong verdicts and refused inputs.\n\n",
+        "\nThe hard classes: the worst error, then, if any, the wrong decisions and the refused inputs. All methods, with \
+         their times, are in [work_precision.csv](work_precision.csv).\n\n",
     );
     let mut classes: Vec<&str> = Vec::new();
     for score in scores.iter().filter(|s| s.class != "window") {
@@ -80,21 +86,23 @@ pub(crate) fn methods(scores: &[Score], unit: Duration) -> String {
             classes.push(&score.class);
         }
     }
-    let _ = writeln!(out, "| method | {} |", classes.join(" | "));
-    let _ = writeln!(out, "|---|{}", "---|".repeat(classes.len()));
-    for &method in METHODS.iter().filter(|&&method| shown(method)) {
-        let cells = classes.iter().map(|class| {
-            let score = scores.iter().find(|s| s.class == *class && s.method == method);
+    let names: Vec<String> = HARD.iter().map(|method| method.name()).collect();
+    let _ = writeln!(out, "| class | {} |", names.join(" | "));
+    let _ = writeln!(out, "|---|{}", "---|".repeat(HARD.len()));
+    for class in classes {
+        let cells = HARD.iter().map(|&method| {
+            let score = scores.iter().find(|s| s.class == class && s.method == method);
             score.map_or(String::new(), cell)
         });
-        let _ = writeln!(out, "| {} | {} |", method.name(), cells.collect::<Vec<_>>().join(" | "));
+        let _ = writeln!(out, "| {class} | {} |", cells.collect::<Vec<_>>().join(" | "));
     }
     out
 }
 
+/// A class and a method: the worst error, the wrong decisions and the refused inputs.
 fn cell(score: &Score) -> String {
-    let (Some((_, worst)), Some(time)) = (score.errors, score.time) else { return "–".into() };
-    let mut text = format!("{}, {}", digit(worst), duration(time));
+    let Some((_, worst)) = score.errors else { return "–".into() };
+    let mut text = digit(worst);
     if score.wrong > 0 {
         let _ = write!(text, ", {} wrong", score.wrong);
     }
@@ -104,7 +112,7 @@ fn cell(score: &Score) -> String {
     text
 }
 
-/// Which question needs which model.
+/// The table of questions and models.
 pub(crate) fn scenes(scenes: &[Scene]) -> String {
     let mut out =
         String::from("| question | model only | call | time | error |\n|---|---|---|---:|---|\n");
@@ -120,8 +128,10 @@ pub(crate) fn scenes(scenes: &[Scene]) -> String {
 mod tests {
     use super::*;
     use crate::text::replace_block;
+    use crate::work_precision::methods::ALL as METHODS;
 
-    /// The document has the blocks that the command fills, filled with all methods.
+    /// The document has the blocks that the command fills, and names every method of the tables. The CSV file beside it
+    /// has a line for each method of the window.
     #[test]
     fn the_document_is_filled() {
         let path = repository_tools::repository().join("docs/accuracy.md");
@@ -131,6 +141,13 @@ mod tests {
         }
         for method in METHODS.iter().filter(|&&method| shown(method)) {
             assert!(text.contains(&method.name()), "{}", method.name());
+        }
+        let lines = repository_tools::read(&path.with_file_name("work_precision.csv")).unwrap();
+        for method in METHODS {
+            let name = method.name();
+            // A name with a comma is quoted in the file.
+            let known = [format!("window,{name},"), format!("window,\"{name}\",")];
+            assert!(lines.lines().any(|line| known.iter().any(|k| line.starts_with(k))), "{name}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What the boundary of the basins is: countable, of dimension one quarter.
+//! The boundary of the basins: a countable set of box dimension one quarter.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{FractionWithBar, estimate, fates, hump, label};
@@ -13,18 +13,20 @@ use hopper_basin::hopper_basins;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::{LiftOffMap, MassRatio};
 
-/// The mass ratio of the paper's small measure.
+/// The mass ratio at which the paper measures 0.037: most of the window falls through the traps, so that the boundary
+/// is rich.
 const M: f64 = 0.2;
 
-/// Parts shorter than this, a hundred ulps of α, have no preimages drawn.
+/// Shortest part whose preimages are computed: a hundred ulps of α, below which roundings decide.
 const SHORTEST: f64 = 1e-13;
 
-/// Gaps shorter than this are roundings.
+/// Gaps between parts that are shorter than this count as roundings: ten of the shortest parts.
 const RESOLUTION: f64 = 1e-12;
 
-/// Humps that are counted.
+/// Humps whose boundary is counted.
 const HUMPS: [u64; 3] = [1, 2, 3];
 
+/// Marker and colour of each hump.
 const LOOKS: [(Marker, &str); 3] =
     [(Marker::Disc, "#22a672"), (Marker::Square, "#d03a2b"), (Marker::Triangle, "#1f4e96")];
 
@@ -38,7 +40,7 @@ fn basins() -> Result<IntervalBasins, Error> {
     Ok(hopper_basins(&fates(M)?, 1, 4, 400, refinement)?.basins)
 }
 
-/// Box counts with local slopes, and the accumulation at a fixed point.
+/// Box counts with their local slopes, and the accumulation at a fixed point.
 pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
     let basins = basins()?;
     let mut svg = Svg::new(860.0, 400.0);
@@ -66,7 +68,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
             .map(|k| count(pxfm::f_exp10(-10.0 + 0.5 * f64::from(k))))
             .collect::<Result<_, Error>>()?;
         let law = power_law(&counts)?;
-        // One slope a decade, over two half steps.
+        // Counts are half a decade apart: the mean of two local slopes is the slope over a decade.
         for (k, pair) in law.local.chunks(2).enumerate() {
             let [a, b] = *pair else { continue };
             let size = pxfm::f_exp10(-9.5 + k as f64);
@@ -146,15 +148,17 @@ fn fit(law: &PowerLaw) -> String {
 
 /// The fixed point at which generations are followed.
 const N: u64 = 2;
+/// Generations that are followed: enough for four decades of the approach to the law.
 const GENERATIONS: usize = 30_000;
 
-/// Distances left of α*_2 of the generations of one boundary point: its backward orbit, in (n, δ).
+/// The backward orbit of one boundary point towards α*₂ from the left, as distances from it.
 fn generations() -> Result<Vec<f64>, Error> {
     let map = LiftOffMap::new(MassRatio::new(M)?);
     let mut delta: f64 = 0.05;
     let mut generations = Vec::with_capacity(GENERATIONS);
     for _ in 0..GENERATIONS {
-        // The image −x − loss is farther from α* than −x: the x sought lies in (0, delta).
+        // A hop leads away from α* on this side: the preimage of −delta lies nearer, in (−delta, 0). The bisection
+        // ends where no number lies between its ends.
         let (mut near, mut far) = (0.0f64, delta);
         loop {
             let middle = 0.5 * (near + far);
@@ -171,7 +175,7 @@ fn generations() -> Result<Vec<f64>, Error> {
     Ok(generations)
 }
 
-/// Local slopes of the box count of one accumulation alone.
+/// Local slopes of the box count of one accumulation.
 fn single(svg: &mut Svg, frame: &Frame, generations: &[f64]) -> Result<(), Error> {
     let count = |size: f64| Ok((size, occupied_boxes(generations, 0.0, size)? as f64));
     let counts: Vec<(f64, f64)> = (0..=14)
@@ -193,7 +197,7 @@ fn single(svg: &mut Svg, frame: &Frame, generations: &[f64]) -> Result<(), Error
     Ok(())
 }
 
-/// How the generations follow their law.
+/// The generations divided by their law, (3/(10λk))³.
 fn accumulation(svg: &mut Svg, generations: &[f64]) -> Result<(), Error> {
     let lambda = Coefficients::new(N, MassRatio::new(M)?, Form::Corrected)?.lambda;
     let ratio = |k: usize| {
@@ -213,14 +217,14 @@ fn accumulation(svg: &mut Svg, generations: &[f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The uncertainty exponent, from plots' scales to fine ones.
+/// The uncertainty exponent, from the scales of a plot down to 10⁻¹⁰.
 pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
     let basins = basins()?;
     let window = basins.window();
     let fates = fates(M)?;
     let rows = job.scan("uncertain starts", 6, |k| {
         let epsilon = pxfm::f_exp10(-2.0 - k as f64);
-        // Rare ones need more points.
+        // Uncertain starts are rarer at a smaller ε: more points keep their relative error.
         let count = 50_000 << k.min(4);
         let share = uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
         Ok(vec![epsilon, share.value, share.lower, share.upper])

@@ -11,14 +11,16 @@ use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
-/// Boxes on the five humps, and starts in each.
+/// Boxes on the five humps, and starts in each box. Entropies of boxes depend on their size: 100 boxes a hump. With
+/// 100 starts an entropy of f fates comes out low by about (f − 1)/200.
 const BOXES: usize = 500;
 const STARTS: usize = 100;
 
-/// M, basin entropy, boundary entropy, mixed boxes.
+/// M, basin entropy, boundary entropy, number of mixed boxes.
 type Row = (f64, f64, f64, f64);
 
-/// The mean entropy over all boxes, and over mixed ones; and how many are mixed.
+/// The mean entropy over all boxes and over the mixed boxes, and the number of mixed boxes. A box is mixed if its
+/// starts have more than one fate.
 fn entropies(mass_ratio: f64) -> Result<(f64, f64, usize), Error> {
     let fates = fates(mass_ratio)?;
     let humps = (TO - FROM) as f64;
@@ -37,7 +39,7 @@ fn entropies(mass_ratio: f64) -> Result<(f64, f64, usize), Error> {
     Ok((sum / BOXES as f64, boundary, mixed.len()))
 }
 
-/// From M = 0.02 to 50.
+/// Entropies from M = 0.02 to 50.
 pub(super) fn entropy_of_basins(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(0.02, 50.0, 101);
     let scan = job.scan("entropies", ratios.len(), |k| {

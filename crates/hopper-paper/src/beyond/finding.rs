@@ -5,7 +5,7 @@ use crate::figure::Figure;
 /// A result.
 #[derive(Debug, Clone)]
 pub struct Finding {
-    /// Its figure, with the paper's claim and ours as texts.
+    /// Its figure, with the paper's statement and ours as texts.
     pub figure: Figure,
     /// Its table.
     pub table: Table,
@@ -16,7 +16,7 @@ pub struct Finding {
 pub struct Table {
     /// Names of the columns.
     pub header: Vec<String>,
-    /// Rows of as many cells.
+    /// Rows, with as many cells as the header.
     pub rows: Vec<Vec<String>>,
 }
 

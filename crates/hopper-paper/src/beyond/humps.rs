@@ -1,4 +1,4 @@
-//! How the basins repeat from hump to hump.
+//! The basins on each hump: their shares repeat from hump to hump.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{fates, hump, is_incessant};
@@ -10,10 +10,12 @@ use basin_of_attraction::Refinement;
 use hopper_basin::hopper_basins;
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
 
+/// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
+/// The last hump. The number of intervals grows with the hump, and six humps show the pattern.
 const LAST: u64 = 6;
 
-/// A share with what is undecided of the hump.
+/// A share of a hump, and the same with everything undecided added.
 type Share = (f64, f64);
 
 /// The share of each hump that each fixed point below attracts.
@@ -51,7 +53,7 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let mut svg = Svg::new(560.0, 430.0);
     let frame =
         Frame::linear(70.0, 20.0, 440.0, 350.0, (0.8, LAST as f64 + 0.2), (1e-4, 0.1)).log_y();
-    // Those of higher fixed points are in the data.
+    // Five curves: one for each colour. The sixth fixed point is in the data.
     for m in 1..=5u16 {
         let at = |n: u64| shares[n as usize - 1][usize::from(m) - 1];
         let points: Vec<_> = (u64::from(m)..=LAST).map(|n| (n as f64, at(n).0)).collect();

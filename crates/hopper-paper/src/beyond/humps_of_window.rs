@@ -5,7 +5,7 @@ use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{MassRatio, alpha_star};
 
-/// The first and the last fixed point of the paper's window.
+/// The first and the last fixed point of the paper's window, [`hopper_basin::first_humps`]`(5)`.
 pub(super) const FROM: u64 = 1;
 pub(super) const TO: u64 = 6;
 
@@ -13,7 +13,7 @@ pub(super) fn fates(mass_ratio: f64) -> Result<Fates, Error> {
     Ok(Fates::new(MassRatio::new(mass_ratio)?)?)
 }
 
-/// The label of a start; one of the undecided ones where none can be given.
+/// The label of a start; [`HopperFate::UNDECIDED_HOP`] if the fate cannot be computed.
 pub(super) fn label(fates: &Fates, alpha: f64) -> u16 {
     fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label)
 }
@@ -26,8 +26,9 @@ pub(super) fn hump(n: u64) -> Result<Interval, Error> {
     Ok(Interval::new(alpha_star(n), alpha_star(n + 1))?)
 }
 
-/// The humps of the window laid side by side, each with length one, as the paper weighs them: the
-/// speed at a place in [0, `TO` − `FROM`].
+/// The speed at a place in [0, `TO` − `FROM`], where each hump of the window has length one.
+///
+/// The paper gives each hump the same weight, whatever its length.
 pub(super) fn by_humps(place: f64) -> f64 {
     let whole = (place.floor() as u64).min(TO - FROM - 1);
     let (left, right) = (alpha_star(FROM + whole), alpha_star(FROM + whole + 1));
@@ -60,18 +61,18 @@ impl From<EquallySpacedFraction> for FractionWithBar {
     }
 }
 
-/// Three numbers of a scan: value, lower and upper end.
+/// The estimate in three numbers of a scan: value, lower and upper end.
 pub(super) fn estimate(three: &[f64]) -> FractionWithBar {
     FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
 }
 
-/// A share with its interval, in per cent.
+/// A share with the half width of its interval, in per cent. Small intervals get two digits more.
 pub(super) fn percent(share: &FractionWithBar) -> String {
     let digits = if share.half_width() > 5e-4 { 2 } else { 4 };
     format!("{:.digits$} ± {:.digits$} %", 100.0 * share.value, 100.0 * share.half_width())
 }
 
-/// A range with certain ends, in per cent.
+/// A share between bounds, in per cent.
 pub(super) fn bounds(share: &FractionWithBar) -> String {
     format!("{:.5} … {:.5} %", 100.0 * share.lower, 100.0 * share.upper)
 }

@@ -11,13 +11,16 @@ use crate::job::Job;
 use basin_of_attraction::{random_fractions, uncertain_fraction};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
+/// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
+/// Humps in equal factors. On hump 10 000 an orbit takes thousands of hops, and α has an ulp of 4e-12.
 const HUMPS: [u64; 5] = [1, 10, 100, 1000, 10_000];
-/// Starts on a hump: orbits from far up take thousands of hops.
+/// Random starts on a hump. Orbits from high humps take thousands of hops, so that fewer are affordable.
 fn starts(n: u64) -> usize {
     if n > 100 { 2_000 } else { 20_000 }
 }
 
+/// Marker of each hump.
 const LOOKS: [Marker; 5] =
     [Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge];
 

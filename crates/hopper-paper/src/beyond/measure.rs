@@ -1,4 +1,4 @@
-//! The measure of each basin against the mass ratio, and how M and 1/M differ.
+//! The measure of each basin against the mass ratio, and the difference between M and 1/M.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{
@@ -17,31 +17,36 @@ use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
 use std::collections::BTreeMap;
 
-/// Mass ratios.
+/// Smallest and largest mass ratio and their number, in equal factors: 1/50 to 50, so that each has its inverse.
 const RATIOS: (f64, f64, usize) = (0.02, 50.0, 121);
 
-/// Up to here a hop has at most one sudden lift-off, and basins are computed as intervals; beyond, by
-/// replicates of golden rotations.
+/// Largest mass ratio at which basins are computed as intervals. Up to it a hop has at most one sudden lift-off, so
+/// that its branches are known; beyond it shares are estimated from points.
 const BY_INTERVALS: f64 = 0.905;
+/// Shortest interval whose preimages are computed. What is shorter widens the bounds of the measure.
 const SHORTEST: f64 = 1e-7;
+/// Points of a golden rotation, and rotations with random starts. Together 64 000 points, about the 50 000 of the
+/// paper; sixteen replicates give a 95 % interval.
 const POINTS: usize = 4000;
 const REPLICATES: usize = 16;
+/// Seed of the random starts. Any number serves; another one changes the data within their intervals.
 const SEED: u64 = 2002;
 
-/// The label under which all incessant ones are counted together.
+/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000 or among the
+/// last four of `u16`: this one lies between and is no fate.
 const ALL: u16 = HopperFate::UNDECIDED - 10;
 
-/// Labels in the order of the data.
+/// Labels in the order of the columns of the data.
 const LABELS: [u16; 8] = [1, 2, 3, 4, 5, ALL, 0, HopperFate::GROUNDED];
 
 type BasinFractions = BTreeMap<u16, FractionWithBar>;
 
-/// The window as one interval, each hump one unit of it.
+/// The window as an interval in which each hump has length one.
 fn window() -> Result<Interval, Error> {
     Ok(Interval::new(0.0, (TO - FROM) as f64)?)
 }
 
-/// BasinFractions of all labels, and of all incessant ones together.
+/// Basin fractions of all labels, and of all incessant fates together.
 fn basin_fractions(mass_ratio: f64) -> Result<BasinFractions, Error> {
     let fates = fates(mass_ratio)?;
     if mass_ratio <= BY_INTERVALS {
@@ -54,7 +59,7 @@ fn basin_fractions(mass_ratio: f64) -> Result<BasinFractions, Error> {
     shares.extend(all.get(&ALL).map(|&share| (ALL, share)));
     let mut shares: BasinFractions =
         shares.into_iter().map(|(label, share)| (label, share.into())).collect();
-    // A label that no point has may still have a share.
+    // A label that no point has may still have a share: its interval is that of 0 hits.
     let unseen = wilson_interval(0, POINTS * REPLICATES)?;
     LABELS.into_iter().for_each(|label| {
         shares.entry(label).or_insert(unseen.into());
@@ -62,7 +67,7 @@ fn basin_fractions(mass_ratio: f64) -> Result<BasinFractions, Error> {
     Ok(shares)
 }
 
-/// The same with bounds, by intervals: means over the humps.
+/// The same shares with bounds, from basins as intervals: means over the humps.
 fn interval_shares(fates: &Fates, shortest: f64) -> Result<BasinFractions, Error> {
     let refinement = Refinement { shortest, ..Refinement::default() };
     let found = hopper_basins(fates, FROM, TO, 400, refinement)?.basins;
@@ -143,7 +148,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                     50 000 points each, without errors; “falls rapidly with $M$”."
                 .into(),
             notes: format!(
-                "BasinFractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
+                "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with bounds that hold for the branches found \
                  and up to rounding; beyond, by {POINTS} points of a golden rotation with {REPLICATES} random \
                  starts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
@@ -183,7 +188,7 @@ fn curve(
     });
 }
 
-/// 0.02, 0.05, 0.1, …, 50.
+/// Ticks 0.02, 0.05, 0.1, …, 50 of an axis of mass ratios.
 pub(super) fn ratio_ticks() -> Vec<(f64, String)> {
     [0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0]
         .into_iter()
@@ -232,10 +237,10 @@ fn three_ways() -> Result<Table, Error> {
     Ok(table)
 }
 
-/// M, incessant at M, at 1/M, and fates that differ.
+/// M, the share of incessant starts at M and at 1/M, and the share of starts whose fates differ.
 type Row = (f64, f64, f64, f64);
 
-/// M against 1/M.
+/// The basins at M against those at 1/M.
 pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(RATIOS.0, 1.0, 61);
     let scan = job.scan("asymmetry", ratios.len(), |k| {
@@ -251,7 +256,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         let sum = |bit: u16| -> f64 {
             counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.value).sum()
         };
-        // Half widths of 95 %, those of the kinds added up.
+        // Several counted kinds have the bit: the sum of their half widths bounds the half width of the sum.
         let width = |bit: u16| -> f64 {
             counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, share)| share.half_width()).sum()
         };

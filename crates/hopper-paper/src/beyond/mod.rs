@@ -1,4 +1,4 @@
-//! What the paper could not say of the basins: new results, each with a figure and a table.
+//! Results that the paper does not have, each with a figure and a table.
 
 mod boundary;
 mod entropy;
@@ -16,10 +16,10 @@ use crate::choice;
 use crate::error::Error;
 use crate::job::Job;
 
-/// How a result is made.
+/// Computes a result.
 pub type Find = fn(&Job) -> Result<Finding, Error>;
 
-/// All results, by the name that `--only` takes.
+/// All results, by the names that `--only` takes.
 pub const ALL: &[(&str, Find)] = &[
     ("measure", measure::measure),
     ("asymmetry", measure::asymmetry),

@@ -1,4 +1,4 @@
-//! Needles for large M: how the answer depends on the width looked at.
+//! Needles at large M: the edge of a trapping region depends on the spacing of the scan.
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::fates;
@@ -9,13 +9,18 @@ use crate::job::Job;
 use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
+/// Spacings of the scans. A needle narrower than the spacing is missed; a tenth of it takes ten times as long.
 const WIDTHS: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
-/// Up to here falls are looked for.
+/// Largest mass ratio at which falls are searched for. At 100 the needles are
+/// 10⁻⁴⁶ wide already, far below an ulp of α.
 const LARGEST: f64 = 400.0;
+/// Mass ratios of the table, from just above 1/M_c(1) ≈ 9.67 to where every spacing misses the needles.
 const RATIOS: [f64; 7] = [10.0, 11.0, 12.0, 14.0, 16.0, 20.0, 30.0];
+/// Marker of each hump.
 const LOOKS: [Marker; 3] = [Marker::Disc, Marker::Square, Marker::Triangle];
 
-/// The reach of α*_1, and the recoveries of three humps, width by width.
+/// The right end of the trapping region of α*₁, and the mass ratios from which three humps hold no fall, for each
+/// spacing.
 pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
     let humps = 3;
     let recoveries = job.scan("recoveries", humps * WIDTHS.len(), |k| {

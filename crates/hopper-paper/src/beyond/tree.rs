@@ -10,14 +10,16 @@ use hopper_basin::{branches, hopper_basins};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::alpha_star;
 
+/// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
 
-/// Levels drawn, and levels grown without leaving out the short intervals.
+/// Levels that are drawn, and levels whose intervals are all kept: their number grows too fast for more.
 const DRAWN: usize = 20;
 const GROWN: usize = 10;
+/// Shortest interval that is followed on the drawn levels; what is shorter is missing from their lengths.
 const SHORTEST: f64 = 1e-8;
 
-/// Counts and lengths level by level.
+/// Numbers and lengths of the intervals, level by level.
 pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     let refinement = Refinement { shortest: SHORTEST, undecided: 0.0, ..Refinement::default() };
@@ -32,7 +34,7 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
     let all = branches(&fates, FROM, TO, 400)?;
     let tree = PreimageTree::grow(&fates, &all, trap, window, GROWN);
-    // One hump above the fixed point, far down the levels: how fast do the pieces multiply?
+    // On the first two humps the tree can be grown to level 60: enough to tell a power of the level from doubling.
     let lower = Interval::new(alpha_star(1), alpha_star(3))?;
     let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60);
     let growth = match deep.residual_set() {

@@ -1,4 +1,4 @@
-//! The map's humps, its crisis, and the measures of the basins.
+//! Claims about the humps of the map, its crisis, and the measures of the basins.
 
 use super::claim::Claim;
 use crate::error::Error;
@@ -23,7 +23,7 @@ fn multimodal() -> Result<Claim, Error> {
             hump.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count(),
         );
     }
-    // An independent look: the whole window, sampled, with no theory.
+    // An independent check: the whole window is sampled, without any theory of the humps.
     let blind = monotone_branches(&fates, first_humps(5), 40_001)?;
     let blind_turns =
         blind.windows(2).filter(|pair| pair[0].increases() != pair[1].increases()).count();
@@ -35,8 +35,8 @@ fn multimodal() -> Result<Claim, Error> {
         .holds(turns.iter().all(|&t| t == 2) && blind_turns == 10))
 }
 
-/// The lowest value of the map on [α*_1, α*_6], by its branches, and the lowest beyond the first of
-/// them, whose left end is α*_1 itself.
+/// The lowest value of the map on [α*₁, α*₆], and the lowest value without the first branch, whose left end is α*₁
+/// itself.
 fn lowest(mass_ratio: f64) -> Result<(f64, f64), Error> {
     let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
     let branches = branches(&fates, 1, 6, 2001)?;
@@ -58,7 +58,7 @@ fn above_first() -> Result<Claim, Error> {
         .holds([light.0, heavy.0].iter().all(|&v| v >= star - 1e-15)))
 }
 
-/// M_c(1) by mpmath.
+/// M_c(1), computed with mpmath to 34 digits, without this code.
 const CRISIS: f64 = 0.103_457_755_336_137_07;
 
 fn falls_through() -> Result<Claim, Error> {

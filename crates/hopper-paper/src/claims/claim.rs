@@ -2,15 +2,15 @@
 
 use serde::Serialize;
 
-/// What became of a claim.
+/// The verdict on a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// It holds.
+    /// The claim holds.
     Confirmed,
-    /// The paper is wrong here, in the way we know; the evidence is as expected.
+    /// The claim is wrong in the paper, and the evidence confirms the known correction.
     Corrected,
-    /// It does not hold, or the evidence is not as expected.
+    /// The claim does not hold, or the evidence does not confirm its correction.
     Fails,
 }
 
@@ -21,15 +21,15 @@ pub struct Claim {
     pub name: String,
     /// Where the paper makes it.
     pub place: &'static str,
-    /// What the paper says, in our words, as markup.
+    /// The paper's statement in our words, as markup.
     pub paper: String,
-    /// What we find, as markup.
+    /// Our result, as markup.
     pub ours: String,
     /// The error, or the largest of many.
     pub error: String,
     /// How it was computed.
     pub how: String,
-    /// What became of it.
+    /// The verdict.
     pub verdict: Verdict,
 }
 
@@ -64,11 +64,11 @@ impl Claim {
     pub(super) fn holds(self, holds: bool) -> Self {
         self.judged(if holds { Verdict::Confirmed } else { Verdict::Fails })
     }
-    /// The paper's word differs from what holds; `evidence` says whether it does so as expected.
+    /// Judges a claim that the paper has wrong: `evidence` is whether the known correction is confirmed.
     pub(super) fn corrected(self, evidence: bool) -> Self {
         self.judged(if evidence { Verdict::Corrected } else { Verdict::Fails })
     }
-    /// A finding that was not found is not told as one.
+    /// Sets the verdict. The texts were written for a claim that holds: a failed one says so first.
     pub(super) fn judged(mut self, verdict: Verdict) -> Self {
         if verdict == Verdict::Fails {
             self.ours = format!("not found; expected was: {}", self.ours);
@@ -78,7 +78,7 @@ impl Claim {
     }
 }
 
-/// The largest of some errors; not a number if one of them is not.
+/// The largest of some errors; NaN if one of them is NaN, so that no comparison passes on it.
 pub(super) fn largest(errors: impl IntoIterator<Item = f64>) -> f64 {
     errors
         .into_iter()

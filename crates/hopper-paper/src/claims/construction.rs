@@ -1,4 +1,4 @@
-//! Sec. VI A: the construction of the basin, and what it converges to.
+//! Claims of Sec. VI A: the construction of the basin, and its limit.
 
 use super::claim::Claim;
 use crate::error::Error;
@@ -34,7 +34,7 @@ fn each_level(levels: &[IntervalSet]) -> Result<Claim, Error> {
     let mut probed = 0;
     for (k, level) in levels.iter().enumerate() {
         for interval in level.intervals() {
-            // The ends are an ulp of f wide: probe a millionth inside.
+            // An end is known to an ulp and may belong to either side: the probes lie a millionth inside.
             for part in [1e-6, 0.5, 1.0 - 1e-6] {
                 let alpha = interval.left + part * interval.length();
                 let found = fates.fate_within(alpha, 100)?;
@@ -61,9 +61,9 @@ fn each_level(levels: &[IntervalSet]) -> Result<Claim, Error> {
         .holds(wrong == 0 && disjoint))
 }
 
-/// What the levels converge to: no Cantor set.
+/// The limit of the levels, which is no Cantor set.
 fn limit(levels: &[IntervalSet]) -> Result<Claim, Error> {
-    // f(α) ≤ α, with equality at fixed points only: probed where equality is closest.
+    // The proof needs f(α) ≤ α with equality at the fixed points only. The probes lie where f comes closest to α.
     let map = LiftOffMap::new(MassRatio::new(M)?);
     let mut rises = 0;
     for n in 1..=4 {
@@ -84,7 +84,7 @@ fn limit(levels: &[IntervalSet]) -> Result<Claim, Error> {
         .corrected(rises == 0))
 }
 
-/// Orbits leave α*_2 to the left like 3/(10λ) (δ₀^{−1/3} − δ₁^{−1/3}) hops.
+/// An orbit that leaves α*₂ to the left takes 3/(10λ) (δ₀^{−1/3} − δ₁^{−1/3}) hops from δ₀ to δ₁.
 fn accumulation() -> Result<Claim, Error> {
     let ratio = MassRatio::new(0.2)?;
     let map = LiftOffMap::new(ratio);

@@ -1,4 +1,4 @@
-//! The lossless hops and their one-way stability.
+//! Claims about the fixed points: their values and their one-sided stability.
 
 use super::claim::{Claim, largest};
 use crate::error::Error;
@@ -9,7 +9,9 @@ use return_map::{
     Intersection, OneSidedStability, Side, Stability, fixed_points, one_sided_stability,
 };
 
+/// Mass ratios of the checks: 1, and three pairs of inverses.
 const RATIOS: [f64; 7] = [0.02, 0.1, 0.5, 1.0, 2.0, 10.0, 50.0];
+/// Indices n of the checked fixed points.
 const INDICES: [u64; 4] = [1, 2, 3, 10];
 
 pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
@@ -23,7 +25,7 @@ fn printed_digits() -> Claim {
     for (n, (digits, decimals)) in (1u64..).zip(printed) {
         let star = alpha_star(n);
         let ulp = 10f64.powi(-decimals);
-        // The paper rounds or cuts: within one unit of its last digit.
+        // The paper rounds some values and cuts others: both lie within one unit of the last digit.
         right &= digits.parse::<f64>().is_ok_and(|value| (value - star).abs() < ulp);
         ours.push(format!("{star:.12}"));
     }
@@ -71,7 +73,7 @@ fn found_from_the_map() -> Result<Claim, Error> {
         .holds(found.len() == 5 && touching && worst < 1e-10))
 }
 
-/// The map near α*_n in |δ|: the loss has its own digits.
+/// The map near α*_n as a map of the distance |δ|, from the loss, which has digits of its own.
 pub(super) fn probe(
     n: u64,
     mass_ratio: MassRatio,
@@ -89,7 +91,8 @@ pub(super) fn probe(
         let alpha = star.value() + sign * distance;
         let exact = sign * star.offset_of(alpha);
         let loss = map.hop(alpha).ok()?.loss?;
-        // The probe lies at the nearest double: the change, taken over to the distance asked for.
+        // The map is evaluated at the nearest f64, at the distance `exact`. Its loss is scaled to the distance asked
+        // for; the loss grows like the power 4/3, so that the error of this is a third of the relative difference.
         Some(distance - sign * loss * (distance / exact))
     };
     one_sided_stability(displacement, side, largest, count)
@@ -122,7 +125,8 @@ pub(super) fn coefficient(n: u64, ratio: MassRatio, side: Side) -> f64 {
         let probe = probe(n, ratio, side, distance, 1);
         probe.approach.first().map_or(f64::NAN, |&(d, step)| step.abs() / (d * pxfm::f_cbrt(d)))
     };
-    // c (1 + a δ^{1/3} + b δ^{2/3}): distances in ratio 8 remove a and b.
+    // (δ − δ′)/|δ|^{4/3} = c (1 + a δ^{1/3} + b δ^{2/3} + …). At δ, δ/8 and δ/64 the factors of a are 1, ½, ¼ and those
+    // of b are 1, ¼, 1/16: with the weights 1, −6, 8 both vanish, and the weights add up to 3.
     (at(1e-6) - 6.0 * at(1e-6 / 8.0) + 8.0 * at(1e-6 / 64.0)) / 3.0
 }
 

@@ -1,47 +1,45 @@
-//! Invariance under M → 1/M.
+//! Claims about the invariance under M → 1/M.
 
 use super::claim::{Claim, largest};
 use crate::error::Error;
+use basin_of_attraction::SplitMix64;
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use rayon::prelude::*;
 use repository_tools::Progress;
 use std::f64::consts::PI;
 
+/// Number of random pairs (M, α): some fifty thousand on each hump.
 const PAIRS: u64 = 1_000_000;
-/// 1/M and both μ are rounded, and the two radicands: 8 ulps of α² at most.
+/// Largest difference of α′² between M and 1/M, relative to α². It is zero for exact numbers; the roundings of 1/M, of
+/// both μ and of both α′² add up to 8 ulps at most.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// The k-th of a fixed sequence of uniform numbers in [0, 1), SplitMix64.
-fn uniform(k: u64) -> f64 {
-    let mut z = k.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(0x243f_6a88_85a3_08d3);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    ((z ^ (z >> 31)) >> 11) as f64 * f64::EPSILON / 2.0
-}
+/// A fixed sequence of random numbers. The state is made of digits of π.
+const RANDOM: SplitMix64 = SplitMix64::from_state(0x243f_6a88_85a3_08d3);
 
 struct Comparison {
     sudden: bool,
-    /// |α'² − α'²| relative to α².
+    /// The difference of α′² between M and 1/M, relative to α².
     difference: f64,
-    /// |f − f| relative to what a rounding of α² does to it, α²/α'.
+    /// The difference of α′ between M and 1/M, relative to α²/α′, the change that α² itself would cause.
     image_difference: f64,
     verdicts_agree: bool,
 }
 
-/// The maps at a random M in [1e-3, 1e3] and at 1/M, at a random α on hump n = 0…18: on its contact
-/// part, or in the window before the next fixed point.
+/// Compares the maps at a random M in [10⁻³, 10³] and at 1/M, at a random α on one of the humps 0 to 18: on its contact
+/// part (α*_n, (n+1)π), or in the sudden window ((n+1)π, α*_{n+1}).
 fn compare(k: u64, contact: bool) -> Result<Comparison, passive_hopper::Error> {
-    let ratio = MassRatio::new(pxfm::f_exp10(6.0 * uniform(3 * k) - 3.0))?;
-    let n = (19.0 * uniform(3 * k + 1)) as u64;
+    let ratio = MassRatio::new(pxfm::f_exp10(6.0 * RANDOM.uniform(3 * k) - 3.0))?;
+    let n = (19.0 * RANDOM.uniform(3 * k + 1)) as u64;
     let turn = (n + 1) as f64 * PI;
     let (left, right) = if contact { (alpha_star(n), turn) } else { (turn, alpha_star(n + 1)) };
-    let alpha = left + (right - left) * (1e-6 + (1.0 - 2e-6) * uniform(3 * k + 2));
+    let alpha = left + (right - left) * (1e-6 + (1.0 - 2e-6) * RANDOM.uniform(3 * k + 2));
     let here = LiftOffMap::new(ratio).hop(alpha)?;
     let there = LiftOffMap::new(ratio.inverted()).hop(alpha)?;
-    // The first landing is sudden for both or for neither: it does not know M.
+    // Whether the first landing is sudden does not depend on M.
     let sudden = here.sudden > 0;
     let difference = (here.next_speed_squared - there.next_speed_squared).abs() / (alpha * alpha);
-    // A next_speed_squared within rounding of zero may be called either way.
+    // α′² within rounding of zero: the hopper may be grounded at M and not at 1/M, and both are right.
     let near = here.next_speed_squared.abs() <= ROUNDING * alpha * alpha;
     let verdicts_agree = near || here.next.is_some() == there.next.is_some();
     let image_difference = match (here.next, there.next) {

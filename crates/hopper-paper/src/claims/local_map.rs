@@ -1,4 +1,4 @@
-//! β, λ and Δ: the approximate map, its erratum, the interval of attraction.
+//! Claims about β, λ and Δ: the approximate map, its erratum, and the trapping region.
 
 use super::claim::{Claim, largest};
 use super::fixed_points::coefficient;
@@ -31,7 +31,7 @@ fn beta() -> Result<Claim, Error> {
             let time = first.map_or(f64::NAN, |landing| landing.time);
             Ok((time - 2.0 * star.value()) / local.flight_time_shift(star.offset_of(alpha)))
         };
-        // 1 + w/(4α*) + …, w = β δ^{1/3}: an eighth of δ halves the excess.
+        // The ratio is 1 + w/(4α*) + … with w = βδ^{1/3}. An eighth of δ halves w: twice the one minus the other is 1.
         let limit = 2.0 * ratio(1e-7)? - ratio(8e-7)?;
         errors.push((limit - 1.0).abs());
     }
@@ -98,7 +98,7 @@ fn delta_for_large_n() -> Result<Claim, Error> {
         .corrected(rising && (1.0 - shares[3]).abs() < 1e-3))
 }
 
-/// Mass ratios from 1/9 to 9 with a fine comb about one.
+/// Mass ratios from 1/9 to 9 in equal factors, and pairs that approach 1 from both sides.
 fn comb() -> impl Iterator<Item = f64> {
     let coarse = (-40..=40).map(|k| pxfm::f_exp10(f64::from(k) * 0.95 / 40.0));
     let fine = (1..=8).flat_map(|k| {
@@ -115,7 +115,7 @@ fn smallest_at_one() -> Result<Claim, Error> {
         let at_one = Trap::new(n, MassRatio::ONE)?.delta;
         for m in comb().filter(|&m| m != 1.0) {
             let delta = Trap::new(n, MassRatio::new(m)?)?.delta;
-            // Δ is flat at M = 1: closer than 1e-4 it rises by less than its own rounding.
+            // Δ has a minimum at M = 1 and rises by (M − 1)² there: closer than 10⁻⁴ that is less than its rounding.
             let distinct = (m - 1.0).abs() > 1e-4;
             smallest &= if distinct { delta > at_one } else { delta >= at_one - 2e-15 };
             if distinct {

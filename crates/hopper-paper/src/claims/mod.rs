@@ -12,10 +12,10 @@ pub use claim::{Claim, Verdict};
 use crate::error::Error;
 use repository_tools::Progress;
 
-/// A group of claims.
+/// Checks a group of claims.
 type Group = fn(&Progress) -> Result<Vec<Claim>, Error>;
 
-/// Checks every claim.
+/// All claims, checked.
 pub fn all(progress: &Progress) -> Result<Vec<Claim>, Error> {
     let groups: [Group; 5] = [
         invariance::check,
@@ -31,7 +31,7 @@ pub fn all(progress: &Progress) -> Result<Vec<Claim>, Error> {
     Ok(claims)
 }
 
-/// Checks the invariance alone.
+/// The claims about the invariance, checked.
 pub fn invariance(progress: &Progress) -> Result<Vec<Claim>, Error> {
     invariance::check(progress)
 }

@@ -1,4 +1,4 @@
-//! `beyond-paper`: what the paper could not say, with a report.
+//! `beyond-paper`: results that the paper does not have, with a report.
 
 use super::figure_files::write_figure;
 use crate::error::Error;
@@ -35,7 +35,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
         made.push((finding, rendered));
     }
     let page = report::findings_page(&made);
-    // A part of the results does not take the place of all.
+    // A report of some results must not replace the report of all.
     let name = if options.only.is_empty() { "report.html" } else { "report_part.html" };
     folder.write(name, page.as_bytes())?;
     job.done()?;

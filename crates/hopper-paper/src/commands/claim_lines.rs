@@ -4,7 +4,7 @@ use crate::claims::{Claim, Verdict};
 use crate::error::Error;
 use journal_figures::html;
 
-/// A claim on a line of the terminal, without markup.
+/// A claim as one line without markup.
 pub(super) fn line(claim: &Claim) -> String {
     let word = match claim.verdict {
         Verdict::Confirmed => "confirmed",
@@ -29,7 +29,8 @@ fn plain(markup: &str) -> String {
     text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&amp;", "&")
 }
 
-/// An error if a claim fails.
+/// # Errors
+/// [`Error::CheckFailed`] with the number of claims that fail.
 pub(super) fn all_hold(claims: &[Claim]) -> Result<(), Error> {
     match claims.iter().filter(|claim| claim.verdict == Verdict::Fails).count() {
         0 => Ok(()),

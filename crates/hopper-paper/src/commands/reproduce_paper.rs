@@ -46,6 +46,7 @@ enum Form {
     Png,
 }
 
+/// The file of digests in docs/figures.
 const DIGESTS: &str = "digests.json";
 
 /// Runs the command.

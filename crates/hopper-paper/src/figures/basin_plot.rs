@@ -1,4 +1,4 @@
-//! What the basin figures share: raster, legend, inset frame, files.
+//! Raster, legend, inset frame and files of the basin figures.
 
 use crate::error::Error;
 use crate::fate_colors;
@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 /// (M, α) ranges of the figure that enlarges a part, and its number.
 pub(crate) type Inset = ((f64, f64), (f64, f64), &'static str);
 
-/// A window of (M, α) and what it is called.
+/// A window of (M, α), with the name and the layout of its figure.
 pub(crate) struct Window {
     pub(crate) name: &'static str,
     pub(crate) mass_ratio: (f64, f64),
@@ -22,7 +22,7 @@ pub(crate) struct Window {
     pub(crate) tick_counts: (usize, usize),
 }
 
-/// Pixels across and up.
+/// Pixels across and up: 2.4 for each point of the frame, about what a print resolves.
 pub(super) const PIXELS: usize = 1200;
 
 /// Computes and draws a window.
@@ -91,7 +91,7 @@ pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Er
     Ok(svg)
 }
 
-/// One entry a colour: fixed points beyond the last colour share it.
+/// The legend, with one entry for each colour: fixed points beyond the last colour share it.
 fn legend(svg: &mut Svg, left: f64, image: &LabelImage) {
     let mut x = left;
     let mut last = "";
@@ -115,12 +115,12 @@ fn basin_fractions(image: &LabelImage) -> String {
         format!("{} {:.2} %", fate_colors::name(label), 100.0 * count as f64 / pixels)
     };
     format!(
-        "BasinFractions: {}.",
+        "Basin fractions: {}.",
         image.counts().into_iter().map(share).collect::<Vec<_>>().join(", ")
     )
 }
 
-/// One byte a pixel, the highest row first; the palette in the order of the labels that occur.
+/// A PNG with one byte a pixel, the highest row first; its palette is in the order of the labels that occur.
 fn png(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
     let mut colors: Vec<[u8; 3]> = Vec::new();
     let mut places = std::collections::BTreeMap::new();

@@ -1,4 +1,4 @@
-//! Fig. 1: the model, drawn.
+//! Fig. 1: the model and the forces in its phases.
 
 use crate::error::Error;
 use crate::figure::Figure;
@@ -9,7 +9,9 @@ const INK: Pen = Pen::solid("#000", 1.1);
 const SPRING: Pen = Pen::solid("#444", 1.1);
 const FORCE: Pen = Pen::solid("#b02418", 1.4);
 const THIN: Pen = Pen::solid("#000", 0.6);
+/// Height of the ground line on the page.
 const GROUND: f64 = 215.0;
+/// Width and height of a block on the page.
 const BLOCK: (f64, f64) = (52.0, 30.0);
 
 /// Draws the four states with their forces.
@@ -18,7 +20,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let titles = ["(a) relaxed", "(b) flight", "(c) collision", "(d) contact"];
     let conditions =
         ["", "$x$_{2} > 0", "$x$_{2} = 0, $v$_{2} < 0", "$x$_{2} = 0, $kx$_{1} < $m$_{2}$g$"];
-    // Height of the lower mass, then of the upper one, above the ground.
+    // Heights of the lower and of the upper mass above the ground, on the page.
     let heights = [(0.0, 110.0), (42.0, 165.0), (0.0, 132.0), (0.0, 84.0)];
     for (k, (lower, upper)) in heights.into_iter().enumerate() {
         let x = 95.0 + 165.0 * k as f64;
@@ -86,7 +88,7 @@ fn spring(svg: &mut Svg, x: f64, bottom: f64, top: f64) {
     svg.path(Path::polyline(points), SPRING);
 }
 
-/// Arrows beside the blocks; `lower` and `upper` are the blocks' bottoms on the page.
+/// Arrows beside the blocks; `lower` and `upper` are the bottoms of the blocks on the page.
 fn forces(svg: &mut Svg, panel: usize, x: f64, lower: f64, upper: f64) {
     let side = BLOCK.0 / 2.0;
     let mut force = |dx: f64, from: f64, to: f64, label: &str| {

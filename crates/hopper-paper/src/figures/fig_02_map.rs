@@ -8,7 +8,7 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 use std::f64::consts::PI;
 
-/// Mass ratios with the pens that draw them.
+/// Mass ratios with their pens. The paper's mass ratios are lost; these show the range of shapes.
 const CURVES: [(f64, Pen); 4] = [
     (0.05, Pen::solid("#8a8a8a", 1.5)),
     (0.1, Pen::dashed("#009e73", 1.7, "6 2.5")),
@@ -16,7 +16,8 @@ const CURVES: [(f64, Pen); 4] = [
     (1.0, Pen::solid("#10386e", 1.5)),
 ];
 
-/// The places where the map's pieces meet, from 0 to α*_n: nπ and α*_n.
+/// The points where pieces of the map meet, up to α*_n: nπ and α*_n. The first piece begins at 10⁻³ instead of 0,
+/// which is not a lift-off speed.
 pub(super) fn cuts(n: u64) -> Vec<f64> {
     let mut cuts = vec![1e-3];
     for k in 1..=n {

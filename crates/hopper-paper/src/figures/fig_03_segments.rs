@@ -10,9 +10,11 @@ use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase, alpha_st
 use repository_tools::Progress;
 use std::f64::consts::PI;
 
+/// The paper's mass ratio is lost; at this one all four segments exist.
 const M: f64 = 0.8;
 const UPPER: Pen = Pen::solid("#10386e", 1.2);
 const LOWER: Pen = Pen::solid("#d55e00", 1.4);
+/// Time that is drawn, in units of 1/ω: a few hops of every segment.
 const DURATION: f64 = 42.0;
 
 struct Segment {
@@ -61,7 +63,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     });
     for (k, segment) in segments.iter().enumerate() {
         let x = frame.at((segment.alpha, 0.0)).0;
-        // α_S is narrower than its name, which stands above the peak; the others at the foot.
+        // Segment α_S is narrower than its name: the name stands above the peak, the other names at the foot.
         let y = if k == 1 { frame.top + 20.0 } else { frame.top + frame.height - 16.0 };
         svg.text(x, y, Anchor::Middle, 12.5, segment.name);
         if let Some(next) = map.image(segment.alpha)? {
@@ -144,7 +146,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     })
 }
 
-/// The peak, enlarged: α_S is a hundredth wide.
+/// The peak, enlarged: α_S is a hundredth wide, too narrow for the main frame.
 fn inset(svg: &mut Svg, map: &LiftOffMap, trap: &Trap) -> Result<(), Error> {
     let star = trap.fixed_point.value();
     let range = (star - 0.012, trap.right() + 0.012);

@@ -7,6 +7,7 @@ use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 
+/// The window of the paper's figure.
 const WINDOW: (f64, f64) = (4.490, 4.515);
 const EXACT: Pen = Pen::solid("#000", 1.7);
 const PRINTED: Pen = Pen::dashed("#d55e00", 1.6, "1.6 2.6");
@@ -18,7 +19,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let printed = Coefficients::new(1, MassRatio::ONE, Form::Printed)?;
     let corrected = Coefficients::new(1, MassRatio::ONE, Form::Corrected)?;
     let star = alpha_star(1);
-    // Points crowd towards α* like squares: f has a δ^{4/3} there.
+    // f has a term δ^{4/3} at α*: squares of equal steps crowd the points there, and the curve stays smooth.
     let side =
         |end: f64| (0..=80).map(move |k| star + (end - star) * (f64::from(k) / 80.0).powi(2));
     let sides: [Vec<f64>; 2] = [side(WINDOW.0).collect(), side(WINDOW.1).collect()];
@@ -33,7 +34,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
             frame.curve(svg, &exact, EXACT);
             for (local, pen) in [(&printed, PRINTED), (&corrected, CORRECTED)] {
                 if pen == PRINTED && alphas.iter().any(|&a| a < star) {
-                    continue; // the paper gives the right side only
+                    continue; // the paper prints the right side only
                 }
                 let curve: Vec<_> = alphas.iter().map(|&a| (a, local.image(a))).collect();
                 frame.curve(svg, &curve, pen);

@@ -9,10 +9,11 @@ use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 
-/// At this mass ratio hump 2 falls through the trap of α*_1 and comes back, as in the paper's sketch.
+/// Here hump 2 falls below the trap of α*₁ and rises again, as in the paper's sketch.
 pub(crate) const M: f64 = 0.4;
-/// Levels that are computed, and drawn.
+/// The last level that is computed and drawn. Deeper levels are thinner than a line.
 pub(crate) const DEPTH: usize = 4;
+/// The colour of each level.
 const COLORS: [&str; DEPTH + 1] = ["#1b7f5a", "#d55e00", "#2a62b8", "#7b3294", "#444444"];
 
 /// The levels from the trap of α*_1, in the window [α*_1, α*_4].
@@ -40,7 +41,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         "(b)  points that enter $A$ after $k$ hops (level $k$), with those before in grey",
     );
     for (k, level) in levels.iter().enumerate() {
-        // One row a level, with those before it in grey, as in a construction that keeps its pieces.
+        // One row for each level. Earlier levels are grey: the construction keeps them.
         let y = bars.top + 36.0 * k as f64;
         for (j, part) in levels.iter().take(k + 1).enumerate() {
             let color = if j == k { COLORS[k] } else { "#c9c9c9" };
@@ -113,7 +114,7 @@ fn draw_map(svg: &mut Svg, frame: &Frame, map: &LiftOffMap, levels: &[IntervalSe
         for (k, level) in levels.iter().enumerate().take(3) {
             for part in level.intervals() {
                 let (x0, x1) = (frame.at((part.left, 0.0)).0, frame.at((part.right, 0.0)).0);
-                // Level 2 reaches up to level 1's places on the graph.
+                // Level 2 maps onto level 1: its bars reach up to the graph, not to the band of the trap.
                 let y = if k < 2 {
                     band.0
                 } else {

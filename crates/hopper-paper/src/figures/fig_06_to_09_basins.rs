@@ -6,6 +6,7 @@ use crate::figure::Figure;
 use hopper_basin::first_humps;
 use repository_tools::Progress;
 
+/// (M, α) windows of Figs. 8 and 9. The limits of Fig. 8 are lost in our copy of the paper: [α*₄, α*₆] holds Fig. 9.
 const FIGURE_8: ((f64, f64), (f64, f64)) = ((0.1, 0.2), (14.066, 20.371));
 const FIGURE_9: ((f64, f64), (f64, f64)) = ((0.17, 0.18), (17.0, 17.8));
 
@@ -13,7 +14,7 @@ fn texts(title: &str, paper: &str, notes: &str) -> (String, String, String) {
     (title.into(), paper.into(), notes.into())
 }
 
-/// Small mass ratios.
+/// Fig. 6: small mass ratios.
 pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_06_basin",
@@ -36,7 +37,7 @@ pub(super) fn figure_6(progress: &Progress) -> Result<Figure, Error> {
     )
 }
 
-/// Large mass ratios.
+/// Fig. 7: large mass ratios.
 pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_07_basin_large_mass_ratio",
@@ -57,7 +58,7 @@ pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
     )
 }
 
-/// The inset of Fig. 6.
+/// Fig. 8: the inset of Fig. 6.
 pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_08_basin_inset",
@@ -77,7 +78,7 @@ pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
     )
 }
 
-/// The inset of Fig. 8.
+/// Fig. 9: the inset of Fig. 8.
 pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
     let window = Window {
         name: "fig_09_basin_inset",

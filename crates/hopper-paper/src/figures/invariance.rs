@@ -1,4 +1,4 @@
-//! The invariance under M → 1/M, and where it ends.
+//! The invariance under M → 1/M, and the windows where it fails.
 
 use super::graph::graph_pieces;
 use crate::error::Error;
@@ -8,6 +8,7 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 use std::f64::consts::PI;
 
+/// The smaller of the two mass ratios.
 const M: f64 = 0.3;
 const LIGHT: Pen = Pen::solid("#7fb4dd", 3.4);
 const HEAVY: Pen = Pen::dashed("#a3260f", 1.5, "5 2.5");
@@ -28,7 +29,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     top.clipped(&mut svg, |svg| {
         top.polyline(svg, &[(0.0, 0.0), (20.0, 20.0)], Pen::dashed("#000", 0.7, "1.5 2.5"));
         for (map, pen) in maps.iter().zip([LIGHT, HEAVY]) {
-            // Above M = 0.9 windows have jumps and kinks: straight pieces there show them as they are.
+            // Above M = 0.9 the sudden windows have jumps and kinks. A smooth curve would swing beyond them: here
+            // the points are joined by straight lines, and not across a jump.
             for piece in graph_pieces(map, &cuts, 600) {
                 for run in piece.chunk_by(|a, b| (a.1 - b.1).abs() < 0.5) {
                     top.polyline(svg, run, pen);
@@ -54,7 +56,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         let images = [maps[0].image(alpha)?, maps[1].image(alpha)?];
         rows.push(vec![Some(alpha), images[0], images[1]]);
         if let [Some(a), Some(b)] = images {
-            // A difference of nothing is drawn at the foot of the axis.
+            // The logarithm of a difference of exactly zero does not exist: it is drawn at the foot of the axis.
             let (x, y) = bottom.at((alpha, (a - b).abs().max(2e-18)));
             svg.fill_rect(x - 0.5, y - 0.5, 1.0, 1.0, "#10386e");
         }

@@ -16,10 +16,10 @@ use crate::error::Error;
 use crate::figure::Figure;
 use repository_tools::Progress;
 
-/// How a figure is made.
+/// Computes and draws a figure.
 pub type Build = fn(&Progress) -> Result<Figure, Error>;
 
-/// All figures, by the name that `--only` takes.
+/// All figures, by the names that `--only` takes.
 pub const ALL: &[(&str, Build)] = &[
     ("fig1", fig_01_model::build),
     ("fig2", fig_02_map::build),

@@ -1,4 +1,4 @@
-//! Where the printed form of the map loses its digits: errors of the loss near α*_1.
+//! The errors of the loss near α*₁: where the printed form of the map loses its digits.
 
 use crate::error::Error;
 use crate::figure::Figure;
@@ -8,11 +8,14 @@ use passive_hopper::{LiftOffMap, MassRatio, printed_image};
 use repository_tools::{Progress, number, parse_rows, repository};
 use serde_json::Value;
 
+/// The reference values, from the root of the repository.
 const VALUES: &str = "crates/passive-hopper/tests/data/losses_near_first_fixed_point.jsonl";
+/// Range of |δ|: from below an ulp of α* to the edge of the expansions.
 const OFFSETS: (f64, f64) = (1e-16, 1e-1);
+/// Range of the errors. Those outside are drawn on the edge.
 const ERRORS: (f64, f64) = (1e-17, 1e5);
 
-/// Errors of one row: the printed form and the stable one at α, (n, δ) and the expansions at δ.
+/// Name, marker, colour and column of each form. The first two are evaluated at α, the others at δ.
 const FORMS: [(&str, Marker, &str, &str); 6] = [
     ("printed form", Marker::Diamond, "#d55e00", "printed"),
     ("stable form", Marker::Disc, "#000000", "stable"),
@@ -22,13 +25,13 @@ const FORMS: [(&str, Marker, &str, &str); 6] = [
     ("leading order, printed $λ$", Marker::Cross, "#9b4f80", "leading_printed"),
 ];
 
-/// An offset, with the relative error of each form; none where it does not answer.
+/// An offset with the relative error of each form; `None` where the form has no value.
 struct Row {
     offset: f64,
     errors: [Option<f64>; 6],
 }
 
-/// Computes and draws the errors on both sides.
+/// Draws the errors on both sides of α*₁.
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let rows: Vec<Row> =
         parse_rows(&repository().join(VALUES))?.iter().map(row).collect::<Result<_, _>>()?;
@@ -98,7 +101,8 @@ fn row(row: &Value) -> Result<Row, Error> {
     let map = LiftOffMap::new(MassRatio::ONE);
     let off = |found: f64, exact: f64| ((found - exact) / exact).abs();
     let mut errors = [None; 6];
-    // The nearest f64 to α* + δ may lie on the other side.
+    // A row without "loss" has a δ whose α, rounded to f64, lies on the other side of α*: there the forms at α say
+    // nothing about δ.
     if row.get("loss").is_some() {
         let at_alpha = field("loss")?;
         let printed = printed_image(MassRatio::ONE, alpha)?;
@@ -117,7 +121,7 @@ fn row(row: &Value) -> Result<Row, Error> {
         let factor = if offset > 0.0 { 1.0 } else { hopper_asymptotics::LEFT_FACTOR };
         let size = offset.abs();
         let leading = factor * local.lambda * size * pxfm::f_cbrt(size);
-        // The paper has no left side.
+        // The paper prints λ for the right side only.
         if offset > 0.0 || form == Form::Corrected {
             errors[place] = Some(off(leading, exact));
         }

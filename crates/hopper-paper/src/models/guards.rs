@@ -1,4 +1,4 @@
-//! How a guard along a flow can meet zero.
+//! The ways in which a guard along a flow meets zero.
 
 use crate::error::Error;
 use crate::figure::Figure;
@@ -9,7 +9,7 @@ use journal_figures::{Anchor, Frame, Marker, Pen, Svg};
 const CURVE: Pen = Pen::solid("#10386e", 1.8);
 const BAND: &str = "#ececea";
 
-/// One case: its name, the guard, the horizon and the range that is drawn.
+/// A panel: its texts, the guard, the horizon of the search and the range that is drawn.
 struct Case {
     title: &'static str,
     says: &'static str,
@@ -19,7 +19,7 @@ struct Case {
 }
 
 fn cases() -> Vec<Case> {
-    // 3 (t − 0.84)(t − 1.16)(3 − t), a dip that samples at 0.4 step over.
+    // 3 (t − 0.84)(t − 1.16)(3 − t): it is negative for 0.32 only, and samples at 0.8 and 1.2 miss that.
     let narrow = QuasiPolynomial::polynomial(&[-0.84, 1.0])
         * QuasiPolynomial::polynomial(&[-1.16, 1.0])
         * QuasiPolynomial::polynomial(&[9.0, -3.0]);
@@ -55,7 +55,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Four panels, each with what the search returns.
+/// Four panels, each with a marker at the result of the search.
 pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let mut svg = Svg::new(680.0, 430.0);
     for (k, case) in cases().into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Figures of the generic crates: how guards are met, and a model of somebody else's.
+//! Figures of the generic crates: how guards are met, and a published model of a valve.
 
 mod guards;
 mod valve;
@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 
-/// How a figure is made.
+/// Computes and draws a figure.
 pub type Draw = fn(&Job) -> Result<Figure, Error>;
 
 /// All figures, by name.

@@ -1,28 +1,26 @@
 //! The bifurcation diagram of the pressure relief valve.
 
-// The example, as it stands.
-#[path = "../../../return-map/examples/pressure_relief_valve/model.rs"]
-mod model;
-
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
+use example_systems::valve::turns;
 use journal_figures::{Frame, Svg, csv_file, indexed_png, ticks};
 use rayon::prelude::*;
 
-/// The range of the tutorial.
+/// Flow rates of the tutorial's diagram.
 const RATES: (f64, f64) = (0.2, 10.0);
-/// Flow rates, and those that are done between two looks at the clock.
+/// Flow rates, and those of one piece that is kept on disk.
 const COLUMNS: usize = 980;
 const PIECE: usize = 20;
-/// Turns that are left out, and that are drawn.
+/// Turns that are left out while the motion settles, and turns that are drawn.
 const TRANSIENT: usize = 1024;
 const DRAWN: usize = 96;
-/// The picture in pixels, two for each column.
+/// The picture in pixels, two across for each flow rate.
 const PIXELS: (usize, usize) = (2 * COLUMNS, 1200);
+/// The largest displacement that is drawn.
 const HIGHEST: f64 = 9.0;
 
-/// Turns over the flow rate.
+/// The displacements at the turns against the flow rate.
 pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
     let rate =
         |column: usize| RATES.0 + (RATES.1 - RATES.0) * (column as f64 + 0.5) / COLUMNS as f64;
@@ -30,7 +28,7 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
         let columns = piece * PIECE..(piece + 1) * PIECE;
         let turns: Vec<Vec<f64>> = columns
             .into_par_iter()
-            .map(|column| model::turns(rate(column), TRANSIENT, DRAWN))
+            .map(|column| turns(rate(column), TRANSIENT, DRAWN))
             .collect::<Result<_, _>>()?;
         Ok(turns.concat())
     })?;
@@ -46,7 +44,7 @@ pub(super) fn figure(job: &Job) -> Result<Figure, Error> {
             }
         }
     }
-    // One hit is grey, many are black.
+    // The shade is the bit length of the number of hits: one hit is light grey, 32 or more are black.
     let shades: Vec<[u8; 3]> = [255, 120, 85, 60, 40, 20, 0].map(|grey| [grey; 3]).to_vec();
     let pixels: Vec<u8> =
         hits.iter().map(|&hits| (32 - hits.leading_zeros()).min(6) as u8).collect();

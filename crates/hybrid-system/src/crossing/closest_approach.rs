@@ -1,11 +1,6 @@
 //! Where a function that grazes zero is closest to it.
 
-/// 1/φ, φ the golden ratio.
-const INVERSE_GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
-
-/// Steps of a golden-section search. 0.618¹⁰⁰ ≈ 10⁻²¹, so that the last interval is shorter than an ulp of any time
-/// inside the first one. Fewer steps would return a time with fewer digits.
-const GOLDEN_SECTIONS: usize = 100;
+use crate::crossing::golden_section::golden_section_minimum;
 
 /// The time and the value at which `function` is closest to zero, near a stretch where rounding hides its sign.
 ///
@@ -35,14 +30,4 @@ pub(crate) fn closest_approach(
     }
     let time = golden_section_minimum(|time| function(time).abs(), from, ahead);
     (time, function(time))
-}
-
-/// The minimum of a function with one minimum on [left, right]. Near a grazing |g| is such a function.
-fn golden_section_minimum(function: impl Fn(f64) -> f64, mut left: f64, mut right: f64) -> f64 {
-    for _ in 0..GOLDEN_SECTIONS {
-        let a = right - INVERSE_GOLDEN_RATIO * (right - left);
-        let b = left + INVERSE_GOLDEN_RATIO * (right - left);
-        if function(a) < function(b) { right = b } else { left = a }
-    }
-    0.5 * (left + right)
 }

@@ -1,15 +1,16 @@
-//! The hop in straight lines: no loop that waits for a tolerance, hardly a branch, nothing of the system's
-//! libm and no fused multiply-add, so that one text serves a single hop and, compiled for wider vectors, many
-//! at once, with the same bits.
+//! How is a hop computed fast? In straight lines: almost no branches, no loop that waits for a tolerance, no libm and
+//! no fused multiply-add. One text serves a single hop and, compiled for wider vectors, many at once, with the same
+//! bits.
 //!
 //! ```text
-//!   first flight    one parameter, δ = α − α*_n: tables of α − h and Γ                       table.rs
-//!   later flights   two parameters, (x, V): a start by a polynomial, two steps, a landing    start.rs, flight.rs
-//!   verdicts        by a bound on the errors handed from flight to flight                    flight.rs, hop.rs
+//!   first flight    one parameter, δ = α − α*_n: tables of α − h and Γ     landing/first_flight_table.rs
+//!   later flights   two parameters, (x, V): a guess, two steps, a landing  scalar/later_flight.rs
+//!   verdicts        by a bound on the errors propagated from flight to flight
 //! ```
 //!
-//! Whatever is near a verdict, or outside the tables, is left to the careful path of
-//! [`LiftOffMap::hop`](crate::map::lift_off_map::LiftOffMap::hop).
+//! Hops with an inconclusive verdict, and speeds outside the tables, are left to the careful path,
+//! [`LiftOffMap::careful_image`](crate::map::lift_off_map::LiftOffMap::careful_image). The README in this folder has
+//! the idea, a picture, and the invariants I1 to I9 that the code cites.
 
 pub(crate) mod batch;
 pub(crate) mod scalar;

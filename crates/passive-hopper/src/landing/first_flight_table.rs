@@ -1,62 +1,70 @@
 //! The first flight by tables.
 //!
-//! In the cell (nπ, (n+1)π) the landing depends on δ = α − α*_n alone, and all that is not analytic in it
-//! is the cube root at δ = 0 (theory: c). On pieces whose length is a 16th of their distance from there, α − h
-//! and Γ are polynomials of degree 7, to an ulp. The pieces are the numbers of one sign with the same exponent
-//! and the same first four bits: an index needs no search. They are counted from α*_n as `f64` has it, so that
-//! a place is exact.
+//! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone, and it is analytic in δ but for a cube root at
+//! δ = 0. The table cuts the interval into pieces whose length is a 16th of their distance from δ = 0. On each
+//! of them α − h and Γ are polynomials of degree 7, to an ulp. A piece is the set of numbers δ of one sign with the same
+//! exponent and the same first four bits of the fraction: its index is read from the bits of δ, without a search.
+//! Pieces are counted from the `f64` nearest to α*_n, because the difference of two close `f64` is exact.
+//!
+//! A table is made when a speed in its interval is first asked for. That takes some milliseconds.
 
-use crate::kernel::scalar::turn::nearest;
-use crate::landing::from_ground;
-use crate::landing::half_flight::HalfFlight;
+use crate::landing::fixed_point_interval::FixedPointInterval;
+use crate::landing::half_time::HalfTime;
+use crate::landing::half_time_root::HalfTimeRoot;
 use crate::model::fixed_points::alpha_star;
 use crate::precision::double_double::DoubleDouble;
+use crate::precision::nearest_integer::nearest_integer;
 use std::f64::consts::FRAC_1_PI;
 use std::sync::{LazyLock, OnceLock};
 
-/// Cells with a table: α up to 100.
-pub(crate) const CELLS: usize = 32;
+/// Intervals with a table: α up to 32π ≈ 100. Each table takes 64 KiB. Faster hops search from an expansion.
+/// A power of two, so that an index is masked and not checked.
+pub(crate) const TABLES: usize = 32;
 
-/// Coefficients of a piece.
+/// Coefficients of a piece: eight `f64`, one vector of AVX-512 and one line of the cache. Degree 7 is not derived;
+/// on pieces of this length its error is about an ulp (measured).
 const COEFFICIENTS: usize = 8;
 
-/// Octaves of |δ|, from 2⁻¹³ up to 4.
+/// Octaves of |δ| with pieces, from 2⁻¹³ up to 4; |δ| is at most π. Speeds within 2⁻¹³ of α*_n have no
+/// piece. They are few, and the careful path solves them.
 const OCTAVES: usize = 15;
+/// The exponent field of 2⁻¹³ in an `f64`.
 const FIRST_OCTAVE: u64 = 1023 - 13;
 
-/// Pieces on one side of α*_n.
+/// Pieces on one side of α*_n: 16 in each octave, by four bits of the fraction.
 const PIECES: usize = 16 * OCTAVES;
 
-/// How near to nπ, in parts of π, a speed is left to the careful path.
+/// How near to nπ, in parts of π, a speed has no piece. The kind of the landing changes at nπ, and α/π has a rounding error
+/// of 10⁻¹⁴ at α = 100; the value 10⁻⁷ is far above that error, and chosen, not derived. The careful path decides there.
 const NEAR_END: f64 = 1e-7;
 
-/// Coefficients by powers of the place on a piece, in [−1, 1].
+/// Coefficients by powers of the position on a piece, in [−1, 1].
 pub(crate) type Piece = [f64; COEFFICIENTS];
 
-/// The pieces of a cell: those above α*_n, then those below, and one that gives no number.
+/// The pieces of an interval: those above α*_n, then those below, and one whose values are NaN.
 #[derive(Debug)]
 #[repr(align(64))]
-pub(crate) struct Cell {
+pub(crate) struct FirstFlightTable {
     /// Γ.
     closing_speed: [Piece; SLOTS],
     /// α − h.
     beyond: [Piece; SLOTS],
 }
 
-/// The index of the piece that gives no number.
+/// The index of the piece whose values are NaN, for a speed without a piece.
 const NO_PIECE: usize = 2 * PIECES;
 
-/// Pieces of a cell, up to a power of two.
+/// Slots for 481 pieces: up to a power of two, so that an index is masked and not checked.
 const SLOTS: usize = 512;
 
 /// Where a speed is in the tables.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
-    /// Index of the cell.
-    pub(crate) cell: u64,
-    /// Index of the piece; the last one for a speed outside the tables.
+pub(crate) struct TablePosition {
+    /// Index n of the interval.
+    pub(crate) interval: u64,
+    /// Index of the piece; [`NO_PIECE`] for a speed outside the tables.
     pub(crate) piece: u64,
-    /// Where on the piece, in [−1, 1].
+    /// The position on the piece, in [−1, 1].
     pub(crate) at: f64,
     /// 1 below α*_n, where the first landing is sudden, else 0.
     pub(crate) sudden: u64,
@@ -64,7 +72,7 @@ pub(crate) struct Place {
 
 /// The first flight.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct First {
+pub(crate) struct FirstFlight {
     /// h, half its time.
     pub(crate) half_time: f64,
     /// α − h.
@@ -73,80 +81,92 @@ pub(crate) struct First {
     pub(crate) closing_speed: f64,
 }
 
-static TABLES: [OnceLock<Box<Cell>>; CELLS] = [const { OnceLock::new() }; CELLS];
+static ALL_TABLES: [OnceLock<Box<FirstFlightTable>>; TABLES] = [const { OnceLock::new() }; TABLES];
 
-/// What stands for cells that are not made yet.
-static NO_CELL: Cell = Cell::EMPTY;
+/// Takes the place of a table that is not made yet.
+static EMPTY_TABLE: FirstFlightTable = FirstFlightTable::EMPTY;
 
-/// α*_n, rounded: what the pieces are counted from.
-pub(crate) type Stars = [f64; CELLS];
+/// The `f64` nearest to α*_n, from which the pieces are counted, for n < [`TABLES`].
+pub(crate) type FixedPoints = [f64; TABLES];
 
-static STARS: LazyLock<Stars> = LazyLock::new(|| std::array::from_fn(|n| alpha_star(n as u64)));
+static FIXED_POINTS: LazyLock<FixedPoints> =
+    LazyLock::new(|| std::array::from_fn(|n| alpha_star(n as u64)));
 
-/// α*_n, for all cells with a table.
+/// α*_n for all intervals with a table.
 #[inline(always)]
-pub(crate) fn stars() -> &'static Stars {
-    &STARS
+pub(crate) fn fixed_points() -> &'static FixedPoints {
+    &FIXED_POINTS
 }
 
-impl Place {
-    pub(crate) const NOWHERE: Place = Place { cell: 0, piece: NO_PIECE as u64, at: 0.0, sudden: 0 };
+impl TablePosition {
+    pub(crate) const NOWHERE: TablePosition =
+        TablePosition { interval: 0, piece: NO_PIECE as u64, at: 0.0, sudden: 0 };
 
-    /// The place of `alpha` > 0; none outside the tables, next to nπ, and within 2⁻¹³ of α*_n. No branch.
+    /// The position of `alpha` > 0; [`NO_PIECE`] outside the tables, next to nπ, and within 2⁻¹³ of α*_n.
+    ///
+    /// Loops over many speeds inline this function: it has no branch.
     #[inline(always)]
-    pub(crate) fn of(alpha: f64, stars: &Stars) -> Self {
+    pub(crate) fn of(alpha: f64, fixed_points: &FixedPoints) -> Self {
+        /// The bits of 1.0: exponent field and zero fraction.
         const ONE: u64 = 1023 << 52;
-        let turns = alpha * FRAC_1_PI;
-        let (n, bits) = nearest(turns - 0.5);
-        let part = turns - n;
-        let cell = bits & (CELLS as u64 - 1);
-        let delta = alpha - stars[cell as usize]; // exact
+        let half_turns = alpha * FRAC_1_PI;
+        let (n, bits) = nearest_integer(half_turns - 0.5);
+        let part = half_turns - n;
+        let interval = bits & (TABLES as u64 - 1);
+        let delta = alpha - fixed_points[interval as usize]; // exact
         let bits = delta.to_bits() & (u64::MAX >> 1);
+        // Exponent and four bits of the fraction, from the first octave on; below it the index wraps to a huge number.
         let index = (bits >> 48).wrapping_sub(FIRST_OCTAVE << 4);
         let sudden = delta.to_bits() >> 63;
+        // Near 0 there is no end to keep away from: the interval n = 0 begins there.
         let inside = (index < PIECES as u64)
-            & (turns < CELLS as f64)
+            & (half_turns < TABLES as f64)
             & (part < 1.0 - NEAR_END)
-            & ((part > NEAR_END) | (turns < 0.5));
+            & ((part > NEAR_END) | (half_turns < 0.5));
         let piece = if inside { index + sudden * PIECES as u64 } else { NO_PIECE as u64 };
         // The bits after the first four, as the fraction of a number in [1, 2).
         let fraction = f64::from_bits((bits << 4) & (u64::MAX >> 12) | ONE);
-        Place { cell, piece, at: 2.0 * fraction - 3.0, sudden: if inside { sudden } else { 0 } }
+        TablePosition {
+            interval,
+            piece,
+            at: 2.0 * fraction - 3.0,
+            sudden: if inside { sudden } else { 0 },
+        }
     }
 
-    /// The first flight from `alpha`; nothing for a place outside the tables.
+    /// The first flight from `alpha`; `None` outside the tables.
     #[inline(always)]
-    pub(crate) fn first(&self, alpha: f64) -> Option<First> {
+    pub(crate) fn first_flight(&self, alpha: f64) -> Option<FirstFlight> {
         if self.piece == NO_PIECE as u64 {
             return None;
         }
-        let cell = Cell::get(self.cell);
-        let beyond = polynomial(cell.of_beyond(self.piece), self.at);
-        let closing_speed = polynomial(cell.of_closing_speed(self.piece), self.at);
-        Some(First { half_time: alpha - beyond, beyond, closing_speed })
+        let table = FirstFlightTable::get(self.interval);
+        let beyond = polynomial(table.of_beyond(self.piece), self.at);
+        let closing_speed = polynomial(table.of_closing_speed(self.piece), self.at);
+        Some(FirstFlight { half_time: alpha - beyond, beyond, closing_speed })
     }
 }
 
-impl Cell {
-    const EMPTY: Cell = {
+impl FirstFlightTable {
+    const EMPTY: FirstFlightTable = {
         let mut piece = [[0.0; COEFFICIENTS]; SLOTS];
         piece[NO_PIECE] = [f64::NAN; COEFFICIENTS];
-        Cell { closing_speed: piece, beyond: piece }
+        FirstFlightTable { closing_speed: piece, beyond: piece }
     };
 
-    /// A cell, made when it is first asked for.
+    /// The table of (nπ, (n+1)π), made when it is first asked for.
     #[inline(always)]
-    pub(crate) fn get(n: u64) -> &'static Cell {
-        let slot = &TABLES[n as usize % CELLS];
+    pub(crate) fn get(n: u64) -> &'static FirstFlightTable {
+        let slot = &ALL_TABLES[n as usize % TABLES];
         match slot.get() {
-            Some(cell) => cell,
-            None => slot.get_or_init(|| Cell::new(n)),
+            Some(table) => table,
+            None => slot.get_or_init(|| FirstFlightTable::new(n)),
         }
     }
 
-    /// All cells, those not made yet without numbers.
-    pub(crate) fn all() -> [&'static Cell; CELLS] {
-        std::array::from_fn(|n| TABLES[n].get().map_or(&NO_CELL, |cell| &**cell))
+    /// All tables; an empty one for each that is not made yet.
+    pub(crate) fn all() -> [&'static FirstFlightTable; TABLES] {
+        std::array::from_fn(|n| ALL_TABLES[n].get().map_or(&EMPTY_TABLE, |table| &**table))
     }
 
     /// The coefficients of Γ.
@@ -163,19 +183,21 @@ impl Cell {
 
     #[cold]
     fn new(n: u64) -> Box<Self> {
-        let star = DoubleDouble::from(alpha_star(n));
-        let end = |turns: u64| (DoubleDouble::multiple_of_pi(turns as f64) - star).high.abs();
-        let mut cell = Box::new(Cell::EMPTY);
-        for (side, sign, turns) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
-            // Pieces beyond the cell are never asked for.
-            let reach = end(turns);
+        let fixed_point = DoubleDouble::from(alpha_star(n));
+        let end = |half_turns: u64| {
+            (DoubleDouble::multiple_of_pi(half_turns as f64) - fixed_point).high.abs()
+        };
+        let mut table = Box::new(FirstFlightTable::EMPTY);
+        for (side, sign, half_turns) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
+            // No speed of the interval lies on a piece that begins beyond its end.
+            let reach = end(half_turns);
             for index in (0..PIECES).take_while(|&index| left_end(index) < reach) {
-                let (closing_speed, beyond) = piece(star, index, sign);
-                cell.closing_speed[side + index] = closing_speed;
-                cell.beyond[side + index] = beyond;
+                let (closing_speed, beyond) = piece(fixed_point, index, sign);
+                table.closing_speed[side + index] = closing_speed;
+                table.beyond[side + index] = beyond;
             }
         }
-        cell
+        table
     }
 }
 
@@ -184,25 +206,9 @@ fn left_end(index: usize) -> f64 {
     f64::from_bits((FIRST_OCTAVE << 52) + ((index as u64) << 48))
 }
 
-/// Polynomials of eight places at once.
-pub(crate) trait Eight {
-    /// Those with the coefficients of `rows`, each at its place.
-    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8];
-}
-
-/// One by one.
-pub(crate) struct OneByOne;
-
-impl Eight for OneByOne {
-    #[inline(always)]
-    fn polynomials(rows: [&Piece; 8], at: &[f64; 8]) -> [f64; 8] {
-        std::array::from_fn(|k| polynomial(rows[k], at[k]))
-    }
-}
-
-/// A polynomial of degree seven.
+/// A polynomial of degree seven, by Estrin's scheme: its terms do not wait for each other.
 #[inline(always)]
-fn polynomial(c: &Piece, x: f64) -> f64 {
+pub(crate) fn polynomial(c: &Piece, x: f64) -> f64 {
     let square = x * x;
     let fourth = square * square;
     let low = (c[0] + c[1] * x) + square * (c[2] + c[3] * x);
@@ -211,12 +217,12 @@ fn polynomial(c: &Piece, x: f64) -> f64 {
 }
 
 /// Γ and α − h on a piece of the side with this `sign`.
-fn piece(star: DoubleDouble, index: usize, sign: f64) -> (Piece, Piece) {
+fn piece(fixed_point: DoubleDouble, index: usize, sign: f64) -> (Piece, Piece) {
     let left = left_end(index);
     let half = 0.5 * (left_end(index + 1) - left);
     let values: [_; COEFFICIENTS] = std::array::from_fn(|k| {
         let size = (INTERPOLATION.nodes[k] + 1.0) * half + left;
-        exact_first(star + size * sign)
+        exact_first(fixed_point + size * sign)
     });
     (
         INTERPOLATION.coefficients(values.map(|(speed, _)| speed)),
@@ -224,25 +230,23 @@ fn piece(star: DoubleDouble, index: usize, sign: f64) -> (Piece, Piece) {
     )
 }
 
-/// Γ and α − h from `alpha`, to 30 digits or nearly.
-///
-/// One evaluation in longer arithmetic at the root that `f64` finds, corrected to first order.
+/// Γ and α − h from `alpha`, to nearly 30 digits: one evaluation in 106 bits at the root that `f64` finds, corrected to
+/// first order.
 fn exact_first(alpha: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
-    let root = from_ground::Cell::of(alpha.high).root_without_table(alpha.high);
-    let half = HalfFlight::at(root.half.h);
+    let interval = FixedPointInterval::of(alpha.high);
+    let (bracket, start) =
+        (interval.half_time_bracket(alpha.high), interval.half_time_estimate(alpha.high));
+    let half = HalfTimeRoot::solve(0.0, alpha.high, bracket, start).half;
     let h = DoubleDouble::from(half.h);
-    let (sin, cos) = h.sin_cos();
-    let d = h - sin * cos;
-    let u = h * cos - sin;
-    let rho = u / d;
-    let residual = ((h - alpha) + sin * rho).high;
-    let closing_speed = rho * u * 2.0;
+    let exact = HalfTime::extended_at(h);
+    let residual = ((h - alpha) + exact.speed_beyond_h(DoubleDouble::ZERO)).high;
+    let closing_speed = exact.closing_speed(DoubleDouble::ZERO);
     let rest = -residual * half.d / closing_speed.high;
     let change = -0.5 * residual * half.loss_slope(0.0) / closing_speed.high;
     (closing_speed + change, (alpha - h) + -rest)
 }
 
-/// From values at the Chebyshev nodes of [−1, 1] to powers.
+/// Interpolation at the Chebyshev nodes of [−1, 1]: from values to coefficients by powers.
 struct Interpolation {
     nodes: [DoubleDouble; COEFFICIENTS],
     /// Coefficient k is Σ matrix[k][j] value[j].

@@ -1,9 +1,9 @@
 //! The first landing of a flight that starts anywhere, with certainty.
 //!
-//! G'' = s − 1 changes sign only where s = 1: at τ = φ ± γ + 2πk with R e^{iφ} = s₀ + iṡ₀ and
-//! γ = acos(1/R). Between neighbours of this lattice G is convex (s > 1) or concave (s < 1), so
-//! that its sign at the ends, and at the one minimum of a convex piece, tell all; no stepping.
-//! Where P > R the height cannot vanish, so that only few pieces need a look (model.md §3).
+//! G'' = s − 1 changes its sign only where s = 1: at τ = φ ± γ + 2πk with R e^{iφ} = s₀ + iṡ₀ and γ = acos(1/R). Between
+//! neighbours of this lattice G is convex (s > 1) or concave (s < 1). Its signs at the ends, and at the one minimum of a
+//! convex piece, therefore decide whether G has a root there, without samples. Where P > R the height cannot vanish, and
+//! these pieces are skipped.
 
 use crate::model::motion::Flight;
 use hybrid_system::{Error, bracketed_root};
@@ -15,8 +15,8 @@ use std::f64::consts::TAU;
 pub(crate) fn landing_time(flight: &Flight) -> Result<f64, Error> {
     let (g, g_rate) = flight.height;
     let (s, s_rate) = flight.stretch;
-    // On the ground it leaves with the first non-zero derivative of G: Ġ, G̈ = s − 1, G⃛ = ṡ,
-    // and for s = 1, ṡ = 0 the fourth, −s.
+    // A start on the ground: the sign of the first non-zero derivative of G decides whether the lower mass leaves. They
+    // are Ġ, G̈ = s − 1, G⃛ = ṡ, and for s = 1, ṡ = 0 the fourth, −s = −1.
     let leaving = [g_rate, s - 1.0, s_rate, -1.0].into_iter().find(|&d| d != 0.0);
     if g == 0.0 && leaving.is_none_or(|derivative| derivative < 0.0) {
         return Ok(0.0);
@@ -24,8 +24,8 @@ pub(crate) fn landing_time(flight: &Flight) -> Result<f64, Error> {
     let lattice = Lattice::new(s, s_rate);
     let clear = clear_interval(flight, lattice.radius);
     let mut left = 0.0;
-    // Each turn of the loop is one piece; those above the spring's reach are jumped over. What
-    // remains lasts for the time that P spends within ±R of zero: a bounded number of pieces.
+    // Each pass of the loop looks at one piece. Pieces with P > R are skipped. The other pieces lie in the time that P
+    // spends within ±R of zero, which is finite: the loop ends.
     loop {
         if left >= clear.0 && left < clear.1 {
             left = lattice.last_before(clear.1).max(left);
@@ -45,7 +45,7 @@ fn root_in_piece(flight: &Flight, left: f64, right: f64) -> Result<Option<f64>, 
     let convex = flight.stretch(0.5 * (left + right)).0 > 1.0;
     let at_right = g(right);
     if convex && at_right > 0.0 {
-        // A dip: two roots or none, told by the minimum.
+        // G is positive at both ends and convex: it has two roots or none, by the sign of its minimum.
         if !(slope(left) < 0.0 && slope(right) > 0.0) {
             return Ok(None);
         }
@@ -58,7 +58,7 @@ fn root_in_piece(flight: &Flight, left: f64, right: f64) -> Result<Option<f64>, 
     if at_right > 0.0 {
         return Ok(None);
     }
-    // From here one root. A start on the ground is a root too: leave it behind the maximum.
+    // One root is left. A start on the ground is a root as well: the search begins at the maximum behind it.
     let from = if g(left) <= 0.0 && slope(left) >= 0.0 && slope(right) < 0.0 {
         bracketed_root(slope, left, right)?
     } else {
@@ -70,7 +70,8 @@ fn root_in_piece(flight: &Flight, left: f64, right: f64) -> Result<Option<f64>, 
     bracketed_root(g, from, right).map(Some)
 }
 
-/// The times between which P > R, so that G = P − s > 0; empty if there are none.
+/// The interval of times at which P > R, so that G = P − s > 0. If there is none, both ends are infinite, and no time lies
+/// in it.
 fn clear_interval(flight: &Flight, radius: f64) -> (f64, f64) {
     let (p, rate) = flight.momentum;
     let discriminant = rate * rate + 2.0 * (p - radius);
@@ -81,7 +82,7 @@ fn clear_interval(flight: &Flight, radius: f64) -> (f64, f64) {
     (rate - root, rate + root)
 }
 
-/// A time at which P < −R: the height is negative.
+/// A time at which P < −R, so that the height is negative: one past the time at which P falls to −R − 1.
 fn end_of_fall(flight: &Flight, radius: f64) -> f64 {
     let (p, rate) = flight.momentum;
     let depth = radius + 1.0;
@@ -91,7 +92,7 @@ fn end_of_fall(flight: &Flight, radius: f64) -> f64 {
 /// The times at which s = 1.
 struct Lattice {
     radius: f64,
-    /// φ − γ and φ + γ; nothing if s never reaches one.
+    /// φ − γ and φ + γ; `None` if s never reaches one.
     phases: Option<[f64; 2]>,
 }
 
@@ -109,6 +110,7 @@ impl Lattice {
     fn next_after(&self, time: f64) -> Option<f64> {
         let after = |phase: f64| {
             let mut turns = ((time - phase) / TAU).floor() + 1.0;
+            // A rounded quotient may give `time` itself, on which the loop over pieces would not advance.
             while phase + turns * TAU <= time {
                 turns += 1.0;
             }
@@ -126,7 +128,9 @@ impl Lattice {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::map::lift_off_map::LiftOffMap;
+    use crate::landing::first_landing::first_landing;
+    use crate::landing::flight_ends::TakeOff;
+    use crate::landing::next_landing::next_landing;
     use crate::model::mass_ratio::MassRatio;
     use crate::model::state::HopperState;
     use proptest::prelude::*;
@@ -140,7 +144,7 @@ mod tests {
             let ratio = MassRatio::new(m).unwrap();
             let flight = Flight::new(ratio, &HopperState::lift_off(alpha));
             let time = landing_time(&flight).unwrap();
-            let landing = LiftOffMap::new(ratio).landings(alpha).unwrap().next().unwrap().unwrap();
+            let landing = first_landing(alpha, ratio.kappa());
             // The time is as badly conditioned as the closing speed is small.
             let tolerance = 1e-13 * (1.0 + time) * (1.0 + alpha / landing.closing_speed.max(1e-9));
             prop_assert!((time - landing.time).abs() < tolerance, "{time} {}", landing.time);
@@ -166,8 +170,8 @@ mod tests {
     }
 
     proptest! {
-        /// Flights from the ground that touch it at τ = 2V (tan V = V/Y), give or take a few ulps: the
-        /// two solvers agree, or one of them counts the touch, which loses nothing.
+        /// Flights from the ground that touch it at τ = 2V (tan V = V/Y), to a few ulps: the two solvers agree, or one
+        /// of them counts the touch, which loses no energy.
         #[test]
         fn grazing_flights(m in 1u32..8, part in 0.05..0.95f64, ulps in -4..5i64, ratio in 0.05..20f64) {
             let v = (f64::from(m) + 0.5 * part) * std::f64::consts::PI;
@@ -177,8 +181,8 @@ mod tests {
             let ratio = MassRatio::new(ratio).unwrap();
             let state = HopperState { upper_position: y, upper_velocity: v, ..HopperState::RELAXED };
             let flight = Flight::new(ratio, &state);
-            let start = crate::landing::from_ground::TakeOff { excess: y - 1.0, velocity: v };
-            let solved = crate::landing::from_ground::next_landing(start, ratio.kappa()).time;
+            let start = TakeOff { excess: y - 1.0, velocity: v };
+            let solved = next_landing(start, ratio.kappa()).time;
             for time in [landing_time(&flight).unwrap(), solved] {
                 let touch = (time - 2.0 * v).abs() < 1e-6 * v;
                 let (height, rate) = flight.height(time);

@@ -1,7 +1,29 @@
-//! When and how the lower mass lands, and how large the error of the answer is.
+//! When and how does the lower mass land, and how large is the error of the answer?
+//!
+//! ```text
+//!   flight_ends.rs, flight_derivative.rs  a flight's two ends, and how small changes of one reach the other
+//!   half_time.rs, half_flight.rs          the closed forms, in half the time of flight; their public face
+//!   half_time_root.rs                     the root search that all landings from the ground share
+//!   fixed_point_interval.rs, first_flight_table.rs, first_landing.rs      after a gradual lift-off
+//!   next_landing.rs                       after a sudden lift-off
+//!   local_flight.rs, extended_landing.rs  near a fixed point; in extended arithmetic
+//!   from_air.rs, printed_bracket.rs       from any state; for the printed equations
+//!   error_bound.rs                        which decisions are larger than their errors
+//! ```
+//!
+//! This room uses `precision` and `model`.
 
 pub(crate) mod error_bound;
+pub(crate) mod extended_landing;
 pub(crate) mod first_flight_table;
+pub(crate) mod first_landing;
+pub(crate) mod fixed_point_interval;
+pub(crate) mod flight_derivative;
+pub(crate) mod flight_ends;
 pub(crate) mod from_air;
-pub(crate) mod from_ground;
 pub(crate) mod half_flight;
+pub(crate) mod half_time;
+pub(crate) mod half_time_root;
+pub(crate) mod local_flight;
+pub(crate) mod next_landing;
+pub(crate) mod printed_bracket;

@@ -1,25 +1,20 @@
 //! The lift-off map α' = f(α; M) in its stable form.
+//!
+//! A hop takes the first of these paths that decides its verdicts: the kernel; landing by landing in `f64`, with an
+//! error bound; longer arithmetic.
 
 use crate::error::Error;
-use crate::kernel::scalar::hop::{Decided, Masses, hop as fast_hop};
-use crate::landing::error_bound::Doubt;
-use crate::landing::from_ground::Landing;
-use crate::landing::from_ground::TakeOff;
-use crate::landing::from_ground::{LARGEST_LIFT_OFF_SPEED, first_landing, next_landing};
-use crate::map::extended_hop::{Start, WideHop, wide_hop};
-use crate::map::many_at_once::images;
+use crate::kernel::scalar::hop::{DecidedHop, MassFactors, kernel_hop};
+use crate::landing::error_bound::ErrorBound;
+use crate::landing::first_landing::first_landing;
+use crate::landing::flight_ends::{Landing, TakeOff};
+use crate::landing::next_landing::next_landing;
+use crate::map::extended_hop::{ExtendedHop, Start, extended_hop};
+use crate::map::limits::{LARGEST_PLAIN_SPEED, SUDDEN_LIFT_OFF_BUDGET};
 use crate::model::mass_ratio::MassRatio;
+use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 use crate::precision::double_double::DoubleDouble;
-use crate::precision::real::Real;
-
-/// Sudden lift-offs that one hop may have before it is given up with an error.
-///
-/// Theory bounds their number by ((α√M + √(α²M + 8αα*_1))/(2α*_1))²; scans find 1013 at M = 10⁴. A hop
-/// that uses up the budget takes some tenths of a second.
-pub const SUDDEN_LIFT_OFF_BUDGET: usize = 1_000_000;
-
-/// Above this speed, 2²⁸, hops are computed in longer arithmetic at once: an ulp of the phase is 10⁻⁸.
-pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
+use crate::precision::real::Extended;
 
 /// The map from one gradual lift-off speed to the next, at a fixed mass ratio.
 ///
@@ -27,8 +22,8 @@ pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
 ///   α'² = α² − μ Σ Γᵢ²        summed over the landings of the hop; negative: grounded
 /// ```
 ///
-/// Speeds are in units of the model's length m₂g/k times ω. While no landing is sudden, the sum has
-/// one term that knows nothing of M: the invariance under M → 1/M.
+/// Speeds are in units of the model's length m₂g/k times ω. If no landing is sudden, the sum has one term, which does
+/// not depend on M. Since μ is the same for M and 1/M, so is f then.
 ///
 /// ```
 /// use passive_hopper::{LiftOffMap, MassRatio};
@@ -42,35 +37,35 @@ pub(crate) const LARGEST_PLAIN_SPEED: f64 = 268_435_456.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LiftOffMap {
     mass_ratio: MassRatio,
-    pub(crate) masses: Masses,
+    pub(crate) factors: MassFactors,
 }
 
-/// All that one hop does to the lift-off speed.
+/// One hop: how it changes the lift-off speed, and how it came about.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hop {
     /// The lift-off speed it started with, α.
     pub speed: f64,
-    /// The next gradual lift-off speed α'; nothing if the hopper is grounded.
+    /// The next gradual lift-off speed α'; `None` if the hopper is grounded.
     pub next: Option<f64>,
-    /// α − α', without cancellation; nothing if grounded.
+    /// α − α', without cancellation; `None` if the hopper is grounded.
     pub loss: Option<f64>,
     /// α'², negative if grounded.
     pub next_speed_squared: f64,
-    /// Number of sudden lift-offs on the way.
+    /// Number of sudden lift-offs.
     pub sudden: usize,
     /// Total time of flight τ.
     pub flight_time: f64,
-    /// Whether every verdict on the way (sudden or not, on which branch a flight lands, grounded or
-    /// not) is larger than its rounding error. What 53 bits leave open is computed with 106, and then
-    /// with up to 1024; false means that these do not suffice either, or would take too long.
+    /// Whether every verdict of the hop (sudden or not, on which branch a flight lands, grounded or
+    /// not) is larger than its rounding error. A hop whose verdicts are inconclusive in 53 bits is computed with 106,
+    /// and then with up to 1024. False means that 1024 bits do not suffice either, or would take too long.
     pub certain: bool,
 }
 
 impl LiftOffMap {
     /// The map at `mass_ratio`.
     pub fn new(mass_ratio: MassRatio) -> Self {
-        let masses = Masses { mu: mass_ratio.mu(), kappa: mass_ratio.kappa() };
-        LiftOffMap { mass_ratio, masses }
+        let factors = MassFactors { mu: mass_ratio.mu(), kappa: mass_ratio.kappa() };
+        LiftOffMap { mass_ratio, factors }
     }
 
     /// The mass ratio M.
@@ -78,20 +73,20 @@ impl LiftOffMap {
         self.mass_ratio
     }
 
-    /// f(α): the next lift-off speed, or nothing if the hopper is grounded.
+    /// f(α): the next lift-off speed, or `None` if the hopper is grounded.
     ///
     /// # Errors
-    /// As [`hop`](Self::hop), and [`Error::Undecided`] for a hop that is not
+    /// The errors of [`hop`](Self::hop), and [`Error::Undecided`] for a hop that is not
     /// [certain](Hop::certain).
     #[inline]
     pub fn image(&self, alpha: f64) -> Result<Option<f64>, Error> {
-        match fast_hop(alpha, self.masses) {
+        match kernel_hop(alpha, self.factors) {
             Some(decided) => Ok(decided.next()),
             None => self.careful_image(alpha),
         }
     }
 
-    /// What the fast path leaves open.
+    /// The image for a speed that the kernel does not decide, wrong speeds included.
     #[cold]
     pub(crate) fn careful_image(&self, alpha: f64) -> Result<Option<f64>, Error> {
         let (hop, _) = self.decide(alpha, |_| ())?;
@@ -101,47 +96,6 @@ impl LiftOffMap {
         Ok(hop.next)
     }
 
-    /// f of all `speeds` at once, each replaced by its image, with the bits of [`image`](Self::image);
-    /// nothing, for a grounded hopper, stays nothing.
-    ///
-    /// Many times faster than one after the other: flights of different hops share the lanes of a
-    /// vector unit, AVX-512, AVX2 or whatever the processor has.
-    ///
-    /// ```
-    /// use passive_hopper::{LiftOffMap, MassRatio};
-    /// let map = LiftOffMap::new(MassRatio::new(0.2)?);
-    /// let mut speeds = [Some(5.5), Some(7.0), None];
-    /// map.images(&mut speeds)?;
-    /// assert_eq!(speeds, [map.image(5.5)?, map.image(7.0)?, None]);
-    /// # Ok::<(), passive_hopper::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// The first of those that [`image`](Self::image) gives. All others are replaced all the same; those
-    /// with an error keep their speeds.
-    pub fn images(&self, speeds: &mut [Option<f64>]) -> Result<(), Error> {
-        images(speeds, |_| *self, |&speed| speed, |speed| speed)
-    }
-
-    /// The images of speeds each under a map of its own, as [`images`](Self::images) gives them for one map: for
-    /// work over many mass ratios with few speeds each.
-    ///
-    /// ```
-    /// use passive_hopper::{LiftOffMap, MassRatio};
-    /// let [light, heavy] = [0.2, 0.8].map(|m| MassRatio::new(m).map(LiftOffMap::new));
-    /// let (light, heavy) = (light?, heavy?);
-    /// let mut hops = [(&light, Some(5.5)), (&heavy, Some(5.5)), (&heavy, None)];
-    /// LiftOffMap::images_of_pairs(&mut hops)?;
-    /// assert_eq!(hops.map(|hop| hop.1), [light.image(5.5)?, heavy.image(5.5)?, None]);
-    /// # Ok::<(), passive_hopper::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// As [`images`](Self::images).
-    pub fn images_of_pairs(hops: &mut [(&LiftOffMap, Option<f64>)]) -> Result<(), Error> {
-        images(hops, |hop| *hop.0, |hop| hop.1, |hop| &mut hop.1)
-    }
-
     /// The hop that starts with speed `alpha`.
     ///
     /// # Errors
@@ -149,21 +103,21 @@ impl LiftOffMap {
     /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
     /// sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
-        match fast_hop(alpha, self.masses) {
+        match kernel_hop(alpha, self.factors) {
             Some(decided) => Ok(decided.hop(alpha)),
             None => self.decide(alpha, |_| ()).map(|(hop, _)| hop),
         }
     }
 
-    /// The hop with its landings, in the arithmetic that decided it.
+    /// The hop by the careful path, with its landings in the arithmetic that decided it.
     pub(crate) fn path(&self, alpha: f64) -> Result<(Hop, Vec<Landing>), Error> {
         let mut plain = Vec::new();
         let (hop, longer) = self.decide(alpha, |landing| plain.push(*landing))?;
         Ok((hop, longer.unwrap_or(plain)))
     }
 
-    /// The hop, with the landings of the longer arithmetic if that was needed; `see` sees those in plain
-    /// `f64`.
+    /// The hop by the careful path, and its landings in longer arithmetic if that was needed. `see` gets the landings
+    /// in plain `f64`.
     fn decide(
         &self,
         alpha: f64,
@@ -172,38 +126,41 @@ impl LiftOffMap {
         check_speed(alpha)?;
         if alpha <= LARGEST_PLAIN_SPEED {
             let hop = self.plain_hop(alpha, see)?;
+            // A hop with more sudden lift-offs than longer arithmetic allows stays uncertain.
             if hop.certain || hop.sudden > DoubleDouble::SUDDEN_BUDGET {
                 return Ok((hop, None));
             }
         }
-        let hop = wide_hop(Start::Speed(alpha), self.mass_ratio)?;
+        let hop = extended_hop(Start::Speed(alpha), self.mass_ratio)?;
         Ok((self.rounded(alpha, &hop), Some(hop.landings)))
     }
 
     /// The hop in plain `f64`, certain or not.
     fn plain_hop(&self, alpha: f64, mut see: impl FnMut(&Landing)) -> Result<Hop, Error> {
         let landings = self.landings(alpha)?;
-        let (mut shares, mut sudden, mut flight_time) = (0.0, 0, 0.0);
-        let mut doubt = Doubt::plain(alpha);
+        // Σ (Γ/α)²: of ratios, so that no square underflows for tiny α.
+        let (mut ratios_squared, mut sudden, mut flight_time) = (0.0, 0, 0.0);
+        let mut error_bound = ErrorBound::of_f64(alpha);
         for landing in landings {
             let landing = landing?;
             let ratio = landing.closing_speed / alpha;
-            shares += ratio * ratio;
+            ratios_squared += ratio * ratio;
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
-            doubt.pass(&landing, self.masses.kappa);
+            error_bound.add_flight(&landing, self.factors.kappa);
             see(&landing);
         }
-        let t = self.masses.mu * shares;
-        let certain = !doubt.is_real(1.0 - t, self.masses.mu, alpha);
-        // t = 1 − α'²/α²; the loss α t/(1 + √(1−t)) keeps its digits when t is small.
+        let t = self.factors.mu * ratios_squared;
+        let certain = !error_bound.inconclusive(1.0 - t, self.factors.mu, alpha);
+        // t = 1 − α'²/α². The loss α t/(1 + √(1−t)) keeps its digits for small t, and α' = α − loss then has only
+        // one rounding. For t ≥ ½ the difference would cancel: there the root is better.
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
         let next_speed_squared = alpha * alpha * (1.0 - t);
         Ok(Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time, certain })
     }
 
-    fn rounded(&self, alpha: f64, hop: &WideHop) -> Hop {
+    fn rounded(&self, alpha: f64, hop: &ExtendedHop) -> Hop {
         Hop {
             speed: alpha,
             next: hop.next.as_ref().map(|next| next.speed),
@@ -215,34 +172,31 @@ impl LiftOffMap {
         }
     }
 
-    /// The landings of the hop that starts with speed `alpha`, one after the other, in plain `f64`: of a
-    /// hop that is decided in longer arithmetic the later ones may be others.
+    /// The landings of the hop that starts with speed `alpha`, one after the other, in plain `f64`.
+    ///
+    /// If [`hop`](Self::hop) needs longer arithmetic to decide the hop, its landings after the first may differ from
+    /// these.
     ///
     /// # Errors
-    /// As [`hop`](Self::hop), the budget's from the iterator.
+    /// The errors of [`hop`](Self::hop) for a wrong speed. The iterator gives [`Error::SuddenLiftOffBudget`].
     pub fn landings(&self, alpha: f64) -> Result<Landings, Error> {
         check_speed(alpha)?;
         let start = TakeOff { excess: 0.0, velocity: alpha };
-        Ok(Landings { kappa: self.masses.kappa, start: Some(start), flights: 0 })
+        Ok(Landings { kappa: self.factors.kappa, start: Some(start), flights: 0 })
     }
 }
 
-impl Decided {
-    /// α′, or nothing if the hopper is grounded.
-    #[inline(always)]
-    pub(crate) fn next(&self) -> Option<f64> {
-        (self.next_speed_squared > 0.0).then(|| self.next_speed_squared.sqrt())
-    }
-
+impl DecidedHop {
     fn hop(&self, alpha: f64) -> Hop {
         let next = self.next();
         Hop {
             speed: alpha,
             next,
-            loss: next.map(|next| self.taken / (alpha + next)),
+            // α − α′ = (α² − α′²)/(α + α′), which does not cancel.
+            loss: next.map(|next| self.loss_of_square / (alpha + next)),
             next_speed_squared: self.next_speed_squared,
-            sudden: self.sum.flights as usize - 1,
-            flight_time: 2.0 * self.sum.half_time,
+            sudden: self.sums.flights as usize - 1,
+            flight_time: 2.0 * self.sums.half_time,
             certain: true,
         }
     }
@@ -283,8 +237,8 @@ impl Iterator for Landings {
             next_landing(start, self.kappa)
         };
         self.flights += 1;
-        // A sudden landing whose excess rounds to zero or below is followed by a flight too short
-        // to see, which loses nothing.
+        // A sudden landing whose excess rounds to zero or below: the flight that follows is too short to be
+        // represented and loses nothing. A search from x ≤ 0 would have no bracket.
         let again = landing.sudden && landing.excess > 0.0;
         self.start =
             again.then_some(TakeOff { excess: landing.excess, velocity: landing.velocity });

@@ -1,7 +1,18 @@
-//! The lift-off map α′ = f(α; M), one hop and many.
+//! What is α′ = f(α; M), the next gradual lift-off speed?
+//!
+//! ```text
+//!   lift_off_map.rs       one hop: the kernel first, the careful path where the kernel can not decide
+//!   many_at_once.rs       many hops, in blocks of the kernel
+//!   near_fixed_point.rs   a hop in (n, δ), α = α*_n + δ
+//!   extended_hop.rs       a hop in 106 to 1024 bits
+//!   slopes.rs             ∂α′/∂α and ∂α′/∂M
+//!   printed.rs            the paper's own equations, for comparison
+//!   limits.rs             limits of all of these
+//! ```
 
 pub(crate) mod extended_hop;
 pub(crate) mod lift_off_map;
+pub(crate) mod limits;
 pub(crate) mod many_at_once;
 pub(crate) mod near_fixed_point;
 pub(crate) mod printed;

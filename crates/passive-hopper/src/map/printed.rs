@@ -1,32 +1,34 @@
 //! The map as the paper prints it: Eqs. (6)–(8), solved by Brent's method.
 //!
-//! It gives the same values as the stable form but subtracts nearly equal numbers; kept to show
-//! the difference, and as an independent check.
+//! It gives the same values as the stable form, but it subtracts nearly equal numbers and loses digits where the
+//! difference is small. It shows this difference and is an independent check of the stable form.
 
 use crate::error::Error;
-use crate::landing::from_ground::TakeOff;
-use crate::landing::from_ground::time_bracket;
-use crate::map::lift_off_map::SUDDEN_LIFT_OFF_BUDGET;
+use crate::landing::flight_ends::TakeOff;
+use crate::landing::printed_bracket::time_bracket;
+use crate::map::lift_off_map::LiftOffMap;
+use crate::map::limits::SUDDEN_LIFT_OFF_BUDGET;
 use crate::model::mass_ratio::MassRatio;
 use hybrid_system::bracketed_root;
 
 /// State of the upper mass at a lift-off or landing, (y₁, ẏ₁).
 type UpperState = (f64, f64);
 
-/// f(α; M) by the printed equations; nothing if the hopper is grounded.
+/// f(α; M) by the printed equations; `None` if the hopper is grounded.
 ///
-/// The time of flight is the only root of Eq. (8) on a bracket that theory gives.
+/// The time of flight is the only root of Eq. (8) in a bracket that theory gives.
 ///
 /// # Errors
-/// [`Error::LiftOffSpeed`] and [`Error::LiftOffSpeedTooLarge`] as in the stable form;
-/// [`Error::Landing`] where rounding hides the sign change of Eq. (8) on the bracket.
+/// [`Error::LiftOffSpeed`], [`Error::LiftOffSpeedTooLarge`] and [`Error::SuddenLiftOffBudget`] as in the stable form;
+/// [`Error::Landing`] if rounding hides the sign change of Eq. (8) on the bracket.
 pub fn printed_image(mass_ratio: MassRatio, alpha: f64) -> Result<Option<f64>, Error> {
-    crate::map::lift_off_map::LiftOffMap::new(mass_ratio).landings(alpha)?; // the same checks of α
+    LiftOffMap::new(mass_ratio).landings(alpha)?; // checks α; the landings are not used
     let mut state = (1.0, alpha);
     for _ in 0..SUDDEN_LIFT_OFF_BUDGET {
         let time = flight_time(state)?;
         state = flight_map(mass_ratio, state, time);
         let (y, v) = state;
+        // y₁ > 1 pulls the lower mass off again; so does y₁ = 1 if the upper mass moves up.
         if !(y > 1.0 || (y == 1.0 && v > 0.0)) {
             return Ok(contact_map(mass_ratio, state));
         }
@@ -60,7 +62,7 @@ fn flight_map(mass_ratio: MassRatio, (y, v): UpperState, t: f64) -> UpperState {
     )
 }
 
-/// F_c, Eq. (7): from landing to the gradual lift-off.
+/// F_c, Eq. (7): from the landing to the gradual lift-off; `None` if the hopper is grounded.
 fn contact_map(mass_ratio: MassRatio, (y, v): UpperState) -> Option<f64> {
     let m = mass_ratio.value();
     let next_speed_squared = ((1.0 + m) * v * v + m * y * y + 2.0 * y - 2.0 - m) / (1.0 + m);

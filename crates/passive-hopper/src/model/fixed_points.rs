@@ -1,8 +1,9 @@
-//! The lossless hops: fixed points of every map, whatever the mass ratio.
+//! The lossless hops: the fixed points α*_n of the map, the same for every mass ratio.
 
 use crate::error::Error;
-use crate::landing::from_ground::LARGEST_LIFT_OFF_SPEED;
+use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 use crate::precision::double_double::DoubleDouble;
+use crate::precision::real::Extended;
 use std::cmp::Ordering;
 use std::sync::OnceLock;
 
@@ -22,16 +23,17 @@ pub fn alpha_star(n: u64) -> f64 {
     exact_alpha_star(n).high
 }
 
-/// α*_n to 100 bits, for questions that 53 bits leave open: on which side of it a speed lies, and how far away.
+/// α*_n to 100 bits. They decide what the 53 bits of an `f64` leave open: on which side of α*_n a speed lies, and
+/// how far away.
 ///
 /// ```
 /// use passive_hopper::{FixedPointSpeed, alpha_star};
 /// use std::cmp::Ordering;
 /// let star = FixedPointSpeed::new(1);
 /// assert_eq!(star.value(), alpha_star(1));
-/// // The nearest f64 lies below α*_1; the offset is far smaller than the spacing of f64 there.
-/// assert_eq!(star.compare(star.value()), Ordering::Less);
-/// assert!(star.offset_of(star.value()).abs() < 4.5e-16);
+/// // The nearest f64 lies above α*_1, by far less than the spacing of f64 there, 8.9e-16.
+/// assert_eq!(star.compare(star.value()), Ordering::Greater);
+/// assert!(star.offset_of(star.value()) < 4e-17);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointSpeed(DoubleDouble);
@@ -73,7 +75,7 @@ impl FixedPointSpeed {
     }
 }
 
-/// α*_n to 100 bits. The first 128 values are computed once and kept.
+/// α*_n to 100 bits. The first 128 values, speeds up to 400, are computed once and kept.
 pub(crate) fn exact_alpha_star(n: u64) -> DoubleDouble {
     static FIRST: OnceLock<[DoubleDouble; 128]> = OnceLock::new();
     let first = FIRST.get_or_init(|| std::array::from_fn(|n| solve(n as u64)));
@@ -84,12 +86,13 @@ fn solve(n: u64) -> DoubleDouble {
     if n == 0 {
         return DoubleDouble::ZERO;
     }
-    // n + ½ in two parts, each an f64.
+    // n + ½ in two parts, each of them exact as an f64: the lowest 26 bits with the ½, and the bits above, of which
+    // an f64 holds 53. Above 2⁷⁹ they would not suffice; a u64 ends before.
     let low = n & ((1 << 26) - 1);
     let q = DoubleDouble::multiple_of_pi((n - low) as f64)
         + DoubleDouble::multiple_of_pi(low as f64 + 0.5);
     let mut alpha = q;
-    // The error shrinks by at least 21 in a step; 24 steps take any start to 106 bits.
+    // A step shrinks the error by 1 + α² ≥ 21. From q, whose error is below 0.22, 24 steps reach 21⁻²⁴ · 0.22 < 2⁻¹⁰⁶.
     for _ in 0..24 {
         let next = q - arc_tangent(DoubleDouble::ONE / alpha);
         if next == alpha {
@@ -100,10 +103,11 @@ fn solve(n: u64) -> DoubleDouble {
     alpha
 }
 
-/// arctan x = x − x³/3 + x⁵/5 − …, for 0 < x < ¼.
+/// arctan x = x − x³/3 + x⁵/5 − …, for 0 < x < ¼; 1/α*_n < 0.223.
 fn arc_tangent(x: DoubleDouble) -> DoubleDouble {
     let minus_square = -x.squared();
     let (mut power, mut sum, mut odd) = (x, x, 1.0);
+    // 10⁻³⁴ < 2⁻¹¹²: terms below it do not change the 106 bits of the sum.
     while power.high.abs() > 1e-34 * x.high {
         power = power * minus_square;
         odd += 2.0;
@@ -112,7 +116,22 @@ fn arc_tangent(x: DoubleDouble) -> DoubleDouble {
     sum
 }
 
-/// n π to 100 bits: where a first landing has stretch one, and the flight an integer number of turns.
+/// α*_n in the arithmetic `R`, by Newton's method on sin a = a cos a from 100 bits. There sin a − a cos a has the
+/// slope a sin a.
+pub(crate) fn fixed_point_in<R: Extended>(n: u64) -> R {
+    let exact = exact_alpha_star(n);
+    let mut a = R::from(exact.high) + exact.low;
+    if n == 0 {
+        return a; // the slope is 0
+    }
+    for _ in 0..R::STEPS_FROM_100_BITS {
+        let (sin, cos) = a.sin_cos();
+        a = a - (sin - a * cos) / (a * sin);
+    }
+    a
+}
+
+/// n π to 100 bits. A first flight from this speed lasts n turns of the spring and lands at stretch one.
 pub(crate) fn n_pi(n: u64) -> DoubleDouble {
     DoubleDouble::multiple_of_pi(n as f64)
 }
@@ -131,7 +150,7 @@ pub fn index_below(alpha: f64) -> Result<u64, Error> {
     if alpha > LARGEST_LIFT_OFF_SPEED {
         return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
     }
-    // α*_n ∈ (nπ, (n+½)π): it is ⌊α/π⌋, or one off.
+    // α*_n ∈ (nπ, (n+½)π): the answer is ⌊α/π⌋ or one less. The rounded quotient may be one too small, hence + 1.
     let mut n = (alpha / std::f64::consts::PI) as u64 + 1;
     while n > 0 && exact_alpha_star(n).compare(alpha) == Ordering::Less {
         n -= 1;
@@ -142,6 +161,8 @@ pub fn index_below(alpha: f64) -> Result<u64, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::precision::long::Long;
+    use crate::precision::real::Real;
 
     /// α*_n to 50 digits, computed independently (mpmath).
     const REFERENCE: &str = include_str!("../../tests/data/fixed_points.json");
@@ -155,7 +176,7 @@ mod tests {
             let text = row["alpha_star"].as_str().unwrap();
             let ours = exact_alpha_star(n);
             assert_eq!(ours.high, text.parse::<f64>().unwrap(), "n = {n}");
-            // The rest, from the decimal digits: integer part and 30 digits of the fraction.
+            // The whole of it, from the decimal digits: integer part and 40 digits of the fraction.
             let (whole, fraction) = text.split_once('.').unwrap();
             let mut exact = DoubleDouble::from(whole.parse::<f64>().unwrap());
             for (place, chunk) in fraction.as_bytes().chunks(10).take(4).enumerate() {
@@ -189,8 +210,31 @@ mod tests {
         assert!(index_below(f64::NAN).is_err() && index_below(1e300).is_err());
     }
 
+    /// tan α* = α*, with α* from another route (arctangents), to 30 digits.
     #[test]
-    fn huge_indices_do_not_break() {
+    fn sines_at_the_fixed_points() {
+        for n in [1, 2, 10, 1000] {
+            let star = exact_alpha_star(n);
+            let (sin, cos) = star.sin_cos();
+            let rest = sin - star * cos;
+            assert!(rest.high.abs() < 1e-28 * star.high, "{n}: {}", rest.high);
+        }
+    }
+
+    /// tan α* = α* to the last digits of 1024 bits.
+    #[test]
+    fn fixed_points_to_a_thousand_bits() {
+        for n in [1, 2, 1000, 1 << 40] {
+            let a: Long<16> = fixed_point_in(n);
+            let (sin, cos) = a.sin_cos();
+            let rest = ((sin - a * cos) / (a * a)).nearest().abs();
+            assert!(rest < Long::<16>::EPSILON, "{n}: {rest:e}");
+            assert_eq!(a.nearest(), alpha_star(n));
+        }
+    }
+
+    #[test]
+    fn huge_indices_give_finite_values() {
         for n in [1 << 40, 1 << 50, u64::MAX] {
             assert!(alpha_star(n).is_finite());
         }

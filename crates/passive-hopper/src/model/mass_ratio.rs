@@ -9,7 +9,7 @@ use crate::error::Error;
 pub struct MassRatio(f64);
 
 impl MassRatio {
-    /// M = 1, at which the intervals of attraction are smallest.
+    /// M = 1, at which the trapping regions of the fixed points are smallest.
     pub const ONE: MassRatio = MassRatio(1.0);
 
     /// A mass ratio with the value `value`.
@@ -29,12 +29,12 @@ impl MassRatio {
         self.0
     }
 
-    /// μ = M/(1+M)² ∈ (0, ¼], all that the map depends on while no landing is sudden.
+    /// μ = M/(1+M)² ∈ (0, ¼]. While no landing is sudden, the map depends on M only through μ.
     pub fn mu(self) -> f64 {
         self.kappa() / (1.0 + self.0)
     }
 
-    /// κ = M/(1+M), the lower mass's share of the whole.
+    /// κ = M/(1+M) = m₂/(m₁ + m₂).
     pub fn kappa(self) -> f64 {
         self.0 / (1.0 + self.0)
     }
@@ -55,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bad_values_are_refused_with_the_value() {
+    fn errors_name_the_invalid_value() {
         for value in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e-310, 1e308, -0.0] {
             let error = MassRatio::new(value).unwrap_err();
             assert!(error.to_string().contains(&value.to_string()), "{error}");

@@ -1,4 +1,13 @@
-//! The equations of motion: parameters, states, fixed points, and every phase in closed form.
+//! How do both masses move?
+//!
+//! ```text
+//!   mass_ratio.rs     M = m₂/m₁, the only parameter         units.rs          kilograms, metres, seconds
+//!   state.rs          (y₁, ẏ₁, y₂, ẏ₂)                      energy.rs         and the loss of a landing
+//!   motion.rs         the flight in closed form             contact.rs        the contact in closed form
+//!   fixed_points.rs   the lossless hops: tan α*_n = α*_n, to 100 bits and more
+//! ```
+//!
+//! This room uses `precision` alone.
 
 pub(crate) mod contact;
 pub(crate) mod energy;

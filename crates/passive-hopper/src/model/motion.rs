@@ -7,9 +7,13 @@
 //!
 //! The second form of G keeps its digits at small τ, where a lift-off is a triple root.
 
-use crate::landing::from_ground::LARGEST_LIFT_OFF_SPEED;
 use crate::model::mass_ratio::MassRatio;
 use crate::model::state::HopperState;
+
+/// The largest lift-off speed, 2⁴³, and the largest coordinate or rate of a state: the spring's phase at the landing
+/// is of this size, and above it two neighbouring `f64` are 2⁻⁹ or more apart, too coarse for a phase. The careful
+/// path computes hops with speeds above 2²⁸ in extended arithmetic; past 2⁴³ the functions return errors.
+pub const LARGEST_LIFT_OFF_SPEED: f64 = 8_796_093_022_208.0;
 
 /// A flight from a given state; times count from there.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +27,8 @@ pub struct Flight {
     pub(crate) height: (f64, f64),
 }
 
-/// Up to this time the cancellation-free form of G is used.
+/// Up to this time the second form of G is used. Chosen, not derived: past it the first form cancels no more than
+/// some bits, and the second one would subtract terms that grow with τ².
 const NEAR_START: f64 = 1.0;
 
 impl Flight {
@@ -38,7 +43,7 @@ impl Flight {
         }
     }
 
-    /// A coordinate or rate too large for the spring's phase to be resolved, if there is one.
+    /// The first coordinate or rate over [`LARGEST_LIFT_OFF_SPEED`] or not a number, if there is one.
     pub(crate) fn unresolved(&self) -> Option<f64> {
         [self.stretch, self.momentum, self.height]
             .into_iter()

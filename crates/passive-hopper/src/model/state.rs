@@ -4,7 +4,7 @@ use nalgebra::Vector4;
 
 /// Displacements and velocities of both masses, in units of m₂g/k and of m₂gω/k.
 ///
-/// Displacements count from the relaxed spring standing on the ground, upwards.
+/// Displacements are measured upwards from the relaxed spring standing on the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HopperState {
     /// y₁, displacement of the upper mass.
@@ -36,7 +36,7 @@ impl HopperState {
         self.upper_position - self.lower_position
     }
 
-    /// ṡ.
+    /// ṡ, the rate of the stretch.
     pub fn stretch_rate(&self) -> f64 {
         self.upper_velocity - self.lower_velocity
     }
@@ -46,7 +46,7 @@ impl HopperState {
         self.upper_position + mass_ratio * self.lower_position
     }
 
-    /// Ṗ.
+    /// Ṗ, the rate of the momentum coordinate.
     pub fn momentum_rate(&self, mass_ratio: f64) -> f64 {
         self.upper_velocity + mass_ratio * self.lower_velocity
     }

@@ -1,4 +1,4 @@
-//! Between metres, kilograms and seconds and the dimensionless model.
+//! Conversion between quantities with dimensions (metres, kilograms, seconds) and the dimensionless model.
 
 use crate::error::Error;
 use crate::model::mass_ratio::MassRatio;
@@ -53,7 +53,7 @@ impl PhysicalHopper {
         MassRatio::new(self.lower_mass / self.upper_mass)
     }
 
-    /// The unit of length, m₂g/k: how far the lower mass's weight stretches the spring.
+    /// The unit of length, m₂g/k: the stretch of the spring under the weight of the lower mass.
     pub fn length_unit(&self) -> f64 {
         self.lower_mass * self.gravity / self.stiffness
     }
@@ -78,13 +78,12 @@ impl PhysicalHopper {
         self.upper_mass * self.gravity * self.length_unit()
     }
 
-    /// A state with dimensions (displacements from the relaxed spring on the ground) to
-    /// dimensionless.
+    /// The dimensionless form of a state with dimensions (displacements from the relaxed spring on the ground).
     pub fn to_dimensionless(&self, state: &HopperState) -> HopperState {
         scaled(state, 1.0 / self.length_unit(), 1.0 / self.speed_unit())
     }
 
-    /// A dimensionless state to one with dimensions.
+    /// The form with dimensions of a dimensionless state.
     pub fn to_physical(&self, state: &HopperState) -> HopperState {
         scaled(state, self.length_unit(), self.speed_unit())
     }
@@ -105,7 +104,7 @@ mod tests {
     use approx::assert_relative_eq;
 
     #[test]
-    fn units_are_those_of_the_paper() {
+    fn units_match_the_paper() {
         let hopper = PhysicalHopper::new(2.0, 0.5, 300.0, 9.81).unwrap();
         assert_eq!(hopper.mass_ratio().unwrap().value(), 0.25);
         // ω² = k (1+M)/m₂
@@ -117,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn there_and_back() {
+    fn conversion_and_its_inverse() {
         let hopper = PhysicalHopper::new(1.0, 1.0, 500.0, 9.8).unwrap();
         let state = HopperState::lift_off(7.0);
         let back = hopper.to_dimensionless(&hopper.to_physical(&state));
@@ -125,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn bad_parameters_are_named() {
+    fn errors_name_the_parameter() {
         let error = PhysicalHopper::new(1.0, 1.0, -3.0, 9.8).unwrap_err();
         assert_eq!(error.to_string(), "k must be positive and finite, not -3");
     }

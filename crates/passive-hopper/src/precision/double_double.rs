@@ -1,6 +1,7 @@
-//! Numbers as unevaluated sums of two `f64`, for the constants that decide which side of a branch
-//! a speed lies on.
+//! Numbers as unevaluated sums of two `f64`: 106 bits. They hold the constants that decide on which side of a
+//! branch a speed lies, and are the first arithmetic tried where `f64` leaves a decision open.
 
+use crate::precision::real::{Extended, Real, extended_sine_remainders};
 use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 use std::sync::OnceLock;
@@ -10,7 +11,7 @@ use std::sync::OnceLock;
 pub(crate) struct DoubleDouble {
     /// The nearest `f64`.
     pub(crate) high: f64,
-    /// What is left.
+    /// The number minus `high`.
     pub(crate) low: f64,
 }
 
@@ -47,7 +48,7 @@ impl DoubleDouble {
         DoubleDouble { high, low }
     }
 
-    /// n π, relatively right to 2⁻¹⁰⁵.
+    /// n π, with a relative error below 2⁻¹⁰⁵.
     pub(crate) fn multiple_of_pi(n: f64) -> Self {
         let [a, b, c] = PI_PARTS;
         Self::exact_product(a, n) + Self::exact_product(b, n) + c * n
@@ -69,10 +70,10 @@ impl DoubleDouble {
         Self::ordered_sum(root, rest.high / (2.0 * root))
     }
 
-    /// sin and cos, absolutely right to about 2⁻¹⁰⁰; sin relatively so near zero.
+    /// sin and cos, with an absolute error of about 2⁻¹⁰⁰; near zero the relative error of sin is as small.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
         let turns = (self.high / std::f64::consts::PI).round();
-        // Part by part: the first difference cancels without error.
+        // π has three parts. The largest product is subtracted first: that difference cancels without error.
         let [a, b, c] = PI_PARTS.map(|part| Self::exact_product(part, turns));
         let rest = ((self - a) - b) - c;
         let square = rest.squared();
@@ -98,10 +99,10 @@ impl DoubleDouble {
     }
 }
 
-/// Terms of the series of sin and cos: (π/2)³²/32! is under 2⁻¹⁰⁶.
+/// Terms of the series of sin and cos on |x| ≤ π/2. The first term dropped is (π/2)³⁴/34!, below 2⁻¹⁰⁵.
 const TERMS: usize = 17;
 
-/// 1/k! for k up to 40.
+/// 1/k! for k < 40; the series need k < 2 [`TERMS`] = 34.
 fn inverse_factorials() -> &'static [DoubleDouble; 40] {
     static TABLE: OnceLock<[DoubleDouble; 40]> = OnceLock::new();
     TABLE.get_or_init(|| {
@@ -170,7 +171,7 @@ impl Mul<f64> for DoubleDouble {
 impl Div for DoubleDouble {
     type Output = Self;
     fn div(self, divisor: Self) -> Self {
-        // Long division, three digits of 53 bits.
+        // Long division with three digits of 53 bits each: two digits alone would lose some of the 106 bits.
         let first = self.high / divisor.high;
         let rest = self - divisor * first;
         let second = rest.high / divisor.high;
@@ -180,11 +181,49 @@ impl Div for DoubleDouble {
     }
 }
 
+/// a = high + low, each with at most 26 bits, so that their products are exact (Dekker).
 fn split(a: f64) -> (f64, f64) {
-    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
+    /// 2²⁷ + 1: half of the 53 bits go to each part. It overflows for |a| > 2⁹⁹⁶.
+    const SPLITTER: f64 = 134_217_729.0;
     let c = SPLITTER * a;
     let high = c - (c - a);
     (high, a - high)
+}
+
+impl Real for DoubleDouble {
+    fn nearest(self) -> f64 {
+        self.high
+    }
+
+    fn sin_cos(self) -> (Self, Self) {
+        DoubleDouble::sin_cos(self)
+    }
+
+    fn sine_remainders(self, sin: Self, cos: Self) -> (Self, Self) {
+        extended_sine_remainders(self, sin, cos)
+    }
+
+    /// Unchanged: no quotient overflows for the lift-off speeds that reach this arithmetic.
+    fn at_most_largest(self) -> Self {
+        self
+    }
+}
+
+impl Extended for DoubleDouble {
+    /// 2⁻¹⁰⁰: six of the 106 bits are left to the roundings inside an operation.
+    const EPSILON: f64 = 7.9e-31;
+    /// A flight takes some tens of microseconds.
+    const SUDDEN_BUDGET: usize = 100_000;
+    /// A number of 100 right bits is already as good as [`EPSILON`](Self::EPSILON).
+    const STEPS_FROM_100_BITS: u32 = 0;
+
+    fn over(self, divisor: u32) -> Self {
+        self / DoubleDouble::from(f64::from(divisor))
+    }
+
+    fn sqrt(self) -> Self {
+        DoubleDouble::sqrt(self)
+    }
 }
 
 #[cfg(test)]
@@ -225,17 +264,6 @@ mod tests {
             let x = DoubleDouble::from(x) + low;
             let back = x.sqrt().squared() - x;
             prop_assert!(back.high.abs() < 1e-30 * x.high);
-        }
-    }
-
-    /// tan α* = α*, with α* from another route (arctangents): the sine series to 30 digits.
-    #[test]
-    fn sines_at_the_fixed_points() {
-        for n in [1, 2, 10, 1000] {
-            let star = crate::model::fixed_points::exact_alpha_star(n);
-            let (sin, cos) = star.sin_cos();
-            let rest = sin - star * cos;
-            assert!(rest.high.abs() < 1e-28 * star.high, "{n}: {}", rest.high);
         }
     }
 

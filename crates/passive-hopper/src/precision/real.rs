@@ -1,10 +1,12 @@
-//! What a hop needs of the numbers it is computed with, beyond `f64`.
+//! What the formulas of a flight ask of the numbers they are computed with.
 
-use crate::precision::double_double::DoubleDouble;
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Real numbers to a fixed relative precision.
+/// Real numbers to a fixed relative precision: `f64`, or an [`Extended`] arithmetic.
+///
+/// The formulas of a flight (`HalfTime`, `NearFixedPoint` in the room `landing`) are written once, for all of
+/// them. For `f64` the methods are single calls, which compile to the code of formulas written for `f64` alone.
 pub(crate) trait Real:
     Copy
     + Debug
@@ -17,25 +19,18 @@ pub(crate) trait Real:
     + Add<f64, Output = Self>
     + Mul<f64, Output = Self>
 {
-    /// Bound on the relative rounding error of an operation, with some bits to spare.
-    const EPSILON: f64;
-    /// Sudden lift-offs up to which a hop is computed in this arithmetic: some seconds' work.
-    const SUDDEN_BUDGET: usize;
-
     /// The nearest `f64`.
     fn nearest(self) -> f64;
 
-    /// self / `divisor`, for a small whole number.
-    fn over(self, divisor: u32) -> Self;
-
-    /// √self; 0 for a number that is not positive.
-    fn sqrt(self) -> Self;
-
-    /// sin and cos, with an error of EPSILON (1 + |self|), and of EPSILON |self| near zero.
+    /// sin and cos: of an [`Extended`] number with an error of EPSILON (1 + |self|), and of EPSILON |self| near
+    /// zero; of an `f64` correctly rounded.
     fn sin_cos(self) -> (Self, Self);
 
-    /// α*_n.
-    fn alpha_star(n: u64) -> Self;
+    /// self − sin self and self²/2 − 1 + cos self, without cancellation near zero; given sin self and cos self.
+    fn sine_remainders(self, sin: Self, cos: Self) -> (Self, Self);
+
+    /// The number itself, or the largest finite number if a quotient overflowed.
+    fn at_most_largest(self) -> Self;
 
     /// self².
     fn squared(self) -> Self {
@@ -43,27 +38,75 @@ pub(crate) trait Real:
     }
 }
 
-impl Real for DoubleDouble {
-    const EPSILON: f64 = 7.9e-31; // 2⁻¹⁰⁰
-    const SUDDEN_BUDGET: usize = 100_000;
+/// Numbers longer than `f64`.
+pub(crate) trait Extended: Real {
+    /// Bound on the relative rounding error of an operation. It is some bits larger than the true bound.
+    const EPSILON: f64;
+    /// Sudden lift-offs up to which a hop is computed in this arithmetic. Chosen so that the computation takes
+    /// at most some seconds; a longer chain keeps the result of the shorter arithmetic, or is undecided.
+    const SUDDEN_BUDGET: usize;
+    /// Newton steps that bring a number of 100 right bits to the full precision.
+    const STEPS_FROM_100_BITS: u32;
 
+    /// self / `divisor`, for a small integer.
+    fn over(self, divisor: u32) -> Self;
+
+    /// √self; 0 for a number that is not positive.
+    fn sqrt(self) -> Self;
+}
+
+impl Real for f64 {
     fn nearest(self) -> f64 {
-        self.high
+        self
     }
 
-    fn over(self, divisor: u32) -> Self {
-        self / DoubleDouble::from(f64::from(divisor))
+    #[inline]
+    fn sin_cos(self) -> (f64, f64) {
+        pxfm::f_sincos(self)
     }
 
-    fn sqrt(self) -> Self {
-        DoubleDouble::sqrt(self)
+    /// By pxfm's sin x − x, which is right to an ulp everywhere; t²/2 − 1 + cos t = 2 (η − sin η)(η + sin η),
+    /// η = t/2. The sine and cosine of t itself are not needed.
+    #[inline]
+    fn sine_remainders(self, _: f64, _: f64) -> (f64, f64) {
+        let half = 0.5 * self;
+        let bend = -2.0 * pxfm::f_sinmx(half) * (half + pxfm::f_sin(half));
+        (-pxfm::f_sinmx(self), bend)
     }
 
-    fn sin_cos(self) -> (Self, Self) {
-        DoubleDouble::sin_cos(self)
-    }
-
-    fn alpha_star(n: u64) -> Self {
-        crate::model::fixed_points::exact_alpha_star(n)
+    #[inline]
+    fn at_most_largest(self) -> f64 {
+        self.min(f64::MAX)
     }
 }
+
+/// [`Real::sine_remainders`] of an extended number.
+pub(crate) fn extended_sine_remainders<R: Extended>(t: R, sin: R, cos: R) -> (R, R) {
+    // From |t| = 1 on the differences cancel five bits at most (1/2 − 1 + cos 1 = 0.04), which EPSILON has to spare.
+    if t.nearest().abs() < 1.0 {
+        remainder_series(t)
+    } else {
+        (t - sin, t.squared() * 0.5 + cos + -1.0)
+    }
+}
+
+/// t − sin t = t³/3! − t⁵/5! + … and t²/2 − 1 + cos t = t⁴/4! − t⁶/6! + …, for |t| < 1.
+fn remainder_series<R: Extended>(t: R) -> (R, R) {
+    let minus_square = -t.squared();
+    let (mut odd, mut even) = (t * minus_square, minus_square.squared());
+    (odd, even) = (-odd.over(6), even.over(24));
+    let (mut rest, mut bend) = (odd, even);
+    for k in 2..=MOST_TERMS {
+        odd = (odd * minus_square).over(2 * k * (2 * k + 1));
+        even = (even * minus_square).over((2 * k + 1) * (2 * k + 2));
+        (rest, bend) = (rest + odd, bend + even);
+        if !(odd.nearest().abs() > R::EPSILON * rest.nearest().abs()) {
+            break;
+        }
+    }
+    (rest, bend)
+}
+
+/// Guard on the number of terms, never reached: 1/(2k+1)! is below 2⁻¹⁰²⁴, the last bit of the longest
+/// arithmetic, for k = 90.
+const MOST_TERMS: u32 = 90;

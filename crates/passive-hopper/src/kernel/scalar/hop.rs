@@ -1,25 +1,30 @@
-//! One hop.
+//! One hop: the first flight from its table, later flights one after the other, and the verdict on α′².
 
-use crate::kernel::scalar::flight::{Ground, Landed, flight};
+use crate::kernel::scalar::ground_state::GroundState;
+use crate::kernel::scalar::later_flight::{FlightEnd, later_flight};
 use crate::landing::error_bound::LANDING_ULPS;
-use crate::landing::first_flight_table::{First, Place, stars};
+use crate::landing::first_flight_table::{FirstFlight, TablePosition, fixed_points};
 
-/// Flights of a hop here; longer chains are left to the careful path.
-pub(crate) const FLIGHTS: f64 = 64.0;
+/// Most flights of a hop in the kernel. The careful path computes hops with more.
+///
+/// The error bound grows from flight to flight, so that long chains tend to be inconclusive anyway; and in a batch a
+/// few long chains would keep nearly empty vectors busy. 8192 hops of the paper's window have at most ten flights. The
+/// limit changes no result, only the speed.
+pub(crate) const MOST_FLIGHTS: f64 = 64.0;
 
-/// What a hop needs of M: μ and κ.
+/// The two functions of M in a hop, μ = M/(1+M)² and κ = M/(1+M).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Masses {
+pub(crate) struct MassFactors {
     pub(crate) mu: f64,
     pub(crate) kappa: f64,
 }
 
-/// What the flights of a hop add up to.
+/// Sums over the flights of a hop.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Sum {
+pub(crate) struct FlightSums {
     /// Σ Γ².
-    pub(crate) squares: f64,
-    /// Bound on the part of its error that came from flight to flight.
+    pub(crate) closing_speeds_squared: f64,
+    /// Bound on the part of its error that is propagated from flight to flight.
     pub(crate) error: f64,
     /// Σ h, half the time of flight.
     pub(crate) half_time: f64,
@@ -27,77 +32,96 @@ pub(crate) struct Sum {
     pub(crate) flights: f64,
 }
 
-/// A hop beyond doubt.
+/// A hop whose verdicts are all larger than their error bounds (I2).
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Decided {
-    pub(crate) sum: Sum,
-    /// μ Σ Γ².
-    pub(crate) taken: f64,
-    /// α′² = α² − μ Σ Γ².
+pub(crate) struct DecidedHop {
+    pub(crate) sums: FlightSums,
+    /// μ Σ Γ² = α² − α′².
+    pub(crate) loss_of_square: f64,
+    /// α′² = α² − μ Σ Γ²; negative if the hopper is grounded.
     pub(crate) next_speed_squared: f64,
 }
 
-impl Sum {
-    /// After the first flight.
+impl FlightSums {
+    /// The sums after the first flight. Nothing is propagated to it: its error is the rounding of the table, which
+    /// [`end`](Self::end) counts.
     #[inline(always)]
-    pub(crate) fn first(first: &First) -> Self {
-        let squares = first.closing_speed * first.closing_speed;
-        Sum { squares, error: 0.0, half_time: first.half_time, flights: 1.0 }
+    pub(crate) fn of_first(first: &FirstFlight) -> Self {
+        let square = first.closing_speed * first.closing_speed;
+        FlightSums {
+            closing_speeds_squared: square,
+            error: 0.0,
+            half_time: first.half_time,
+            flights: 1.0,
+        }
     }
 
-    /// And another.
+    /// The sums with one more flight.
     #[inline(always)]
-    pub(crate) fn and(&self, landed: &Landed) -> Self {
-        Sum {
-            squares: self.squares + landed.square,
-            error: self.error + landed.square_error,
-            half_time: self.half_time + landed.half_time,
+    pub(crate) fn with(&self, end: &FlightEnd) -> Self {
+        FlightSums {
+            closing_speeds_squared: self.closing_speeds_squared + end.closing_speed_squared,
+            error: self.error + end.closing_speed_squared_error,
+            half_time: self.half_time + end.half_time,
             flights: self.flights + 1.0,
         }
     }
 
-    /// The end of the hop, and whether the sign of α′² is beyond doubt.
+    /// The end of the hop, and whether the sign of α′² is larger than its error bound (I2).
+    ///
+    /// While the hop goes on, μ times the partial sum is below α², because the energy left is positive. The rounding of
+    /// every flight is therefore counted in ulps of α²; 2 more are for α² itself and for the difference.
     #[inline(always)]
-    pub(crate) fn end(&self, alpha: f64, mu: f64) -> (Decided, bool) {
-        let taken = mu * self.squares;
+    pub(crate) fn end(&self, alpha: f64, mu: f64) -> (DecidedHop, bool) {
+        let loss_of_square = mu * self.closing_speeds_squared;
         let square = alpha * alpha;
-        let next_speed_squared = square - taken;
+        let next_speed_squared = square - loss_of_square;
         let rounding = LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * square;
         let decided = next_speed_squared.abs() > rounding + mu * self.error;
-        (Decided { sum: *self, taken, next_speed_squared }, decided)
+        (DecidedHop { sums: *self, loss_of_square, next_speed_squared }, decided)
     }
 }
 
-/// The state after a sudden first landing.
+impl DecidedHop {
+    /// α′, or `None` if the hopper is grounded.
+    #[inline(always)]
+    pub(crate) fn next(&self) -> Option<f64> {
+        (self.next_speed_squared > 0.0).then(|| self.next_speed_squared.sqrt())
+    }
+}
+
+/// The state after a sudden first landing: x′ = 2h (α − h), V′ = (α − h) − h + κΓ.
+///
+/// The table gives α − h to an ulp of itself, so that x′ keeps its digits next to α*_n, where it vanishes.
 #[inline(always)]
-pub(crate) fn ground_after(first: &First, alpha: f64, kappa: f64) -> Ground {
-    let First { half_time: h, beyond, closing_speed } = *first;
+pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> GroundState {
+    let FirstFlight { half_time: h, beyond, closing_speed } = *first;
     let excess = 2.0 * h * beyond;
     let velocity = (beyond - h) + kappa * closing_speed;
     let size = 1.0 + alpha + 2.0 * h + closing_speed;
-    Ground { excess, velocity, error: LANDING_ULPS * f64::EPSILON * size }
+    GroundState { excess, velocity, error: LANDING_ULPS * f64::EPSILON * size }
 }
 
-/// The hop from `alpha`; nothing where the careful path must decide.
+/// The hop from `alpha`; `None` where the careful path must decide.
 #[inline]
-pub(crate) fn hop(alpha: f64, Masses { mu, kappa }: Masses) -> Option<Decided> {
-    let place = Place::of(alpha, stars());
-    let first = place.first(alpha)?;
-    let mut sum = Sum::first(&first);
-    if place.sudden == 1 {
-        let mut ground = ground_after(&first, alpha, kappa);
+pub(crate) fn kernel_hop(alpha: f64, MassFactors { mu, kappa }: MassFactors) -> Option<DecidedHop> {
+    let position = TablePosition::of(alpha, fixed_points());
+    let first = position.first_flight(alpha)?;
+    let mut sums = FlightSums::of_first(&first);
+    if position.sudden == 1 {
+        let mut state = state_after_first(&first, alpha, kappa);
         loop {
-            let landed = flight(&ground, kappa)?;
-            sum = sum.and(&landed);
-            ground = landed.ground;
-            if !(ground.excess > 0.0) {
+            let end = later_flight(&state, kappa)?;
+            sums = sums.with(&end);
+            state = end.state;
+            if !(state.excess > 0.0) {
                 break;
             }
-            if !(sum.flights < FLIGHTS) {
+            if !(sums.flights < MOST_FLIGHTS) {
                 return None;
             }
         }
     }
-    let (decided, sure) = sum.end(alpha, mu);
-    sure.then_some(decided)
+    let (hop, decided) = sums.end(alpha, mu);
+    decided.then_some(hop)
 }

@@ -6,10 +6,8 @@
 
 #![allow(clippy::print_stdout)] // a program
 
-mod model;
-
+use example_systems::valve::turns;
 use hybrid_system::Error;
-use model::turns;
 
 fn main() -> Result<(), Error> {
     println!("{:>4}  displacements at the last turning points", "q");
@@ -28,8 +26,8 @@ fn main() -> Result<(), Error> {
 #[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
+    use example_systems::valve::{Mode, Valve};
     use hybrid_system::{ArcEnd, Execution, HybridSystem};
-    use model::{Mode, Valve};
     use nalgebra::Vector3;
 
     /// At large flow rates the disc comes to rest where spring and pressure balance: y₃ = y₁ + δ, q = y₁ √y₃.

@@ -6,7 +6,7 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-/// What `images` must give: one by one.
+/// The images one by one, which `images` must give too, and whether one of them is an error.
 fn one_by_one(map: &LiftOffMap, speeds: &[Option<f64>]) -> (Vec<Option<f64>>, bool) {
     let mut failed = false;
     let image = |speed: &Option<f64>| {
@@ -22,7 +22,7 @@ fn one_by_one(map: &LiftOffMap, speeds: &[Option<f64>]) -> (Vec<Option<f64>>, bo
     (speeds.iter().map(image).collect(), failed)
 }
 
-fn check(m: f64, speeds: &[Option<f64>]) {
+fn check_images(m: f64, speeds: &[Option<f64>]) {
     let map = LiftOffMap::new(MassRatio::new(m).unwrap());
     let (expected, failed) = one_by_one(&map, speeds);
     let mut found = speeds.to_vec();
@@ -34,8 +34,8 @@ fn check(m: f64, speeds: &[Option<f64>]) {
     assert_eq!(bits(&found), bits(&expected), "M = {m}");
 }
 
-/// The same under maps of their own.
-fn check_each(ratios: &[f64], speeds: &[Option<f64>]) {
+/// The same for `images_of_pairs`, each speed with one of the mass ratios in turn.
+fn check_images_of_pairs(ratios: &[f64], speeds: &[Option<f64>]) {
     let maps: Vec<_> =
         ratios.iter().map(|&m| LiftOffMap::new(MassRatio::new(m).unwrap())).collect();
     let hops: Vec<_> = maps.iter().cycle().zip(speeds.iter().copied()).collect();
@@ -50,7 +50,7 @@ fn check_each(ratios: &[f64], speeds: &[Option<f64>]) {
     }
 }
 
-/// Speeds of every kind: of the paper's window, of any size, next to verdicts, wrong ones, and none.
+/// Speeds of the paper's window, of the tables, of any size, next to α*_n and nπ; and `None`.
 fn speed() -> impl Strategy<Value = Option<f64>> {
     let near = |point: f64, exponent: f64, sign: bool| {
         let step = 10f64.powf(-exponent);
@@ -76,20 +76,20 @@ proptest! {
         exponent in -4.0..2.5f64,
         speeds in proptest::collection::vec(speed(), 0..700),
     ) {
-        check(10f64.powf(exponent), &speeds);
+        check_images(10f64.powf(exponent), &speeds);
     }
 
     #[test]
-    fn images_of_each_are_the_single_images(
+    fn images_of_pairs_are_the_single_images(
         exponents in proptest::collection::vec(-4.0..2.5f64, 1..9),
         speeds in proptest::collection::vec(speed(), 0..700),
     ) {
-        check_each(&exponents.into_iter().map(|e| 10f64.powf(e)).collect::<Vec<_>>(), &speeds);
+        check_images_of_pairs(&exponents.into_iter().map(|e| 10f64.powf(e)).collect::<Vec<_>>(), &speeds);
     }
 }
 
 #[test]
-fn wrong_speeds_keep_their_places() {
+fn wrong_speeds_are_errors_and_stay_as_they_are() {
     let wrong = [0.0, -1.0, f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e300, -0.0];
     for &bad in &wrong {
         let mut speeds: Vec<_> = (0..40).map(|k| Some(4.5 + 0.3 * f64::from(k))).collect();
@@ -110,7 +110,7 @@ fn wrong_speeds_keep_their_places() {
 }
 
 #[test]
-fn orbits_of_a_window_go_on_together() {
+fn twenty_hops_at_once_are_twenty_single_hops() {
     let map = LiftOffMap::new(MassRatio::new(0.2).unwrap());
     let starts: Vec<_> = (0..1000).map(|k| Some(4.5 + 0.016 * f64::from(k))).collect();
     let mut speeds = starts.clone();

@@ -1,7 +1,10 @@
 //! A pressure relief valve whose disc hits its seat (Hős, Champneys; parameters from the tutorial of the MPGOS
 //! package).
 
-use hybrid_system::*;
+use hybrid_system::{
+    Certainty, Crossing, Error, Event, Execution, Guard, HybridSystem, Limits, Reset, State,
+    Tolerances, VectorField, integrated_crossing, integrated_flow,
+};
 use nalgebra::{SVector, Vector2, Vector3};
 use return_map::Section;
 
@@ -18,7 +21,7 @@ const TOLERANCES: Tolerances = Tolerances::both(1e-10);
 
 /// The two modes of the disc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Mode {
+pub enum Mode {
     /// The disc is off its seat: ẏ₁ = y₂, ẏ₂ = −κ y₂ − (y₁ + δ) + y₃, ẏ₃ = β (q − y₁ √y₃). This flow is
     /// integrated.
     Open,
@@ -28,7 +31,7 @@ pub(crate) enum Mode {
 
 /// The events that end an arc.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Surface {
+pub enum Surface {
     /// y₁ = 0: the disc hits its seat.
     Seat,
     /// y₂ = 0, falling: a turning point, where the disc is farthest from its seat.
@@ -39,9 +42,9 @@ pub(crate) enum Surface {
 
 /// The valve with flow rate q. State: displacement y₁, velocity y₂, pressure y₃, dimensionless.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Valve {
+pub struct Valve {
     /// q.
-    pub(crate) flow_rate: f64,
+    pub flow_rate: f64,
 }
 
 impl VectorField<3> for Valve {
@@ -122,7 +125,7 @@ impl HybridSystem<3> for Valve {
 
 /// The section of the turning points, with displacement and pressure as coordinates, as in the tutorial.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Turns;
+pub struct Turns;
 
 impl Section<Valve, 3, 2> for Turns {
     fn point(&self, y: &SVector<f64, 2>) -> (Mode, State<3>) {
@@ -134,7 +137,7 @@ impl Section<Valve, 3, 2> for Turns {
 }
 
 /// The start of every orbit of the tutorial: displacement 0.2 and no pressure.
-pub(crate) const START: Vector2<f64> = Vector2::new(0.2, 0.0);
+pub const START: Vector2<f64> = Vector2::new(0.2, 0.0);
 
 /// Limits for an orbit of this number of turning points. The time and the number of events between two turning
 /// points stay far below them for all flow rates of the diagram.
@@ -145,7 +148,7 @@ fn limits(turns: usize) -> Limits {
 /// The displacements at `kept` turning points, after `transient` turning points that are left out.
 ///
 /// The orbit may contain Zeno limits and rests on the seat.
-pub(crate) fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
+pub fn turns(flow_rate: f64, transient: usize, kept: usize) -> Result<Vec<f64>, Error> {
     let valve = Valve { flow_rate };
     let (mode, start) = Turns.point(&START);
     let mut found = Vec::with_capacity(kept);

@@ -1,86 +1,63 @@
-//! The lift-off map against 40 digits, and against itself.
+//! The lift-off map against references of 40 digits, and its identities.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
+use hopper_reference::{UNITS_PER_FLIGHT, map, rows};
 use passive_hopper::{Error, FixedPointSpeed, LiftOffMap, MassRatio, alpha_star, printed_image};
 use proptest::prelude::*;
-use serde_json::Value;
 use std::f64::consts::PI;
 
-fn map(mass_ratio: f64) -> LiftOffMap {
-    LiftOffMap::new(MassRatio::new(mass_ratio).unwrap())
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
-}
-
-/// The worst error in units of the K of `data/README.md` per flight, over all lines; verdicts must
-/// be right on each.
-fn worst_k(text: &str, keep: impl Fn(&Value) -> bool) -> f64 {
-    let mut worst: f64 = 0.0;
-    for line in text.lines() {
-        let row: Value = serde_json::from_str(line).unwrap();
-        if !keep(&row) {
-            continue;
-        }
-        let (m, alpha) = (row["mass_ratio"].as_f64().unwrap(), row["alpha"].as_f64().unwrap());
-        let sudden = row["sudden"].as_u64().unwrap() as usize;
-        let hop = map(m).hop(alpha).unwrap();
-        assert_eq!(hop.sudden, sudden, "{line}");
-        assert_eq!(hop.next.is_none(), row["alpha_next"].is_null(), "{line}");
+/// Compares every hop of a reference file: its verdicts are right and its α′ is within [`UNITS_PER_FLIGHT`] a flight.
+fn check_hops(text: &str) {
+    for row in rows(text) {
+        let sudden = row.integer("sudden") as usize;
+        let hop = row.map().hop(row.input("alpha")).unwrap();
+        assert_eq!(hop.sudden, sudden, "{row}");
+        assert_eq!(hop.next.is_none(), row.is_grounded("alpha_next"), "{row}");
         let Some(next) = hop.next else { continue };
-        let exact = number(&row["alpha_next"]);
-        let slope = |key: &str| row[key].as_str().map_or(0.0, |s| s.parse::<f64>().unwrap().abs());
-        let unit = exact
-            + slope("dalpha_next_dalpha") * alpha
-            + slope("dalpha_next_dM") * m
-            + alpha * alpha / exact;
-        let k = (next - exact).abs() / (0.5 * f64::EPSILON * unit);
-        assert!(k <= 4.0 * (1 + sudden) as f64, "{line}: K = {k}");
-        worst = worst.max(k / (1 + sudden) as f64);
+        let units = row.error_in_units(next);
+        assert!(units <= UNITS_PER_FLIGHT * (1 + sudden) as f64, "{row}: {units} units");
     }
-    worst
 }
 
 #[test]
 fn random_hops_are_right_to_four_units_a_flight() {
-    assert!(worst_k(include_str!("data/hops_random.jsonl"), |_| true) <= 4.0);
+    check_hops(include_str!("data/hops_random.jsonl"));
 }
 
 #[test]
 fn hops_of_the_papers_window_are_right_to_four_units_a_flight() {
-    assert!(worst_k(include_str!("data/hops_window.jsonl"), |_| true) <= 4.0);
+    check_hops(include_str!("data/hops_window.jsonl"));
 }
 
 #[test]
 fn hops_next_to_branch_changes_are_right_to_four_units_a_flight() {
-    assert!(worst_k(include_str!("data/hops_boundaries.jsonl"), |_| true) <= 4.0);
+    check_hops(include_str!("data/hops_boundaries.jsonl"));
 }
 
 #[test]
 fn extreme_hops_are_right_to_four_units_a_flight() {
-    assert!(worst_k(include_str!("data/hops_extreme.jsonl"), |_| true) <= 4.0);
+    check_hops(include_str!("data/hops_extreme.jsonl"));
 }
 
-/// Verdicts on which the first bounds were wrong: branches that 53 bits see as touching, chains at
+/// Hops with verdicts that earlier error bounds got wrong: flights that seem to touch a maximum in 53 bits, chains at
 /// speeds of 10¹², seven thousand sudden lift-offs.
 #[test]
 fn hard_verdicts_are_right() {
-    assert!(worst_k(include_str!("data/hops_hard_verdicts.jsonl"), |_| true) <= 4.0);
+    check_hops(include_str!("data/hops_hard_verdicts.jsonl"));
 }
 
-/// Verdicts that 53 bits cannot give: α one rounding away from where the branch changes.
+/// Verdicts that 53 bits cannot give: α is one rounding away from a change of branch.
 #[test]
-fn the_hardest_verdicts() {
-    // At M = 1 and α = nπ the next_speed_squared is zero; the double nearest to π lies 1.2e-16 below.
+fn verdicts_within_one_rounding_of_a_change_of_branch_are_right() {
+    // At M = 1 and α = nπ, α′² is zero. The f64 nearest to π lies 1.2e-16 below π.
     let grounded = map(1.0).hop(PI).unwrap();
     assert!(grounded.next.is_none() && grounded.certain);
     assert!((grounded.next_speed_squared / -7.694_682_774_887_158_7e-16 - 1.0).abs() < 1e-12);
     let above = map(1.0).hop(PI.next_up()).unwrap();
     assert!(above.next.is_some() && above.certain && above.sudden == 1);
-    // (α, M, sudden, f(α)): theory's table of hard inputs, 34 digits.
+    // (α, M, sudden, f(α)): hard inputs, computed with 34 digits.
     for (alpha, m, sudden, next) in [
         (3.716_961_483_351, 1000.0, 101, 3.129_085_673_911_574_5),
         (7.071_9, 10.0, 8, 3.423_442_876_072_048),
@@ -95,13 +72,11 @@ fn the_hardest_verdicts() {
 
 #[test]
 fn the_loss_of_tiny_hops_keeps_its_digits() {
-    for line in include_str!("data/losses_tiny.jsonl").lines() {
-        let row: Value = serde_json::from_str(line).unwrap();
-        let hop =
-            map(row["mass_ratio"].as_f64().unwrap()).hop(row["alpha"].as_f64().unwrap()).unwrap();
-        let error = (hop.loss.unwrap() / number(&row["loss"]) - 1.0).abs();
-        // Half an ulp in α, M and the loss itself make 3.5 ulps.
-        assert!(error <= 4.0 * 3.5 * f64::EPSILON, "{line}: {error:e}");
+    for row in rows(include_str!("data/losses_tiny.jsonl")) {
+        let hop = row.map().hop(row.input("alpha")).unwrap();
+        let error = (hop.loss.unwrap() / row.result("loss").unwrap() - 1.0).abs();
+        // The loss is proportional to μα⁵: half an ulp of α, of M and of the loss itself make 3.5 ulps.
+        assert!(error <= 4.0 * 3.5 * f64::EPSILON, "{row}: {error:e}");
     }
     for alpha in [1e-20f64, 1e-60] {
         let leading = 32.0 / 9.0 * MassRatio::new(0.7).unwrap().mu() * alpha.powi(5);
@@ -116,8 +91,8 @@ fn every_fixed_point_is_kept() {
         for m in [1e-3, 0.2, 1.0, 7.0] {
             let star = alpha_star(n);
             let image = map(m).image(star).unwrap().unwrap();
-            // The nearest f64 is up to half an ulp off, δ; the map takes λ δ^{4/3} more on the
-            // right and ten times that on the left, λ < 3.5 μ α.
+            // The nearest f64 is off by δ, at most half an ulp. The loss is λ δ^{4/3} on the right and ten times as
+            // large on the left, with λ < 3.5 μ α.
             let delta = 0.5 * f64::EPSILON * star;
             let lambda = 3.5 * MassRatio::new(m).unwrap().mu() * star;
             let allowed = delta + 10.0 * lambda * delta.powf(4.0 / 3.0) + f64::EPSILON * star;
@@ -148,10 +123,10 @@ fn bad_speeds_are_errors_with_the_value() {
     assert!(map(1.0).image(f64::MIN_POSITIVE / 8.0).unwrap().is_some());
 }
 
-/// Thousands of sudden lift-offs in one hop: bounded by theory, and by the budget, which leaves the
-/// state on the ground.
+/// Thousands of sudden lift-offs in one hop: theory bounds their number. Beyond the budget the hop is an error that
+/// holds the last state on the ground.
 #[test]
-fn huge_mass_ratios_end() {
+fn hops_at_huge_mass_ratios_end() {
     for (m, alpha) in [(1e4, 3.6), (1e5, 3.6), (1e6, 3.2)] {
         let hop = map(m).hop(alpha).unwrap();
         let (root, star) = (alpha * m.sqrt(), alpha_star(1));
@@ -169,7 +144,7 @@ fn huge_mass_ratios_end() {
     }
 }
 
-/// A few ulps around the places where branches change.
+/// Speeds of all sizes, and speeds within a few ulps of a change of branch.
 fn degenerate_alpha() -> impl Strategy<Value = f64> {
     let nudge =
         |x: f64, ulps: i32| f64::from_bits(x.to_bits().wrapping_add_signed(i64::from(ulps)));
@@ -184,7 +159,7 @@ fn degenerate_alpha() -> impl Strategy<Value = f64> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(4000))]
 
-    /// f(α; M) = f(α; 1/M) where the first landing is not sudden, i.e. off (nπ, α*_n).
+    /// f(α; M) = f(α; 1/M) where the first landing is not sudden, that is outside (nπ, α*_n).
     #[test]
     fn invariant_under_inversion_on_the_contact_intervals(alpha in degenerate_alpha(), e in -3.0..3.0f64) {
         let ratio = MassRatio::new(10f64.powf(e)).unwrap();
@@ -192,35 +167,35 @@ proptest! {
         let first = LiftOffMap::new(ratio).landings(alpha).unwrap().next().unwrap().unwrap();
         if !first.sudden {
             // 1/M and both μ are rounded: a few ulps of μ.
-            let radicands = (here.next_speed_squared - there.next_speed_squared).abs();
-            prop_assert!(radicands <= 8.0 * f64::EPSILON * alpha * alpha, "{here:?} {there:?}");
+            let difference = (here.next_speed_squared - there.next_speed_squared).abs();
+            prop_assert!(difference <= 8.0 * f64::EPSILON * alpha * alpha, "{here:?} {there:?}");
         }
     }
 
-    /// Sudden exactly on (nπ, α*_n), n ≥ 1.
+    /// The first landing is sudden exactly for α in (nπ, α*_n), n ≥ 1.
     #[test]
     fn sudden_exactly_left_of_the_fixed_points(alpha in degenerate_alpha(), m in 0.01..100f64) {
         let first = map(m).landings(alpha).unwrap().next().unwrap().unwrap();
         let n = (alpha / PI).round() as u64;
-        // Decided on the doubles nearest to the ends, with the sign of what they round away.
+        // The f64 nearest to an end is compared, and the sign of its rounding decides a tie.
         let beyond = |end: f64, rest: f64| alpha > end || (alpha == end && rest < 0.0);
         let sin_pi = (n as f64 * PI).sin() * if n.is_multiple_of(2) { -1.0 } else { 1.0 };
-        let after_turn = n >= 1 && beyond(n as f64 * PI, sin_pi);
-        let index = if after_turn { n } else { n.saturating_sub(1) };
+        let after_n_pi = n >= 1 && beyond(n as f64 * PI, sin_pi);
+        let index = if after_n_pi { n } else { n.saturating_sub(1) };
         let star = FixedPointSpeed::new(index);
         let sudden = index >= 1 && !beyond(star.value(), star.rest());
         prop_assert_eq!(first.sudden, sudden);
     }
 
     #[test]
-    fn never_gains_energy(alpha in degenerate_alpha(), e in -6.0..4.0f64) {
+    fn hops_never_gain_energy(alpha in degenerate_alpha(), e in -6.0..4.0f64) {
         let hop = map(10f64.powf(e)).hop(alpha).unwrap();
         prop_assert!(hop.next.is_none_or(|next| next > 0.0 && next <= alpha), "{hop:?}");
         prop_assert!(hop.loss.is_none_or(|loss| loss >= 0.0));
         prop_assert_eq!(hop.next.is_none(), !(hop.next_speed_squared > 0.0) && alpha > 1e-150);
     }
 
-    /// The printed equations give the same map, to their own rounding.
+    /// The printed equations give the same map, up to their own rounding.
     #[test]
     fn printed_and_stable_forms_agree(alpha in 0.5..40f64, e in -1.5..0.0f64) {
         let ratio = MassRatio::new(10f64.powf(e)).unwrap();

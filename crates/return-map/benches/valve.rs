@@ -4,10 +4,8 @@
 
 #![allow(missing_docs, clippy::unwrap_used)]
 
-mod model;
-
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use model::turns;
+use example_systems::valve::turns;
 use rayon::prelude::*;
 
 /// Returns for each flow rate: enough that the start of an execution costs nothing in comparison.

@@ -4,7 +4,8 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use approx::assert_relative_eq;
-use hybrid_system::{Event, Execution, Guard, HybridSystem, Limits, Reset, State, Stop};
+use hopper_reference::rows;
+use hybrid_system::{Event, Execution, HybridSystem, Limits, Searched, State, Stop};
 use nalgebra::SVector;
 use passive_hopper::{
     Hopper, HopperState, HopperSurface, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
@@ -17,7 +18,7 @@ fn hopper(mass_ratio: f64) -> Hopper {
     Hopper::new(MassRatio::new(mass_ratio).unwrap())
 }
 
-/// Gradual lift-offs by their speed α.
+/// The section of gradual lift-offs, with the speed α as its coordinate.
 struct GradualLiftOff;
 
 impl Section<Hopper, 4, 1> for GradualLiftOff {
@@ -29,28 +30,7 @@ impl Section<Hopper, 4, 1> for GradualLiftOff {
     }
 }
 
-/// The hopper without its own landings and lift-offs: only flows, guards and resets, with crossings
-/// searched for.
-struct Searched(Hopper);
-
-impl HybridSystem<4> for Searched {
-    type Mode = Phase;
-    type Surface = HopperSurface;
-    fn flow(&self, phase: Phase, start: &State<4>, time: f64) -> State<4> {
-        self.0.flow(phase, start, time)
-    }
-    fn guards(&self, phase: Phase) -> &[Guard<HopperSurface>] {
-        self.0.guards(phase)
-    }
-    fn guard_value(&self, surface: HopperSurface, state: &State<4>) -> f64 {
-        self.0.guard_value(surface, state)
-    }
-    fn reset(&self, phase: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
-        self.0.reset(phase, surface, before)
-    }
-}
-
-impl Section<Searched, 4, 1> for GradualLiftOff {
+impl Section<Searched<Hopper>, 4, 1> for GradualLiftOff {
     fn point(&self, alpha: &SVector<f64, 1>) -> (Phase, State<4>) {
         Section::<Hopper, 4, 1>::point(self, alpha)
     }
@@ -59,10 +39,10 @@ impl Section<Searched, 4, 1> for GradualLiftOff {
     }
 }
 
-/// Independently of the half-time solver: landings by sampling y₂(τ) and Brent's method, contacts by
-/// sampling y₁(τ). The landing times differ in the fifth digit near fixed points; the map does not.
+/// Landings from samples of y₂(τ) and Brent's method, contacts from samples of y₁(τ): independent of the landing
+/// solver. The landing times differ in the fifth digit near fixed points; the map does not.
 #[test]
-fn a_search_that_knows_nothing_finds_the_same_map() {
+fn a_search_on_samples_finds_the_same_map() {
     let (low, high) = (alpha_star(1), alpha_star(6));
     let (mut compared, mut undecided) = (0, 0);
     for m in [0.05, 0.2, 0.7, 1.0, 2.0, 8.0, 20.0] {
@@ -83,7 +63,7 @@ fn a_search_that_knows_nothing_finds_the_same_map() {
                     );
                     compared += 1;
                 }
-                // A flight shorter than the interval, or one that dips below between samples.
+                // A flight shorter than the sampling interval, or one that is below the ground between samples only.
                 Err(return_map::Error::Execution(hybrid_system::Error::UndecidedStart {
                     ..
                 })) => undecided += 1,
@@ -94,8 +74,8 @@ fn a_search_that_knows_nothing_finds_the_same_map() {
     assert!(compared > 700 && undecided < 20, "{compared} {undecided}");
 }
 
-/// Built as a return map of the hybrid system, the map agrees with the exact one over the paper's window: to
-/// 1e-12, or to what some ulps of α make in α'.
+/// The return map of the hybrid system agrees with the lift-off map over the paper's window: to 1e-12, or to the
+/// change of α' within some ulps of α.
 #[test]
 fn the_return_map_is_the_lift_off_map() {
     let (low, high) = (alpha_star(1), alpha_star(6));
@@ -110,8 +90,8 @@ fn the_return_map_is_the_lift_off_map() {
             let image = returns.image(alpha).unwrap();
             assert_eq!(image.is_some(), hop.next.is_some(), "M = {m}, α = {alpha}");
             if let (Some(image), Some(next)) = (image, hop.next) {
-                // Near grounding the square root magnifies rounding by α²/α'², and many sudden
-                // lift-offs in a row each magnify it too: the slope tells by how much.
+                // Near grounding the square root magnifies rounding by α²/α'². Each of many sudden lift-offs magnifies
+                // it too; the slope says how much.
                 let scale = (alpha / next).powi(2).max(1.0) * (1 + hop.sudden) as f64;
                 let slope = exact.slopes(alpha).unwrap().unwrap().by_speed.abs();
                 let magnified = 16.0 * f64::EPSILON * slope * alpha * (1 + hop.sudden) as f64;
@@ -127,8 +107,8 @@ fn the_return_map_is_the_lift_off_map() {
 }
 
 #[test]
-fn no_event_is_doubled_at_a_lift_off() {
-    // Incessant hopping in the trap of α*_2: landing, lift-off, landing, … and nothing else.
+fn landings_and_lift_offs_alternate() {
+    // Incessant hopping in the trap of α*_2: landing, lift-off, landing, and so on.
     let hopper = hopper(0.3);
     let start = HopperState::lift_off(alpha_star(2) + 1e-3);
     let mut execution = Execution::new(&hopper, Phase::Flight, start.into(), Limits::new(1e4, 40));
@@ -170,20 +150,17 @@ fn impossible_states_are_errors() {
 
 #[test]
 fn flight_times_agree_with_forty_digits() {
-    for line in include_str!("data/hops_window.jsonl").lines() {
-        let row: serde_json::Value = serde_json::from_str(line).unwrap();
-        let map = LiftOffMap::new(MassRatio::new(row["mass_ratio"].as_f64().unwrap()).unwrap());
-        let alpha = row["alpha"].as_f64().unwrap();
-        let times = row["flight_times"].as_array().unwrap();
-        let first = map.landings(alpha).unwrap().next().unwrap().unwrap();
-        let exact: f64 = times[0].as_str().unwrap().parse().unwrap();
-        // dτ/dα = 2D/Γ: the time is that badly conditioned.
+    for row in rows(include_str!("data/hops_window.jsonl")) {
+        let alpha = row.input("alpha");
+        let first = row.map().landings(alpha).unwrap().next().unwrap().unwrap();
+        let exact = row.first_result("flight_times");
+        // dτ/dα = 2D/Γ is the condition number of the time.
         let condition = 1.0 + 2.0 * alpha / first.closing_speed;
-        assert!((first.time - exact).abs() < 4.0 * f64::EPSILON * exact * condition, "{line}");
+        assert!((first.time - exact).abs() < 4.0 * f64::EPSILON * exact * condition, "{row}");
     }
 }
 
-/// Found by fuzzing: a fall from the air at the largest speeds, where P ~ 10²⁴ has an ulp of 10⁸.
+/// A fall from the air at the largest speeds, where P ~ 10²⁴ has an ulp of 10⁸. Fuzzing found an error here.
 #[test]
 fn huge_falls_gain_no_energy() {
     let hopper = hopper(2.375_217_873_208_651);
@@ -201,10 +178,10 @@ fn huge_falls_gain_no_energy() {
     }
 }
 
-/// SciML DifferentialEquations.jl #647: g = 9.8, k = 500, natural length 1, masses 1, dropped from
-/// heights 5 and 6. Exact values in closed form; elsewhere it crashed.
+/// The hopper of SciML DifferentialEquations.jl #647: g = 9.8, k = 500, natural length 1, masses 1, dropped from
+/// heights 5 and 6. The issue reports a crash of an integration; the expected values here are closed forms.
 #[test]
-fn sciml_647_hopper() {
+fn the_hopper_of_sciml_647_agrees_with_closed_forms() {
     let physical = PhysicalHopper::new(1.0, 1.0, 500.0, 9.8).unwrap();
     let hopper = Hopper::new(physical.mass_ratio().unwrap());
     let start = HopperState { upper_position: 5.0, lower_position: 5.0, ..HopperState::RELAXED };
@@ -243,7 +220,7 @@ fn sciml_647_hopper() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 
-    /// Energy is the same all along an arc, and only landings take any: ½M(1+M)ẏ2².
+    /// Energy is constant along an arc, and only landings take energy: ½M(1+M)ẏ₂².
     #[test]
     fn energy_is_lost_at_landings_only(m in 0.02..50f64, alpha in 0.1..40f64) {
         let hopper = hopper(m);
@@ -268,7 +245,7 @@ proptest! {
         }
     }
 
-    /// φ(t + u; x) = φ(u; φ(t; x)).
+    /// φ(t + u; x) = φ(u; φ(t; x)): the flows are groups.
     #[test]
     fn flows_are_groups(
         m in 0.05..20f64, t in 0.0..10f64, u in 0.0..10f64, flight: bool,

@@ -1,53 +1,46 @@
-//! Hops in the coordinate of a fixed point.
+//! Hops in (n, δ), the coordinate of a fixed point: α = α*_n + δ.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
-use passive_hopper::{Error, LiftOffMap, MassRatio};
-use serde_json::Value;
+use hopper_reference::{map, rows};
+use passive_hopper::Error;
 
-fn map(mass_ratio: f64) -> LiftOffMap {
-    LiftOffMap::new(MassRatio::new(mass_ratio).unwrap())
-}
+/// Largest error of δ′, in ulps: what the crate's documentation promises.
+const ULPS: f64 = 8.0;
 
-fn number(value: &Value) -> f64 {
-    value.as_str().unwrap().parse().unwrap()
-}
-
-/// (n, δ) to (n, δ′), relative to δ′ and to what an ulp of δ does to it.
 #[test]
-fn hops_in_the_fixed_points_own_coordinate() {
-    const ULPS: f64 = 8.0;
+fn hops_near_fixed_points_are_right_to_eight_ulps() {
     let files = [
         include_str!("data/hops_near_fixed_point.jsonl"),
         include_str!("data/hops_hard_offsets.jsonl"),
     ];
-    for line in files.into_iter().flat_map(str::lines) {
-        let row: Value = serde_json::from_str(line).unwrap();
-        let (n, delta) = (row["n"].as_u64().unwrap(), row["offset"].as_f64().unwrap());
-        let hop = map(row["mass_ratio"].as_f64().unwrap()).hop_near_fixed_point(n, delta).unwrap();
-        assert_eq!(hop.sudden as u64, row["sudden"].as_u64().unwrap(), "{line}");
-        assert_eq!(hop.next.is_none(), row["offset_next"].is_null(), "{line}");
+    for row in files.into_iter().flat_map(rows) {
+        let (n, delta) = (row.integer("n"), row.input("offset"));
+        let hop = row.map().hop_near_fixed_point(n, delta).unwrap();
+        assert_eq!(hop.sudden as u64, row.integer("sudden"), "{row}");
+        assert_eq!(hop.next.is_none(), row.is_grounded("offset_next"), "{row}");
         if let Some(next) = hop.next {
-            let error = (next / number(&row["offset_next"]) - 1.0).abs();
-            assert!(error <= ULPS * f64::EPSILON, "{line}: {next:e}");
-            // The loss is no difference of the two.
+            let error = (next / row.result("offset_next").unwrap() - 1.0).abs();
+            assert!(error <= ULPS * f64::EPSILON, "{row}: {next:e}");
+            // The loss is computed by itself, not as the difference δ − δ′. It agrees with this difference to the
+            // rounding of the difference.
             let loss = delta - next;
             assert!(
                 (hop.loss.unwrap() - loss).abs() <= f64::EPSILON * (delta.abs() + loss),
-                "{line}"
+                "{row}"
             );
         }
-        if let Some(shift) = row["flight_time_minus_2alpha_star"].as_str() {
-            let error = (hop.time_shift / shift.parse::<f64>().unwrap() - 1.0).abs();
-            assert!(error < ULPS * f64::EPSILON, "{line}: {}", hop.time_shift);
+        if let Some(shift) = row.result("flight_time_minus_2alpha_star") {
+            let error = (hop.time_shift / shift - 1.0).abs();
+            assert!(error < ULPS * f64::EPSILON, "{row}: {}", hop.time_shift);
         }
     }
 }
 
-/// Just inside and outside the ends of a cell, which lie between two f64.
+/// The ends of a cell lie between two `f64`. Offsets two ulps inside are accepted, and offsets outside are errors.
 #[test]
-fn cells_end_where_they_should() {
+fn offsets_are_accepted_up_to_the_ends_of_the_cell() {
     for n in [1u64, 1000, 100_000, 1 << 40] {
         let error = |delta: f64| map(3.0).hop_near_fixed_point(n, delta).unwrap_err();
         let Error::Offset { left, right, .. } = error(4.0) else { panic!() };
@@ -74,23 +67,23 @@ fn cells_end_where_they_should() {
     );
 }
 
-/// δ after up to ten thousand hops, against seventy digits.
+/// δ after up to ten thousand hops, against references of seventy digits.
 #[test]
 fn orbits_follow_the_reference() {
-    for line in include_str!("data/orbits.jsonl").lines() {
-        let row: Value = serde_json::from_str(line).unwrap();
-        let (n, hops) = (row["n"].as_u64().unwrap(), row["hops"].as_u64().unwrap());
-        let map = map(row["mass_ratio"].as_f64().unwrap());
-        let mut delta = row["offset"].as_f64().unwrap();
+    for row in rows(include_str!("data/orbits.jsonl")) {
+        let (n, hops) = (row.integer("n"), row.integer("hops"));
+        let map = row.map();
+        let mut delta = row.input("offset");
         for _ in 0..hops {
             delta = map.hop_near_fixed_point(n, delta).unwrap().next.unwrap();
         }
-        let error = (delta / number(&row["offset_after"]) - 1.0).abs();
-        assert!(error < 1e-13, "{line}: {delta:e}");
+        let error = (delta / row.result("offset_after").unwrap() - 1.0).abs();
+        assert!(error < 1e-13, "{row}: {delta:e}");
     }
 }
 
-/// The algebraic approach δ_k ≈ (3/(λk))³, for ever: α itself would stand still at 3e-12.
+/// The approach δ_k ≈ (3/(λk))³ goes on without end. In α it would stand still at δ ≈ 3e-12, where the loss is below
+/// an ulp.
 #[test]
 fn orbits_approach_without_stagnating() {
     let (map, mut delta) = (map(1.0), 1e-3);

@@ -1,0 +1,109 @@
+//! The interval that holds a later flight's landing and no other root, and the guess that its search starts from.
+//!
+//! ```text
+//!   V < π                                     (max(V, 0), π)
+//!   V ≥ π, before the maximum of branch m     (mπ, V)
+//!   V ≥ π, behind it                          (max(V, α*_m), (m+1)π)          m = ⌊V/π⌋
+//! ```
+//!
+//! The flight lands before the maximum if V < (m+½)π and (−1)^m (V cos V − Y sin V) ≥ 0; see the head of
+//! `landing/next_landing.rs` and docs/model.md.
+
+use crate::kernel::scalar::ground_state::GroundState;
+use crate::kernel::scalar::half_angle::{HalfAngle, negated_if_odd};
+use crate::kernel::scalar::initial_guess;
+use crate::precision::nearest_integer::nearest_integer;
+use std::f64::consts::{FRAC_1_PI, PI};
+
+/// From this V on the careful path takes over.
+///
+/// A little above the largest speed of the first-flight table, 100, so that hardly a hop of the table meets it. The
+/// half-angle functions would allow 2²⁰; the initial guesses were not tested there.
+const LARGEST_VELOCITY: f64 = 128.0;
+
+/// How near to mπ, in parts of π, the careful path takes over.
+///
+/// There ⌊V/π⌋ depends on rounding. The value is far above the rounding of V/π below [`LARGEST_VELOCITY`], 10⁻¹⁴, and
+/// leaves two flights in 10⁹ to the careful path.
+const NEAR_MULTIPLE_OF_PI: f64 = 1e-9;
+
+/// Bound on the error of the sine and cosine in the test for the maximum: eight digits, see
+/// [`HalfAngle::to_eight_digits`].
+const EIGHT_DIGITS: f64 = 1e-8;
+
+/// The bracket of a flight's landing.
+///
+/// All fields are numbers, the flags too: arrays of them are filled and read by vector instructions.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct LandingBracket {
+    pub(crate) left: f64,
+    pub(crate) right: f64,
+    /// The initial guess, inside the bracket or not.
+    pub(crate) guess: f64,
+    /// The parity sign (−1)^m if the landing must lie behind α*_m, that is where u (−1)^m < 0; 0 if there is no such
+    /// condition. The ends of the bracket do not state it: that would need α*_m.
+    pub(crate) parity_sign: f64,
+    /// 1 if rounding can not have chosen the wrong bracket, else 0.
+    pub(crate) certain: f64,
+}
+
+impl LandingBracket {
+    /// The bracket for V < π: there is one branch only, so it is certain.
+    #[inline(always)]
+    pub(crate) fn below_pi(state: &GroundState) -> Self {
+        let GroundState { excess, velocity, .. } = *state;
+        LandingBracket {
+            left: if velocity > 0.0 { velocity } else { 0.0 },
+            right: PI,
+            guess: initial_guess::below_pi(excess, velocity),
+            parity_sign: 0.0,
+            certain: 1.0,
+        }
+    }
+
+    /// The bracket for V ≥ π.
+    #[inline(always)]
+    pub(crate) fn from_pi(state: &GroundState) -> Self {
+        let GroundState { excess, velocity, error } = *state;
+        let velocity_over_pi = velocity * FRAC_1_PI;
+        let (m, parity) = nearest_integer(velocity_over_pi - 0.5); // ⌊V/π⌋
+        let part = velocity_over_pi - m; // in [0, 1]
+        let at_velocity = HalfAngle::to_eight_digits(velocity);
+        let test =
+            negated_if_odd(velocity * at_velocity.cos - (1.0 + excess) * at_velocity.sin, parity);
+        let before_maximum = (test >= 0.0) & (part < 0.5);
+        // |test| must be larger than its error: that of the sines, and that of x and V, where |∂test/∂x| ≤ 1 and
+        // |∂test/∂V| ≤ 1 + Y + V. The factor 4 is a margin.
+        let size = 4.0 * (1.0 + excess + velocity);
+        let slack = EIGHT_DIGITS * size + error + size * error;
+        let (low, high) = (m * PI, (m + 1.0) * PI);
+        let certain = (test.abs() > slack)
+            & (part > NEAR_MULTIPLE_OF_PI)
+            & (part < 1.0 - NEAR_MULTIPLE_OF_PI)
+            & (velocity < LARGEST_VELOCITY);
+        let sign = if before_maximum { -1.0 } else { 1.0 };
+        LandingBracket {
+            left: if before_maximum { low } else { velocity },
+            right: if before_maximum { velocity } else { high },
+            guess: initial_guess::from_pi(excess, velocity, m, sign),
+            parity_sign: if before_maximum { 0.0 } else { negated_if_odd(1.0, parity) },
+            certain: if certain { 1.0 } else { 0.0 },
+        }
+    }
+
+    /// `h` moved by `step`; if this would leave the bracket (I3), half way to the end that it would pass.
+    #[inline(always)]
+    pub(crate) fn moved(&self, h: f64, step: f64) -> f64 {
+        let next = h + step;
+        // The comparisons also send NaN back into the bracket.
+        let next = if next > self.left { next } else { 0.5 * (h + self.left) };
+        if next < self.right { next } else { 0.5 * (h + self.right) }
+    }
+
+    /// The guess if it lies inside the bracket, else the middle.
+    #[inline(always)]
+    pub(crate) fn first_point(&self) -> f64 {
+        let inside = (self.guess > self.left) & (self.guess < self.right);
+        if inside { self.guess } else { 0.5 * (self.left + self.right) }
+    }
+}
