@@ -156,7 +156,7 @@ def first_landing(y, v):
 class Hop:
     """The hop from a gradual lift-off with speed alpha."""
 
-    def __init__(self, mass_ratio, alpha, slopes=False, flights=10**6):
+    def __init__(self, mass_ratio, alpha, slopes=False):
         m = mpf(mass_ratio)
         kappa, mu = m / (1 + m), m / (1 + m) ** 2
         d_kappa, d_mu = 1 / (1 + m) ** 2, (1 - m) / (1 + m) ** 3
@@ -164,7 +164,7 @@ class Hop:
         # Derivatives of (Y, V, sum of the squares of G') by alpha and by M.
         d_y, d_v, d_sum = [mpf(0), mpf(0)], [mpf(1), mpf(0)], [mpf(0), mpf(0)]
         total = mpf(0)
-        self.times, self.stretches = [], []
+        self.times, self.stretches, self.velocities = [], [], []
         while True:
             t = first_landing(y, v)
             c, s = cos_sin(t)
@@ -181,11 +181,10 @@ class Hop:
                     d_v[k] += -d_t - kappa * d_closing - (d_kappa * closing if k else 0)
             self.times.append(t)
             self.stretches.append(next_y)
+            self.velocities.append(next_v)
             y, v = next_y, next_v
             if y <= 1:
                 break
-            if len(self.times) > flights:
-                raise Stuck("too many sudden lift-offs")
         self.sudden = len(self.times) - 1
         self.radicand = alpha * alpha - mu * total
         self.next = sqrt(self.radicand) if self.radicand >= 0 else None
