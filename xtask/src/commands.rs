@@ -1,6 +1,7 @@
 //! The commands: one table of names, and the programs that run them.
 
 use crate::error::Error;
+use crate::regenerate;
 use crate::repository::repository;
 use crate::tidy;
 use std::ffi::{OsStr, OsString};
@@ -20,7 +21,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 10] = [
+const TASKS: [Task; 11] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -66,6 +67,11 @@ const TASKS: [Task; 10] = [
         about: "Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index",
         package: MEASUREMENTS,
     },
+    Task {
+        name: "regenerate",
+        about: "Make the committed reference values and constants again and compare: needs Python and its package index",
+        package: None,
+    },
     Task { name: "tidy", about: "Check the repository's rules", package: None },
 ];
 
@@ -98,6 +104,9 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     if let Some(package) = task.package {
         return run_program(package, task.name, arguments);
     }
+    if task.name == "regenerate" {
+        return regenerate::run(arguments);
+    }
     match arguments.first().map(|argument| argument.to_string_lossy()) {
         None => tidy::run(),
         Some(option) if option == "--help" || option == "-h" => print(&format!(
@@ -123,14 +132,14 @@ fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<Exit
 
 /// Replaces this process, so that a signal meets the program itself and its exit status is ours.
 #[cfg(unix)]
-fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
+pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
     // It returns only if the program could not be started.
     Err(std::os::unix::process::CommandExt::exec(command))
 }
 
 /// Waits for the program and takes over its exit status. Ctrl-C reaches both processes.
 #[cfg(not(unix))]
-fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
+pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
     let code = command.status()?.code().and_then(|code| u8::try_from(code).ok());
     Ok(code.map_or(ExitCode::FAILURE, ExitCode::from))
 }
