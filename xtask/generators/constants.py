@@ -2,6 +2,7 @@
 
 from typing import Callable, NamedTuple
 
+import first_flight
 import guesses
 import sines
 
@@ -14,5 +15,6 @@ class Constant(NamedTuple):
 
 CONSTANTS = (
     Constant("sines", sines.verify),
+    Constant("first_flight", first_flight.verify),
     Constant("guesses", guesses.verify),
 )
