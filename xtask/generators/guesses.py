@@ -102,12 +102,14 @@ def committed():
 
 def verify(check):
     first, count = FITTED
-    fitted = rows(flights(first, count // 5 if check else count))
+    fitted = (None, None) if check else rows(flights(first, count))
     measured = rows(flights(MEASURED[0], MEASURED[1] // 5 if check else MEASURED[1]))
     wrong = 0
     for name, train, test, ours, allowed in zip(("V < pi", "V >= pi"), fitted, measured, committed(), FAR):
-        made = fit(train)
+        made = None if check else fit(train)
         for label, coefficients in (("committed", ours), ("made", made)):
+            if coefficients is None:
+                continue
             found = errors(test, coefficients)
             far = sum(e > CLOSE for e in found) / len(found)
             rms = (sum(e * e for e in found) / len(found)) ** 0.5

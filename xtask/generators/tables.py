@@ -8,9 +8,6 @@ import basins
 import hops
 
 ROOT = Path(__file__).resolve().parents[2]
-HOPPER = "crates/passive-hopper/tests/data"
-BASIN = "crates/hopper-basin/tests/data"
-ASYMPTOTICS = "crates/hopper-asymptotics/tests/data"
 
 
 class Table(NamedTuple):
@@ -37,28 +34,27 @@ class Table(NamedTuple):
         return json.dumps(records, indent=0)
 
 
-def _hopper(name, remake, sample):
-    return Table(name.split(".")[0], (f"{HOPPER}/{name}",), remake, sample)
+def _table(file, remake, sample):
+    """The table of a file, wherever among the crates' test data it stands."""
+    paths = sorted(ROOT.glob(f"crates/*/tests/data/{file}"))
+    if not paths:
+        raise FileNotFoundError(f"no crate has tests/data/{file}")
+    return Table(file.split(".")[0], tuple(path.relative_to(ROOT).as_posix() for path in paths), remake, sample)
 
 
 TABLES = (
-    _hopper("hops_random.jsonl", hops.hop, 30),
-    _hopper("hops_window.jsonl", hops.hop, 30),
-    _hopper("hops_boundaries.jsonl", hops.hop, 30),
-    _hopper("hops_extreme.jsonl", hops.hop, 20),
-    _hopper("hops_near_fixed_point.jsonl", hops.near_fixed_point, 60),
-    _hopper("hops_hard_offsets.jsonl", hops.hard_offset, 30),
-    _hopper("hops_hard_verdicts.jsonl", hops.hard_verdict, 4),
-    _hopper("losses_tiny.jsonl", hops.tiny_loss, 50),
-    _hopper("losses_near_first_fixed_point.jsonl", hops.loss_near_fixed_point, 60),
-    _hopper("orbits.jsonl", hops.orbit, 3),
-    _hopper("fixed_points.json", hops.fixed_point, 33),
-    Table("fates", (f"{BASIN}/fates.jsonl",), basins.fate, 60),
-    Table("critical", (f"{BASIN}/critical.json",), basins.crisis, 10),
-    Table(
-        "local_basin",
-        (f"{BASIN}/local_basin.json", f"{ASYMPTOTICS}/local_basin.json"),
-        basins.local_basin,
-        20,
-    ),
+    _table("hops_random.jsonl", hops.hop, 100),
+    _table("hops_window.jsonl", hops.hop, 100),
+    _table("hops_boundaries.jsonl", hops.hop, 100),
+    _table("hops_extreme.jsonl", hops.hop, 50),
+    _table("hops_near_fixed_point.jsonl", hops.near_fixed_point, 60),
+    _table("hops_hard_offsets.jsonl", hops.hard_offset, 40),
+    _table("hops_hard_verdicts.jsonl", hops.hard_verdict, 4),
+    _table("losses_tiny.jsonl", hops.tiny_loss, 50),
+    _table("losses_near_first_fixed_point.jsonl", hops.loss_near_fixed_point, 60),
+    _table("orbits.jsonl", hops.orbit, 2),
+    _table("fixed_points.json", hops.fixed_point, 33),
+    _table("fates.jsonl", basins.fate, 60),
+    _table("critical.json", basins.crisis, 10),
+    _table("local_basin.json", basins.local_basin, 20),
 )
