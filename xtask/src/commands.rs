@@ -1,6 +1,7 @@
 //! The commands: one table of names, and the programs that run them.
 
 use crate::error::Error;
+use crate::process::become_program;
 use crate::regenerate;
 use crate::repository::repository;
 use crate::tidy;
@@ -128,20 +129,6 @@ fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<Exit
     command.arg(repository().join("Cargo.toml"));
     command.args([OsStr::new("--"), OsStr::new(name)]).args(arguments);
     become_program(&mut command).map_err(|source| Error::Cargo { program, source })
-}
-
-/// Replaces this process, so that a signal meets the program itself and its exit status is ours.
-#[cfg(unix)]
-pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
-    // It returns only if the program could not be started.
-    Err(std::os::unix::process::CommandExt::exec(command))
-}
-
-/// Waits for the program and takes over its exit status. Ctrl-C reaches both processes.
-#[cfg(not(unix))]
-pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
-    let code = command.status()?.code().and_then(|code| u8::try_from(code).ok());
-    Ok(code.map_or(ExitCode::FAILURE, ExitCode::from))
 }
 
 fn help() -> String {

@@ -5,6 +5,7 @@
 
 mod commands;
 mod error;
+mod process;
 mod regenerate;
 mod repository;
 mod tidy;

@@ -1,7 +1,7 @@
 //! `cargo xtask regenerate`: the Python programs of `xtask/generators`, in a virtual environment of their own.
 
-use crate::commands::become_program;
 use crate::error::Error;
+use crate::process::become_program;
 use crate::repository::repository;
 use std::ffi::OsString;
 use std::io::Write;
