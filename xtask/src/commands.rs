@@ -1,6 +1,8 @@
 //! The commands: one table of names, and the programs that run them.
 
 use crate::error::Error;
+use crate::process::become_program;
+use crate::regenerate;
 use crate::repository::repository;
 use crate::tidy;
 use std::ffi::{OsStr, OsString};
@@ -20,7 +22,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 10] = [
+const TASKS: [Task; 11] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -66,6 +68,11 @@ const TASKS: [Task; 10] = [
         about: "Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index",
         package: MEASUREMENTS,
     },
+    Task {
+        name: "regenerate",
+        about: "Make the committed reference values and constants again and compare: needs Python and its package index",
+        package: None,
+    },
     Task { name: "tidy", about: "Check the repository's rules", package: None },
 ];
 
@@ -98,6 +105,9 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     if let Some(package) = task.package {
         return run_program(package, task.name, arguments);
     }
+    if task.name == "regenerate" {
+        return regenerate::run(arguments);
+    }
     match arguments.first().map(|argument| argument.to_string_lossy()) {
         None => tidy::run(),
         Some(option) if option == "--help" || option == "-h" => print(&format!(
@@ -120,21 +130,6 @@ fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<Exit
     command.arg(repository().join("Cargo.toml"));
     command.args([OsStr::new("--"), OsStr::new(name)]).args(arguments);
     become_program(&mut command).map_err(|source| Error::Cargo { program, source })
-}
-
-/// Replaces this process, so that signals reach the program itself and its exit status is the exit status of the
-/// command.
-#[cfg(unix)]
-fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
-    // `exec` returns only if the program could not be started.
-    Err(std::os::unix::process::CommandExt::exec(command))
-}
-
-/// Waits for the program and returns its exit status. Ctrl-C reaches both processes.
-#[cfg(not(unix))]
-fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
-    let code = command.status()?.code().and_then(|code| u8::try_from(code).ok());
-    Ok(code.map_or(ExitCode::FAILURE, ExitCode::from))
 }
 
 fn help() -> String {

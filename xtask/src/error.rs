@@ -17,6 +17,8 @@ pub(crate) enum Error {
     Cargo { program: OsString, source: std::io::Error },
     /// A file could not be read, or standard output not be written.
     File { path: PathBuf, source: std::io::Error },
+    /// Python, its virtual environment or its packages are missing.
+    Python { program: PathBuf, reason: String },
     /// Rules of the repository are broken; each breach has been printed.
     Breaches(usize),
 }
@@ -35,6 +37,12 @@ impl fmt::Display for Error {
                 write!(f, "{} cannot be started: {source}", program.to_string_lossy())
             }
             Error::File { path, source } => write!(f, "{}: {source}", path.display()),
+            Error::Python { program, reason } => write!(
+                f,
+                "{} failed ({reason}); install Python 3.11 or newer with its venv module and let pip reach a package \
+                 index, or name another interpreter with PYTHON=/path/to/python3",
+                program.display()
+            ),
             Error::Breaches(count) => write!(f, "{count} breaches of the repository's rules"),
         }
     }

@@ -5,6 +5,8 @@
 
 mod commands;
 mod error;
+mod process;
+mod regenerate;
 mod repository;
 mod tidy;
 
