@@ -1,15 +1,16 @@
-//! How this program becomes another one.
+//! Starting another program in place of this one.
 
 use std::process::{Command, ExitCode};
 
-/// Replaces this process, so that a signal meets the program itself and its exit status is ours.
+/// Replaces this process, so that signals reach the program itself and its exit status is the exit status of the
+/// command.
 #[cfg(unix)]
 pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
-    // It returns only if the program could not be started.
+    // `exec` returns only if the program could not be started.
     Err(std::os::unix::process::CommandExt::exec(command))
 }
 
-/// Waits for the program and takes over its exit status. Ctrl-C reaches both processes.
+/// Waits for the program and returns its exit status. Ctrl-C reaches both processes.
 #[cfg(not(unix))]
 pub(crate) fn become_program(command: &mut Command) -> Result<ExitCode, std::io::Error> {
     let code = command.status()?.code().and_then(|code| u8::try_from(code).ok());

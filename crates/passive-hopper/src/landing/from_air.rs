@@ -174,7 +174,7 @@ mod tests {
 
     proptest! {
         /// Flights from the ground that touch it at τ = 2V (tan V = V/Y), to a few ulps. The touch loses no energy.
-        /// Each solver may count it as a landing or not; all other landings agree.
+        /// Each solver may count it as a landing or not. The times of both are landings, and no earlier landing exists.
         #[test]
         fn grazing_flights(m in 1u32..8, part in 0.05..0.95f64, ulps in -4..5i64, ratio in 0.05..20f64) {
             let v = (f64::from(m) + 0.5 * part) * std::f64::consts::PI;

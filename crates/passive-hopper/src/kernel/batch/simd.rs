@@ -27,8 +27,7 @@ macro_rules! for_widest_vectors {
         pub(crate) fn $name($($argument: $of),*) {
             #[cfg(target_arch = "x86_64")]
             {
-                // The four parts of AVX-512 that the compiler uses in these loops. Server processors with one of them
-                // have all four.
+                // The four parts of AVX-512 that the compiler uses in these loops. All four are asked for.
                 #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx512bw")]
                 fn with_avx512($($argument: $of),*) {
                     $body($($argument),*);
