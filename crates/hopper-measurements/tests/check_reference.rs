@@ -114,7 +114,7 @@ fn a_line_that_allows_every_answer_is_no_comparison() {
 }
 
 #[test]
-fn the_largest_whole_numbers_are_wrong_verdicts() {
+fn the_largest_whole_numbers_are_wrong_decisions() {
     for (name, text) in [
         (
             "n",
@@ -128,7 +128,7 @@ fn the_largest_whole_numbers_are_wrong_verdicts() {
         let path = file(name, text);
         let output = check(&[], &[&path]);
         assert_eq!(output.status.code(), Some(1), "{name}: {}", errors(&output));
-        assert!(errors(&output).contains("1 wrong verdicts"), "{name}: {}", errors(&output));
+        assert!(errors(&output).contains("1 wrong decisions"), "{name}: {}", errors(&output));
         std::fs::remove_file(&path).unwrap();
     }
 }
