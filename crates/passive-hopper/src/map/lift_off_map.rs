@@ -239,8 +239,10 @@ impl Iterator for Landings {
             next_landing(start, self.kappa)
         };
         self.flights += 1;
-        // The excess of a sudden landing may round to zero or below. The next flight is then too short to be
-        // represented, and it loses no energy. A search from x ≤ 0 would have no bracket.
+        // The excess of a sudden landing may round to zero or below. A search from x ≤ 0 would have no bracket, so that
+        // the iterator ends here. For a velocity ≤ 0 the next flight is too short to be represented, and it loses no
+        // energy. For a velocity > 0 (M > 1, α a few ulps from nπ) a long flight is left out; `hop` finds such a landing
+        // inconclusive and computes the hop in extended arithmetic.
         let again = landing.sudden && landing.excess > 0.0;
         self.start =
             again.then_some(TakeOff { excess: landing.excess, velocity: landing.velocity });
