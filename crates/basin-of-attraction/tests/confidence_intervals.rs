@@ -2,27 +2,12 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+mod cantor;
+
 use basin_of_attraction::{
     ConfidenceInterval, Interval, low_discrepancy_fractions, random_fractions, wilson_interval,
 };
-
-fn interval(left: f64, right: f64) -> Interval {
-    Interval::new(left, right).unwrap()
-}
-
-const THIRD: f64 = 1.0 / 3.0;
-
-/// The colour of the gap in which x falls, by the number of steps of x → 3x mod 1 to the middle one.
-fn cantor_label(x: f64, colours: u16) -> u16 {
-    let mut x = x;
-    for step in 0..60u16 {
-        if x > THIRD && x < 2.0 * THIRD {
-            return step % colours;
-        }
-        x = if x <= THIRD { 3.0 * x } else { 3.0 * x - 2.0 };
-    }
-    colours
-}
+use cantor::{cantor_label, interval};
 
 /// Of 1000 intervals of 95 %, 930 to 970 contain the true fraction.
 #[test]

@@ -3,30 +3,15 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+mod cantor;
+
 use basin_of_attraction::{
-    BoxCount, Branch, Fate, Grid, Interval, IntervalBasins, LabelImage, PreimageTree, Refinement,
+    BoxCount, Branch, Fate, Grid, IntervalBasins, LabelImage, PreimageTree, Refinement,
     ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
     interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
 };
+use cantor::{THIRD, cantor_label, interval};
 use std::ops::ControlFlow::Continue;
-
-fn interval(left: f64, right: f64) -> Interval {
-    Interval::new(left, right).unwrap()
-}
-
-const THIRD: f64 = 1.0 / 3.0;
-
-/// The colour of the gap in which x falls, by the number of steps of x → 3x mod 1 to the middle one.
-fn cantor_label(x: f64, colours: u16) -> u16 {
-    let mut x = x;
-    for step in 0..60u16 {
-        if x > THIRD && x < 2.0 * THIRD {
-            return step % colours;
-        }
-        x = if x <= THIRD { 3.0 * x } else { 3.0 * x - 2.0 };
-    }
-    colours
-}
 
 /// The gap (1/3, 2/3) and its preimages.
 fn cantor_levels(depth: usize) -> IntervalBasins {

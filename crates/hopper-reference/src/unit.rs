@@ -10,8 +10,8 @@ pub const UNITS_PER_FLIGHT: f64 = 4.0;
 
 /// The unit of the error of `next` = α′: the effect on α′ of half an ulp in each of α, M, α′ and α², added up.
 ///
-/// It is [`Slopes::error_unit`]. A slope that the reference does not have counts as zero,
-/// which makes the unit smaller. Zero if the hopper is grounded (`None`): then there is no α′ to compare.
+/// It is [`Slopes::error_unit`]. A slope that the reference does not have counts as zero, which makes the unit smaller.
+/// The unit is zero if the hopper is grounded (`None`): then there is no α′ to compare.
 pub fn error_unit(
     next: Option<f64>,
     (alpha, slope_alpha): (f64, f64),

@@ -62,7 +62,8 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     root_folder::check(root, &mut breaches)?;
     let documents = sources::documents(root)?;
     theory_citations::check(&sources, &documents, &mut breaches);
-    names_in_pages::check(&sources::pages(root)?, &sources, &mut breaches);
+    let pages: Vec<_> = documents.into_iter().filter(sources::is_page).collect();
+    names_in_pages::check(&pages, &sources, &mut breaches);
     Ok(breaches)
 }
 

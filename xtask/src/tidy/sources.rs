@@ -101,14 +101,12 @@ pub(super) fn documents(root: &Path) -> Result<Vec<Source>, Error> {
     names.iter().map(|name| read(root, name)).collect()
 }
 
-/// The pages of the documentation, sorted by name: `README.md`, those in `docs`, and those beside the code they explain.
-pub(super) fn pages(root: &Path) -> Result<Vec<Source>, Error> {
-    let mut names = vec!["README.md".to_owned()];
-    collect_in(root, "docs", &|name| name.ends_with(".md"), &mut names)?;
-    let beside_code = |name: &str| name.contains("/src/") && name.ends_with("/README.md");
-    collect_in(root, "crates", &beside_code, &mut names)?;
-    names.sort();
-    names.iter().map(|name| read(root, name)).collect()
+/// Whether a document is a page for readers: `README.md`, a page in `docs`, or a page beside the code it explains.
+pub(super) fn is_page(document: &Source) -> bool {
+    let name = &document.name;
+    let beside_code =
+        name.starts_with("crates/") && name.contains("/src/") && name.ends_with("/README.md");
+    name == "README.md" || name.starts_with("docs/") || beside_code
 }
 
 /// Marks the files that others declare as tests.
