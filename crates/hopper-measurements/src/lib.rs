@@ -11,6 +11,8 @@
 //! | `speed` | how fast are hops and rasters, with their output checked first? |
 //! | `peers` | how do heyoka, SciPy and numba compare on the same hops? |
 
+#[allow(dead_code)] // the command check-bounds follows
+mod bounds;
 pub mod cli;
 pub mod commands;
 mod error;
