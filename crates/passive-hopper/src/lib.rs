@@ -15,7 +15,7 @@
 //! | item | role |
 //! |---|---|
 //! | [`MassRatio`] | M = m₂/m₁, validated; μ, κ, 1/M |
-//! | [`LiftOffMap`], [`Hop`], [`Landings`], [`Landing`] | the exact map in its stable form, hop by hop or landing by landing |
+//! | [`LiftOffMap`], [`Hop`], [`Landing`] | the exact map in its stable form, hop by hop or landing by landing |
 //! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the map by the paper's Eqs. (6)–(8), for comparison |
@@ -45,8 +45,14 @@
 //! α′ is at most 4 (1 + sudden lift-offs) units of ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³
 //! (`cargo xtask check-reference`).
 //!
-//! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. If 53 bits
-//! do not suffice for it, 106 and then up to 1024 bits are used. [`Hop::certain`] is false for a hop that needs more.
+//! # Decisions
+//! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. The methods
+//! of [`LiftOffMap`] return a result only if every decision of the hop is larger than the bound on its error. If 53 bits do
+//! not suffice, the hop is computed with 106, and then with up to 1024 bits. If these do not suffice either, or would take
+//! too long, the result is [`Error::Undecided`]. This holds for [`hop`](LiftOffMap::hop), [`image`](LiftOffMap::image),
+//! [`images`](LiftOffMap::images), [`images_of_pairs`](LiftOffMap::images_of_pairs), [`landings`](LiftOffMap::landings),
+//! [`slopes`](LiftOffMap::slopes) and [`hop_near_fixed_point`](LiftOffMap::hop_near_fixed_point). [`printed_image`] has no
+//! bounds: next to a change of branch it may decide wrongly.
 //!
 //! Near a fixed point [`LiftOffMap::hop_near_fixed_point`] gives δ′ to 8 ulps of δ′ itself. Sines and cosines come from
 //! `pxfm`, correctly rounded, or from the kernel, to 1.2 ulps. Results have the same bits on every x86-64 machine.
@@ -78,7 +84,7 @@ pub use hopper::{Hopper, HopperSurface, Phase};
 pub use landing::flight_ends::{Landing, TakeOff};
 pub use landing::half_flight::HalfFlight;
 pub use landing::local_flight::LocalFlight;
-pub use map::lift_off_map::{Hop, Landings, LiftOffMap};
+pub use map::lift_off_map::{Hop, LiftOffMap};
 pub use map::limits::SUDDEN_LIFT_OFF_BUDGET;
 pub use map::near_fixed_point::LocalHop;
 pub use map::printed::printed_image;

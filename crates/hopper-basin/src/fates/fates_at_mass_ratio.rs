@@ -86,8 +86,8 @@ impl Fates {
     /// # Errors
     /// As [`fate`](Self::fate).
     pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
-        // `landings` only checks α here. `classify` would report an invalid α as undecided.
-        self.map.landings(alpha)?;
+        // `classify` would report an invalid α as undecided.
+        LiftOffMap::check_speed(alpha)?;
         let (fate, hops) = classify(self, self, alpha, budget);
         let fate = match fate {
             Fate::Stopped => HopperFate::Grounded,
@@ -120,8 +120,8 @@ impl Fates {
 impl ScalarMap for Fates {
     fn image(&self, alpha: f64) -> Image {
         match self.map().hop(alpha) {
-            Ok(hop) if hop.certain => hop.next.into(),
-            Ok(_) | Err(_) => Image::Undecided,
+            Ok(hop) => hop.next.into(),
+            Err(_) => Image::Undecided,
         }
     }
 }

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::strip;
+use passive_hopper::LiftOffMap;
 
 /// Fewer speeds than this are classified one by one.
 ///
@@ -45,11 +46,9 @@ pub(crate) fn labels_of_columns(
         };
         return columns.iter().map(one_by_one).collect();
     }
-    if let Some(fates) = columns.first() {
-        // `landings` only checks the speed here. The strip requires valid speeds.
-        for &speed in speeds {
-            fates.map().landings(speed)?;
-        }
+    // The strip requires valid speeds.
+    for &speed in speeds {
+        LiftOffMap::check_speed(speed)?;
     }
     if speeds.is_sorted() {
         return strip::labels(columns, speeds);

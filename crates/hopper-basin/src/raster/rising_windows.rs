@@ -221,7 +221,7 @@ mod tests {
             let exact = map.slopes(alpha).unwrap().unwrap().by_speed
                 * map.image(alpha).unwrap().unwrap()
                 / alpha;
-            let h = 0.5 * map.landings(alpha).unwrap().next().unwrap().unwrap().time;
+            let h = 0.5 * map.landings(alpha).unwrap()[0].time;
             let found = slope(Range(h, h), Range(m, m));
             assert!(
                 (found.0 - exact).abs() < 1e-6 * exact.abs() + 1e-7,

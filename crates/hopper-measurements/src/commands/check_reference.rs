@@ -247,8 +247,7 @@ fn judge_loss(tally: &mut Tally, at: usize, line: &Loss, limit: f64) {
 fn judge_hop(tally: &mut Tally, at: usize, hop: &ReferenceHop, limit: f64) {
     tally.lines += 1;
     let found = match LiftOffMap::new(hop.mass_ratio).hop(hop.alpha) {
-        Ok(found) if found.certain => found,
-        Ok(_) => return tally.is_wrong(at, "undecided"),
+        Ok(found) => found,
         Err(error) => return tally.is_wrong(at, &error.to_string()),
     };
     let mut many = [Some(hop.alpha); AT_ONCE];

@@ -67,7 +67,7 @@ pub(super) fn check_landings() -> Result<String, Error> {
     let mut count = 0;
     for hop in &window_hops()? {
         let map = LiftOffMap::new(hop.mass_ratio);
-        let landings: Vec<_> = map.landings(hop.alpha)?.collect::<Result<_, _>>()?;
+        let landings = map.landings(hop.alpha)?;
         let squares: f64 = landings.iter().map(|l| l.closing_speed * l.closing_speed).sum();
         let next_speed_squared = hop.alpha * hop.alpha - hop.mass_ratio.mu() * squares;
         let right = landings.len() == 1 + hop.sudden
@@ -121,7 +121,7 @@ pub(super) fn landing_time() -> f64 {
     let maps = window_maps();
     let landings = |k: usize| {
         let (map, speeds) = &maps[k % MAPS];
-        map.landings(speeds[k / MAPS]).map_or(0, Iterator::count)
+        map.landings(speeds[k / MAPS]).map_or(0, |landings| landings.len())
     };
     let count: usize = (0..MAPS * SPEEDS).map(landings).sum();
     median_seconds(MAPS * SPEEDS, landings) * (MAPS * SPEEDS) as f64 / count as f64

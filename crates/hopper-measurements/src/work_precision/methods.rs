@@ -72,7 +72,7 @@ impl Method {
         let map = LiftOffMap::new(case.mass_ratio);
         match self {
             Method::Stable => {
-                let hop = map.hop(case.alpha).ok().filter(|hop| hop.certain)?;
+                let hop = map.hop(case.alpha).ok()?;
                 let (next, loss, sudden) = (hop.next, hop.loss, Some(hop.sudden));
                 Some(Answer { next, loss, offset: None, sudden })
             }

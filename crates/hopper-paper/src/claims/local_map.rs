@@ -32,8 +32,8 @@ fn beta() -> Result<Claim, Error> {
         let star = FixedPointSpeed::new(n);
         let ratio = |delta: f64| -> Result<f64, Error> {
             let alpha = star.value() + delta;
-            let first = LiftOffMap::new(MassRatio::ONE).landings(alpha)?.next().transpose()?;
-            let time = first.map_or(f64::NAN, |landing| landing.time);
+            let landings = LiftOffMap::new(MassRatio::ONE).landings(alpha)?;
+            let time = landings.first().map_or(f64::NAN, |landing| landing.time);
             Ok((time - 2.0 * star.value()) / local.flight_time_shift(star.offset_of(alpha)))
         };
         // The ratio is 1 + w/(4α*) + … with w = βδ^{1/3}. An eighth of δ halves w: twice the second ratio minus the

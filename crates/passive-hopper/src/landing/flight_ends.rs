@@ -44,6 +44,18 @@ pub(crate) fn state_after_flight(
     )
 }
 
+impl TakeOff {
+    /// The start of the flight after a sudden landing, with x ≥ 0; `None` if the flight is too short for an `f64`.
+    ///
+    /// x of a sudden landing may round to zero or below. For V ≤ 0 the flight is then too short to be represented, and
+    /// loses no energy: h ≈ 3x/(2|V|). For V > 0 it is long, and tends to the flight from x = 0. (This occurs for M > 1
+    /// with α a few ulps from nπ, docs/theory.md, Theorem 23.)
+    pub(crate) fn resolved(self) -> Option<TakeOff> {
+        (self.excess > 0.0 || self.velocity > 0.0)
+            .then_some(TakeOff { excess: self.excess.max(0.0), ..self })
+    }
+}
+
 impl Landing {
     /// The start of the flight that follows a sudden landing.
     pub(crate) fn take_off(&self) -> TakeOff {

@@ -189,9 +189,7 @@ fn chain<R: Extended>(
         if sudden > R::SUDDEN_BUDGET {
             return Ok(None);
         }
-        if !(start.excess > 0.0) {
-            break; // x′ rounds to zero: the next flight is too short for an f64 and loses no energy
-        }
+        let Some(start) = start.resolved() else { break };
         let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
         let root = next_root(start, start.velocity >= PI && test >= 0.0);
         landing = ExtendedLanding::near(root.half.h, x, v, masses.kappa);

@@ -8,11 +8,10 @@
 use crate::error::Error;
 use crate::kernel::scalar::hop::{DecidedHop, MassFactors, kernel_hop};
 use crate::landing::error_bound::ErrorBound;
-use crate::landing::first_landing::first_landing;
-use crate::landing::flight_ends::{Landing, TakeOff};
-use crate::landing::next_landing::next_landing;
+use crate::landing::flight_ends::Landing;
 use crate::map::extended_hop::{ExtendedHop, Start, extended_hop};
-use crate::map::limits::{LARGEST_PLAIN_SPEED, SUDDEN_LIFT_OFF_BUDGET};
+use crate::map::limits::LARGEST_PLAIN_SPEED;
+use crate::map::plain_landings::PlainLandings;
 use crate::model::mass_ratio::MassRatio;
 use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 use crate::precision::double_double::DoubleDouble;
@@ -42,7 +41,8 @@ pub struct LiftOffMap {
     pub(crate) factors: MassFactors,
 }
 
-/// One hop: the change of the lift-off speed, the number of sudden lift-offs, the time, and the certainty.
+/// One hop, with every decision larger than its error: the change of the lift-off speed, the number of sudden lift-offs,
+/// and the time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hop {
     /// The lift-off speed α at the start of the hop.
@@ -57,10 +57,6 @@ pub struct Hop {
     pub sudden: usize,
     /// Total time of flight τ.
     pub flight_time: f64,
-    /// Whether every decision of the hop (sudden or not, on which branch a flight lands, grounded or not) is larger
-    /// than its rounding error. A hop whose decisions are inconclusive in 53 bits is computed with 106, and then with
-    /// up to 1024. False means that 1024 bits do not suffice either, or would take too long.
-    pub certain: bool,
 }
 
 impl LiftOffMap {
@@ -75,11 +71,25 @@ impl LiftOffMap {
         self.mass_ratio
     }
 
+    /// Whether the map accepts the lift-off speed `alpha`.
+    ///
+    /// # Errors
+    /// [`Error::LiftOffSpeed`] unless `alpha` is positive and finite, [`Error::LiftOffSpeedTooLarge`] above 2⁴³.
+    pub fn check_speed(alpha: f64) -> Result<(), Error> {
+        if !(alpha > 0.0) || !alpha.is_finite() {
+            return Err(Error::LiftOffSpeed { value: alpha });
+        }
+        if alpha > LARGEST_LIFT_OFF_SPEED {
+            let largest = LARGEST_LIFT_OFF_SPEED;
+            return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest });
+        }
+        Ok(())
+    }
+
     /// f(α): the next lift-off speed, or `None` if the hopper is grounded.
     ///
     /// # Errors
-    /// The errors of [`hop`](Self::hop), and [`Error::Undecided`] for a hop that is not
-    /// [certain](Hop::certain).
+    /// The errors of [`hop`](Self::hop).
     #[inline]
     pub fn image(&self, alpha: f64) -> Result<Option<f64>, Error> {
         match kernel_hop(alpha, self.factors) {
@@ -91,24 +101,35 @@ impl LiftOffMap {
     /// The image for a speed that the kernel leaves undecided. An invalid speed gives its error.
     #[cold]
     pub(crate) fn careful_image(&self, alpha: f64) -> Result<Option<f64>, Error> {
-        let (hop, _) = self.decide(alpha, |_| ())?;
-        if !hop.certain {
-            return Err(Error::Undecided { alpha, sudden: hop.sudden });
-        }
-        Ok(hop.next)
+        self.decide(alpha, |_| ()).map(|(hop, _)| hop.next)
     }
 
     /// The hop that starts with speed `alpha`.
     ///
     /// # Errors
-    /// [`Error::LiftOffSpeed`] unless `alpha` is positive and finite,
-    /// [`Error::LiftOffSpeedTooLarge`] above 2⁴³, [`Error::SuddenLiftOffBudget`] after a million
-    /// sudden lift-offs.
+    /// The errors of [`check_speed`](Self::check_speed); [`Error::Undecided`] if a decision of the hop is not larger than
+    /// its error in 1024 bits, or would take too long; [`Error::SuddenLiftOffBudget`] after a million sudden lift-offs.
     pub fn hop(&self, alpha: f64) -> Result<Hop, Error> {
         match kernel_hop(alpha, self.factors) {
             Some(decided) => Ok(decided.hop(alpha)),
             None => self.decide(alpha, |_| ()).map(|(hop, _)| hop),
         }
+    }
+
+    /// The landings of the hop that starts with speed `alpha`, in their order: one more than its sudden lift-offs.
+    ///
+    /// ```
+    /// use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+    /// let map = LiftOffMap::new(MassRatio::ONE);
+    /// let landings = map.landings(alpha_star(1) - 0.1)?;
+    /// assert!(landings.len() == 2 && landings[0].sudden && !landings[1].sudden);
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The errors of [`hop`](Self::hop).
+    pub fn landings(&self, alpha: f64) -> Result<Vec<Landing>, Error> {
+        self.path(alpha).map(|(_, landings)| landings)
     }
 
     /// The hop computed landing by landing, with its landings in the arithmetic that decided the hop.
@@ -125,21 +146,27 @@ impl LiftOffMap {
         alpha: f64,
         see: impl FnMut(&Landing),
     ) -> Result<(Hop, Option<Vec<Landing>>), Error> {
-        check_speed(alpha)?;
+        Self::check_speed(alpha)?;
         if alpha <= LARGEST_PLAIN_SPEED {
-            let hop = self.plain_hop(alpha, see)?;
-            // A hop with more sudden lift-offs than longer arithmetic allows stays uncertain.
-            if hop.certain || hop.sudden > DoubleDouble::SUDDEN_BUDGET {
+            let (hop, certain) = self.plain_hop(alpha, see)?;
+            if certain {
                 return Ok((hop, None));
+            }
+            // Longer arithmetic does not allow so many sudden lift-offs.
+            if hop.sudden > DoubleDouble::SUDDEN_BUDGET {
+                return Err(Error::Undecided { alpha, sudden: hop.sudden });
             }
         }
         let hop = extended_hop(Start::Speed(alpha), self.mass_ratio)?;
-        Ok((self.rounded(alpha, &hop), Some(hop.landings)))
+        if !hop.certain {
+            return Err(Error::Undecided { alpha, sudden: hop.landings.len() - 1 });
+        }
+        Ok((rounded(alpha, &hop), Some(hop.landings)))
     }
 
-    /// The hop in plain `f64`, certain or not.
-    fn plain_hop(&self, alpha: f64, mut see: impl FnMut(&Landing)) -> Result<Hop, Error> {
-        let landings = self.landings(alpha)?;
+    /// The hop in plain `f64`, and whether every decision is larger than its error.
+    fn plain_hop(&self, alpha: f64, mut see: impl FnMut(&Landing)) -> Result<(Hop, bool), Error> {
+        let landings = PlainLandings::new(alpha, self.factors.kappa);
         // Σ (Γ/α)²: of ratios, so that no square underflows for tiny α.
         let (mut ratios_squared, mut sudden, mut flight_time) = (0.0, 0, 0.0);
         let mut error_bound = ErrorBound::of_f64(alpha);
@@ -159,32 +186,19 @@ impl LiftOffMap {
         let loss = (t < 1.0).then(|| alpha * t / (1.0 + (1.0 - t).sqrt()));
         let next = loss.map(|loss| if t < 0.5 { alpha - loss } else { alpha * (1.0 - t).sqrt() });
         let next_speed_squared = alpha * alpha * (1.0 - t);
-        Ok(Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time, certain })
+        Ok((Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time }, certain))
     }
+}
 
-    fn rounded(&self, alpha: f64, hop: &ExtendedHop) -> Hop {
-        Hop {
-            speed: alpha,
-            next: hop.next.as_ref().map(|next| next.speed),
-            loss: hop.next.as_ref().map(|next| next.loss),
-            next_speed_squared: hop.next_speed_squared,
-            sudden: hop.landings.len() - 1,
-            flight_time: hop.landings.iter().map(|landing| landing.time).sum(),
-            certain: hop.certain,
-        }
-    }
-
-    /// The landings of the hop that starts with speed `alpha`, one after the other, in plain `f64`.
-    ///
-    /// If [`hop`](Self::hop) needs longer arithmetic to decide the hop, its landings after the first may differ from
-    /// these.
-    ///
-    /// # Errors
-    /// The errors of [`hop`](Self::hop) for a wrong speed. The iterator gives [`Error::SuddenLiftOffBudget`].
-    pub fn landings(&self, alpha: f64) -> Result<Landings, Error> {
-        check_speed(alpha)?;
-        let start = TakeOff { excess: 0.0, velocity: alpha };
-        Ok(Landings { kappa: self.factors.kappa, start: Some(start), flights: 0 })
+/// The hop of the map, from the hop in longer arithmetic.
+fn rounded(alpha: f64, hop: &ExtendedHop) -> Hop {
+    Hop {
+        speed: alpha,
+        next: hop.next.as_ref().map(|next| next.speed),
+        loss: hop.next.as_ref().map(|next| next.loss),
+        next_speed_squared: hop.next_speed_squared,
+        sudden: hop.landings.len() - 1,
+        flight_time: hop.landings.iter().map(|landing| landing.time).sum(),
     }
 }
 
@@ -199,53 +213,6 @@ impl DecidedHop {
             next_speed_squared: self.next_speed_squared,
             sudden: self.sums.flights as usize - 1,
             flight_time: 2.0 * self.sums.half_time,
-            certain: true,
         }
-    }
-}
-
-fn check_speed(alpha: f64) -> Result<(), Error> {
-    if !(alpha > 0.0) || !alpha.is_finite() {
-        return Err(Error::LiftOffSpeed { value: alpha });
-    }
-    if alpha > LARGEST_LIFT_OFF_SPEED {
-        return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
-    }
-    Ok(())
-}
-
-/// The landings between two gradual lift-offs; see [`LiftOffMap::landings`].
-#[derive(Debug, Clone)]
-pub struct Landings {
-    kappa: f64,
-    start: Option<TakeOff>,
-    flights: usize,
-}
-
-impl Iterator for Landings {
-    type Item = Result<Landing, Error>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let start = self.start?;
-        if self.flights > SUDDEN_LIFT_OFF_BUDGET {
-            self.start = None;
-            let TakeOff { excess, velocity } = start;
-            let sudden = self.flights - 1;
-            return Some(Err(Error::SuddenLiftOffBudget { sudden, excess, velocity }));
-        }
-        let landing = if self.flights == 0 {
-            first_landing(start.velocity, self.kappa)
-        } else {
-            next_landing(start, self.kappa)
-        };
-        self.flights += 1;
-        // The excess of a sudden landing may round to zero or below. A search from x ≤ 0 would have no bracket, so that
-        // the iterator ends here. For a velocity ≤ 0 the next flight is too short to be represented, and it loses no
-        // energy. For a velocity > 0 (M > 1, α a few ulps from nπ) a long flight is left out; `hop` finds such a landing
-        // inconclusive and computes the hop in extended arithmetic.
-        let again = landing.sudden && landing.excess > 0.0;
-        self.start =
-            again.then_some(TakeOff { excess: landing.excess, velocity: landing.velocity });
-        Some(Ok(landing))
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!   lift_off_map.rs       one hop: by the kernel, or by the general solver if the kernel leaves it undecided
+//!   plain_landings.rs     its landings in f64, without bounds
 //!   many_at_once.rs       many hops, in blocks of the kernel
 //!   near_fixed_point.rs   a hop in (n, δ), α = α*_n + δ
 //!   extended_hop.rs       a hop in 106 to 1024 bits
@@ -15,5 +16,6 @@ pub(crate) mod lift_off_map;
 pub(crate) mod limits;
 pub(crate) mod many_at_once;
 pub(crate) mod near_fixed_point;
+pub(crate) mod plain_landings;
 pub(crate) mod printed;
 pub(crate) mod slopes;

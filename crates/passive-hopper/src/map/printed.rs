@@ -22,7 +22,7 @@ type UpperState = (f64, f64);
 /// [`Error::LiftOffSpeed`], [`Error::LiftOffSpeedTooLarge`] and [`Error::SuddenLiftOffBudget`] as in the stable form;
 /// [`Error::Landing`] if rounding hides the sign change of Eq. (8) on the bracket.
 pub fn printed_image(mass_ratio: MassRatio, alpha: f64) -> Result<Option<f64>, Error> {
-    LiftOffMap::new(mass_ratio).landings(alpha)?; // checks α; the landings are not used
+    LiftOffMap::check_speed(alpha)?;
     let mut state = (1.0, alpha);
     for _ in 0..SUDDEN_LIFT_OFF_BUDGET {
         let time = flight_time(state)?;

@@ -54,9 +54,6 @@ impl LiftOffMap {
     /// The errors of [`image`](Self::image).
     pub fn slopes(&self, alpha: f64) -> Result<Option<Slopes>, Error> {
         let (hop, landings) = self.path(alpha)?;
-        if !hop.certain {
-            return Err(Error::Undecided { alpha, sudden: hop.sudden });
-        }
         let Some(next) = hop.next else { return Ok(None) };
         let ratio = self.mass_ratio();
         let (m, mu, kappa) = (ratio.value(), ratio.mu(), ratio.kappa());

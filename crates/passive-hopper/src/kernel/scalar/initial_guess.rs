@@ -8,42 +8,42 @@ use std::f64::consts::PI;
 /// Coefficients cᵢⱼ of aⁱ qʲ with i + j ≤ 4, row by row.
 struct Quartic([f64; 5], [f64; 4], [f64; 3], [f64; 2], [f64; 1]);
 
-// The 45 coefficients below were fitted to solved landings; the script is not in the repository yet. A higher degree
-// makes a guess more expensive. A lower degree leaves more flights for which one step of order four is not enough: such
-// flights are searched again, one by one (the tests below bound their fraction). Seven digits are far more than the fit
-// needs.
+// The 45 coefficients below are made by xtask/generators/guesses.py, a weighted fit to the later flights of 5000 hops with M
+// from 0.05 to 20 and α from 4.5 to 20.5. A higher degree makes a guess more expensive. A lower degree leaves more
+// flights for which one step of order four is not enough: such flights are searched again, one by one (the tests below
+// bound their fraction). Six decimals are far more than the fit needs.
 
 /// For V < π, see [`below_pi`].
 const BELOW_PI: Quartic = Quartic(
-    [3.894587, -0.050390, 0.063813, -0.009699, -0.041907],
-    [6.352252, 0.685032, -0.501031, 0.014033],
-    [-17.007439, 1.419803, 1.846877],
-    [12.847678, -0.718750],
-    [-2.665816],
+    [2.812064, -0.295329, 0.555798, -0.230898, -0.100552],
+    [16.271597, 3.830457, -2.937740, 0.505384],
+    [-48.855954, -7.649003, 4.797696],
+    [56.387605, 6.546130],
+    [-24.403431],
 );
 
 /// For V ≥ π, see [`from_pi`]: the part that does not depend on b.
 const FROM_PI: Quartic = Quartic(
-    [1.007936, 0.068245, 0.124808, 0.123929, 0.214718],
-    [-0.356464, -1.528721, -2.183957, -0.833889],
-    [3.382140, 7.322871, 4.340733],
-    [-8.615713, -9.220475],
-    [7.902117],
+    [0.954538, 1.121778, 1.910147, -0.398728, -0.172871],
+    [0.050150, -8.577376, -9.512781, 0.407576],
+    [2.758725, 22.501541, 11.197028],
+    [-9.257806, -19.805149],
+    [9.148428],
 );
 
 /// For V ≥ π: the factor of b. It has degree 3, so that the last coefficient of each row is zero.
 const FROM_PI_TIMES_B: Quartic = Quartic(
-    [-0.017303, -0.307394, -0.550819, -0.871569, 0.0],
-    [0.983945, 5.929563, 2.772852, 0.0],
-    [-2.215785, -11.822482, 0.0],
-    [2.675684, 0.0],
+    [-1.376908, -5.746781, -0.419333, -0.020709, 0.0],
+    [7.326263, 29.172175, 2.718893, 0.0],
+    [-12.104500, -34.252085, 0.0],
+    [8.262098, 0.0],
     [0.0],
 );
 
 /// Lower limit of 1 + Q d, whose root is taken in [`from_pi`].
 ///
 /// The radicand is negative where the quadratic has no real root, near the maximum of V(h) on its branch. With the
-/// limit there is a guess also there. The value came with the fit.
+/// limit there is a guess also there. The value is chosen; the fit uses it.
 const SMALLEST_RADICAND: f64 = 0.02;
 
 impl Quartic {
@@ -69,7 +69,7 @@ fn row<const N: usize>(c: &[f64; N], q: f64) -> f64 {
 ///
 /// A short flight has V ≈ h/2 − 3x/(2h), from V(h) = h + Sρ − xσ with ρ → −½ and σ → 3/(2h). The positive root is h₀ =
 /// V + √(V²+3x) = 3x/(√(V²+3x) − V). The second form does not cancel for V < 0. The guess is a times a polynomial in a
-/// = h₀/(4 + h₀) and q = V/√(V²+3x). The 4 maps h₀ ∈ (0, ∞) to a ∈ (0, 1); its value came with the fit.
+/// = h₀/(4 + h₀) and q = V/√(V²+3x). This maps h₀ ∈ (0, ∞) to a ∈ (0, 1). The 4 is chosen; the fit uses it.
 #[inline(always)]
 pub(crate) fn below_pi(excess: f64, velocity: f64) -> f64 {
     let three = 3.0 * excess;
@@ -107,18 +107,20 @@ mod tests {
     /// A guess this close to the landing needs one step of order four.
     const CLOSE: f64 = 0.03;
 
-    /// Over the later flights of 4000 hops: below π at least 98 % of the guesses are close, from π on at least 87.5 %.
+    /// Over the later flights of 4000 hops, other ones than those of the fit: below π at most 0.5 % of the guesses are not
+    /// close, from π on at most 5 %; the largest errors are 0.033 and 0.087 (measured).
     #[test]
     fn most_guesses_are_close_to_the_landing() {
         // Flights with V < π, then flights with V ≥ π.
         let mut far = [0usize; 2];
         let mut all = [0usize; 2];
+        let mut largest = [0.0f64; 2];
         for k in 0..4000u32 {
             let part = |step: f64| (f64::from(k) * step).fract();
             let m = 0.05 * pxfm::f_pow(400.0, part(0.618_033_988_749_895));
             let alpha = 4.5 + 16.0 * part(0.754_877_666_246_693);
             let map = LiftOffMap::new(MassRatio::new(m).unwrap());
-            let landings: Vec<_> = map.landings(alpha).unwrap().map(Result::unwrap).collect();
+            let landings = map.landings(alpha).unwrap();
             for pair in landings.windows(2) {
                 let (x, v, h) = (pair[0].excess, pair[0].velocity, 0.5 * pair[1].time);
                 let is_from_pi = v >= PI;
@@ -127,11 +129,14 @@ mod tests {
                 } else {
                     below_pi(x, v)
                 };
-                all[usize::from(is_from_pi)] += 1;
-                far[usize::from(is_from_pi)] += usize::from((guess - h).abs() > CLOSE);
+                let (kind, error) = (usize::from(is_from_pi), (guess - h).abs());
+                all[kind] += 1;
+                far[kind] += usize::from(error > CLOSE);
+                largest[kind] = largest[kind].max(error);
             }
         }
         assert!(all[0] > 1000 && all[1] > 500, "{all:?}");
-        assert!(far[0] * 50 < all[0] && far[1] * 8 < all[1], "{far:?} of {all:?}");
+        assert!(far[0] * 200 < all[0] && far[1] * 20 < all[1], "{far:?} of {all:?}");
+        assert!(largest[0] < 0.04 && largest[1] < 0.1, "{largest:?}");
     }
 }
