@@ -17,6 +17,8 @@
 //! | [`MassRatio`] | M = m₂/m₁, validated; μ, κ, 1/M |
 //! | [`LiftOffMap`], [`Hop`], [`Landings`], [`Landing`] | the exact map in its stable form, hop by hop or landing by landing |
 //! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
+//! | [`LiftOffMap::hop_within`], [`BoundedHop`] | the hop of a speed that is known to within an error |
+//! | [`ExtendedOrbit`], [`Arithmetic`] | an orbit in 106 to 1024 bits, with a bound on its error |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the map by the paper's Eqs. (6)–(8), for comparison |
 //! | [`alpha_star`], [`FixedPointSpeed`], [`index_below`] | the fixed points tan α* = α*, as `f64` and to 100 bits; the index of the fixed point below a speed |
@@ -78,6 +80,8 @@ pub use hopper::{Hopper, HopperSurface, Phase};
 pub use landing::flight_ends::{Landing, TakeOff};
 pub use landing::half_flight::HalfFlight;
 pub use landing::local_flight::LocalFlight;
+pub use map::bounded_hop::BoundedHop;
+pub use map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep};
 pub use map::lift_off_map::{Hop, Landings, LiftOffMap};
 pub use map::limits::SUDDEN_LIFT_OFF_BUDGET;
 pub use map::near_fixed_point::LocalHop;

@@ -63,6 +63,11 @@ impl ErrorBound {
         }
     }
 
+    /// The same bound for a hop whose lift-off speed is known to within `error`.
+    pub(crate) fn with_speed_error(self, error: f64) -> Self {
+        ErrorBound { error: Variation { excess: 0.0, velocity: error }, ..self }
+    }
+
     /// Propagates the bound through a flight to its landing. The maximum test of the branch is computed in `f64`.
     pub(crate) fn add_flight(&mut self, landing: &Landing, kappa: f64) {
         let TakeOff { excess, velocity } = self.start;
@@ -134,7 +139,7 @@ impl ErrorBound {
     }
 
     /// Bound on the error of α′²/α²: the roundings of each landing and of the sum, and the propagated part.
-    fn ratio_error(&self, mu: f64, alpha: f64) -> f64 {
+    pub(crate) fn ratio_error(&self, mu: f64, alpha: f64) -> f64 {
         LANDING_ULPS * self.epsilon * (2.0 + self.flights) + self.propagated(mu, alpha)
     }
 

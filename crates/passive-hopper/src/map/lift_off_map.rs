@@ -204,7 +204,7 @@ impl DecidedHop {
     }
 }
 
-fn check_speed(alpha: f64) -> Result<(), Error> {
+pub(crate) fn check_speed(alpha: f64) -> Result<(), Error> {
     if !(alpha > 0.0) || !alpha.is_finite() {
         return Err(Error::LiftOffSpeed { value: alpha });
     }
