@@ -12,8 +12,9 @@ use crate::raster::strip;
 const FEWEST_SPEEDS: usize = 32;
 
 impl Fates {
-    /// The [labels](HopperFate::label) of the fates of all `speeds`, in any order: the same labels that
-    /// [`fate`](Self::fate) gives one by one, in less time.
+    /// The [labels](HopperFate::label) of the fates of all `speeds`, in any order. They are the labels that
+    /// [`fate`](Self::fate) gives one by one, in less time. A speed whose fate is undecided alone may get the label that
+    /// the orbits around it prove.
     ///
     /// The orbits hop together, as in [`LiftOffMap::images`](passive_hopper::LiftOffMap::images), and not all are
     /// followed: if two orbits visit the same laps of the map and end in the same way, every orbit between them has
@@ -28,7 +29,7 @@ impl Fates {
     /// ```
     ///
     /// # Errors
-    /// As [`fate`](Self::fate), for any of the speeds.
+    /// As [`fate`](Self::fate), for any of the speeds; [`Error::TooManySpeeds`] for more than 10⁹ speeds.
     pub fn labels(&self, speeds: &[f64]) -> Result<Vec<u16>, Error> {
         Ok(labels_of_columns(&[self], speeds)?.pop().unwrap_or_default())
     }
@@ -46,9 +47,9 @@ pub(crate) fn labels_of_columns(
         return columns.iter().map(one_by_one).collect();
     }
     if let Some(fates) = columns.first() {
-        // `landings` only checks the speed here. The strip requires valid speeds.
+        // The strip requires valid speeds.
         for &speed in speeds {
-            fates.map().landings(speed)?;
+            fates.map().check_speed(speed)?;
         }
     }
     if speeds.is_sorted() {
