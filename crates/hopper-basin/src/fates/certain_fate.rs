@@ -39,8 +39,9 @@ pub(crate) enum Verdict {
 /// at most some tenths of a second. A larger value decides more of the orbits that leave a fixed point slowly.
 const EXTENDED_BUDGET: usize = 4096;
 
-/// Time of a hop in each of [`Arithmetic::ALL`], in hops of 106 bits: measured with one sudden lift-off, rounded up.
-const COST: [usize; 4] = [1, 2, 8, 40];
+/// Time of a hop in each of [`Arithmetic::ALL`], in hops of 106 bits: measured on hops with one sudden lift-off, rounded to a
+/// power of two.
+const COST: [usize; 4] = [1, 16, 64, 256];
 
 /// Largest |δ| left of a fixed point for which the number of hops to leave it is estimated. Beyond it the number is small.
 const SLOW: f64 = 1e-3;

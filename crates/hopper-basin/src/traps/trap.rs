@@ -49,13 +49,13 @@ fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
     1.001 * mass_ratio.mu() * sum < (high - low) * (high + low)
 }
 
-/// Bound on the error of each side of α² − α*_n² = μΓ², in ulps of their common value: 9 for the left side and 29 for the
-/// right side, of which μ has 2 and Γ² has 26, and 8 for the last step of Newton's method (docs/theory.md, Lemma 85). The sum
-/// is rounded up. A larger value makes the band around an edge wider in which the next hop decides.
+/// Bound on the difference of the two sides of α² − α*_n² = μΓ² at the computed edge, in ulps of their common value: 9 for
+/// the rounding of the left side, 29 for that of the right side, 1 for the difference, and 9 for the last step of the
+/// search (docs/theory.md, Lemma 85). A larger value makes the band around an edge wider in which the next hop decides.
 const SIDES_ULPS: f64 = 48.0;
 
-/// Bound on the rounding error of the conversion of t to δ, in ulps of δ (docs/theory.md, Lemma 85).
-const OFFSET_ULPS: f64 = 8.0;
+/// Bound on the error of δ(t) and of the spacing of t, in ulps of δ (docs/theory.md, Lemma 85).
+const OFFSET_ULPS: f64 = 10.0;
 
 /// Bound on the error of the offset δ at which f falls to α*_n (docs/theory.md, Lemma 85).
 ///
@@ -68,7 +68,7 @@ fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
     f64::EPSILON * (SIDES_ULPS * sides / slope + OFFSET_ULPS * delta)
 }
 
-/// Bound on the error of an edge that is given by a closed form, relative to Δ: three roundings (docs/theory.md, Lemma 84).
+/// Bound on the error of an edge that is given by a closed form, relative to Δ (docs/theory.md, Lemma 84).
 const CLOSED_FORM_ERROR: f64 = 2.0 * f64::EPSILON;
 
 /// Bound on the error of the 100 bits of α*_n, relative to α*_n: the precision that `FixedPointSpeed` states.
@@ -98,7 +98,7 @@ pub struct Trap {
     /// Δ_n, the length of the trap.
     pub delta: f64,
     /// Bound on the error of `delta`: some ulps, times the condition number of the edge, which is large for mass
-    /// ratios next to a [crisis](crate::crisis).
+    /// ratios next to a [crisis](crate::crisis). All offsets from 0 to `delta` − `error` are in the trap.
     pub error: f64,
     /// Why the trap ends there.
     pub edge: TrapEdge,
