@@ -38,6 +38,17 @@ pub(crate) struct ErrorBound {
     sines_are_exact: bool,
     /// Bound on the error of Σ Γ² that was propagated from flight to flight.
     loss: f64,
+    /// The maximum test of the last flight that had two possible branches.
+    last_test: Option<MaximumTest>,
+}
+
+/// The number whose sign decides on which of two branches a flight lands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MaximumTest {
+    /// (−1)^m (V cos V − Y sin V), m = ⌊V/π⌋, at the start (Y, V) of the flight.
+    pub value: f64,
+    /// Bound on its error.
+    pub error: f64,
 }
 
 impl ErrorBound {
@@ -60,6 +71,7 @@ impl ErrorBound {
             epsilon,
             sines_are_exact,
             loss: 0.0,
+            last_test: None,
         }
     }
 
@@ -83,6 +95,8 @@ impl ErrorBound {
             // by at most (1 + Y + V) e.
             let slack = rounding + self.error.excess + size * self.error.velocity;
             self.inconclusive |= test.abs() <= slack;
+            let two_branches = test.is_finite();
+            self.last_test = two_branches.then_some(MaximumTest { value: test, error: slack });
         }
         if landing.sudden || !first {
             // A rounding of h acts like one of V: the residual of the landing is a backward error in V. With exact sines
@@ -123,6 +137,22 @@ impl ErrorBound {
         (after, a_closing.abs() + b_closing.abs() + part * most_closing)
     }
 
+    /// Bounds on the errors of x′ and V′ after the last flight; zero after a first landing that starts a contact.
+    pub(crate) fn state_error(&self) -> Variation {
+        self.error
+    }
+
+    /// The maximum test of the last flight, or `None` if only one branch was possible.
+    pub(crate) fn last_test(&self) -> Option<MaximumTest> {
+        self.last_test
+    }
+
+    /// Bound on the rounding errors of one flight in its part μ Γ²/α² of the ratio. The propagated part comes on top of
+    /// it.
+    pub(crate) fn rounding_of_loss(&self) -> f64 {
+        LANDING_ULPS * self.epsilon
+    }
+
     /// Whether the decision of a landing, sudden or not and on which branch, was inconclusive.
     pub(crate) fn landing_inconclusive(&self) -> bool {
         self.inconclusive
@@ -134,7 +164,7 @@ impl ErrorBound {
     }
 
     /// Bound on the error of α′²/α²: the roundings of each landing and of the sum, and the propagated part.
-    fn ratio_error(&self, mu: f64, alpha: f64) -> f64 {
+    pub(crate) fn ratio_error(&self, mu: f64, alpha: f64) -> f64 {
         LANDING_ULPS * self.epsilon * (2.0 + self.flights) + self.propagated(mu, alpha)
     }
 
