@@ -9,6 +9,7 @@ use crate::evidence::traced_hop::{
 use crate::landing::error_bound::MaximumTest;
 use crate::landing::flight_derivative::Variation;
 use crate::map::lift_off_map::LiftOffMap;
+use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
 use crate::precision::real::{Extended, Real};
@@ -47,13 +48,14 @@ pub struct HopErrors {
 /// The errors of one landing, with their bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LandingErrors {
-    /// x′; `None` if the hop consists of this landing alone.
+    /// x′; `None` in a hop without sudden lift-off.
     pub excess: Option<Compared>,
-    /// V′; `None` if the hop consists of this landing alone.
+    /// V′; `None` in a hop without sudden lift-off.
     pub velocity: Option<Compared>,
     /// μ Γ²/α².
     pub loss: Compared,
-    /// The number that decides on which branch the flight lands; `None` if only one branch was possible.
+    /// The number that decides on which branch the flight lands; `None` if only one branch was possible, and for a longer
+    /// arithmetic, where this number is rounded to an `f64` after the decision.
     pub maximum_test: Option<Compared>,
 }
 
@@ -119,9 +121,11 @@ impl ReferenceHop {
         exact: &TracedHop<E>,
     ) -> Result<Option<HopErrors>, Error> {
         let (map, alpha) = (&self.map, exact.alpha);
-        let plain = |(_, trace): (_, TracedHop<f64>)| errors(&trace, exact);
+        let plain = |(_, trace): (_, TracedHop<f64>)| errors(&trace, exact, true);
         Ok(match solver {
             Solver::Kernel => kernel_trace(map, alpha).and_then(plain),
+            // Faster hops are computed in longer arithmetic from the start.
+            Solver::General if alpha > LARGEST_PLAIN_SPEED => None,
             Solver::General => plain(general_trace(map, alpha)?),
             Solver::Bits106 => extended_errors::<DoubleDouble, E>(map, exact)?,
             Solver::Bits256 => extended_errors::<Long<4>, E>(map, exact)?,
@@ -136,23 +140,23 @@ fn extended_errors<C: Extended, E: Extended>(
     exact: &TracedHop<E>,
 ) -> Result<Option<HopErrors>, Error> {
     let traced = extended_trace::<C>(map, exact.alpha)?;
-    Ok(traced.and_then(|(_, trace)| errors(&trace, exact)))
+    Ok(traced.and_then(|(_, trace)| errors(&trace, exact, false)))
 }
 
 /// The errors of a hop; `None` if it is not certain.
 fn errors<C: Real, E: Extended>(
     computed: &TracedHop<C>,
     exact: &TracedHop<E>,
+    in_f64: bool,
 ) -> Option<HopErrors> {
     if !computed.certain {
         return None;
     }
-    let same_decisions = computed.landings.len() == exact.landings.len()
-        && computed.next.is_some() == exact.next.is_some();
-    let single = exact.landings.len() == 1;
+    let same_decisions =
+        computed.sudden == exact.sudden && computed.next.is_some() == exact.next.is_some();
     let mut starts = (0.0, 0.0);
     let landings = computed.landings.iter().zip(&exact.landings).map(|(landing, same)| {
-        let errors = landing_errors(landing, same, starts, single);
+        let errors = landing_errors(landing, same, starts, (exact.sudden > 0, in_f64));
         starts = (landing.velocity.nearest(), same.velocity.nearest());
         errors
     });
@@ -169,17 +173,18 @@ fn landing_errors<C: Real, E: Extended>(
     landing: &TracedLanding<C>,
     same: &TracedLanding<E>,
     starts: (f64, f64),
-    single: bool,
+    (is_sudden, in_f64): (bool, bool),
 ) -> LandingErrors {
     let state = |of: fn(Variation) -> f64, computed: C, exact: E| {
         let bounds = (of(landing.state_error), of(same.state_error));
-        (!single).then(|| Compared::of((computed, bounds.0), (exact, bounds.1)))
+        is_sudden.then(|| Compared::of((computed, bounds.0), (exact, bounds.1)))
     };
+    let tests = landing.maximum_test.zip(same.maximum_test).filter(|_| in_f64);
     LandingErrors {
         excess: state(|error| error.excess, landing.excess, same.excess),
         velocity: state(|error| error.velocity, landing.velocity, same.velocity),
         loss: Compared::of((landing.loss, landing.loss_error), (same.loss, same.loss_error)),
-        maximum_test: landing.maximum_test.zip(same.maximum_test).map(|tests| test(tests, starts)),
+        maximum_test: tests.map(|tests| test(tests, starts)),
     }
 }
 
