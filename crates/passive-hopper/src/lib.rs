@@ -16,8 +16,10 @@
 //! |---|---|
 //! | [`MassRatio`] | M = m₂/m₁, validated; μ, κ, 1/M |
 //! | [`LiftOffMap`], [`Hop`], [`Landings`], [`Landing`] | the exact map in its stable form, hop by hop or landing by landing |
+//! | [`LiftOffMap::bounded_hop`], [`BoundedHop`] | a hop with bounds on the errors of its landings and of α′ |
+//! | [`LiftOffMap::reference_hop`], [`ReferenceHop`], [`Solver`] | a hop in 106 to 1024 bits, and the errors of shorter ways against it |
 //! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
-//! | [`LiftOffMap::hop_within`], [`BoundedHop`] | the hop of a speed that is known to within an error |
+//! | [`LiftOffMap::hop_within`], [`HopWithin`] | the hop of a speed that is known to within an error |
 //! | [`ExtendedOrbit`], [`Arithmetic`] | an orbit in 106 to 1024 bits, with a bound on its error |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the map by the paper's Eqs. (6)–(8), for comparison |
@@ -68,6 +70,7 @@
 //! juggling is possible even with plastic collisions*, Int. J. Robotics Res. 21 (2002).
 
 mod error;
+mod evidence;
 mod hopper;
 mod kernel;
 mod landing;
@@ -76,11 +79,17 @@ mod model;
 mod precision;
 
 pub use error::Error;
+pub use evidence::bounded_hop::{BoundedHop, BoundedLanding, StateError};
+pub use evidence::compared::Compared;
+pub use evidence::function_errors::{SineErrors, sine_errors};
+pub use evidence::reference_hop::{HopErrors, LandingErrors, ReferenceHop};
+pub use evidence::solver::Solver;
 pub use hopper::{Hopper, HopperSurface, Phase};
+pub use landing::error_bound::MaximumTest;
 pub use landing::flight_ends::{Landing, TakeOff};
 pub use landing::half_flight::HalfFlight;
 pub use landing::local_flight::LocalFlight;
-pub use map::bounded_hop::BoundedHop;
+pub use map::hop_within::HopWithin;
 pub use map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep};
 pub use map::lift_off_map::{Hop, Landings, LiftOffMap};
 pub use map::limits::SUDDEN_LIFT_OFF_BUDGET;

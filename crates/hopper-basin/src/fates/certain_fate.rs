@@ -17,7 +17,7 @@ use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::traps::trap::TrapSide;
 use passive_hopper::{
-    Arithmetic, BoundedHop, ExtendedOrbit, ExtendedStep, LiftOffMap, alpha_star, index_below,
+    Arithmetic, HopWithin, ExtendedOrbit, ExtendedStep, LiftOffMap, alpha_star, index_below,
 };
 
 /// The end of a followed orbit, with the number of hops.
@@ -75,7 +75,7 @@ impl Fates {
         &self,
         alpha: f64,
         budget: usize,
-        hop: impl Fn(&LiftOffMap, f64, f64) -> BoundedHop,
+        hop: impl Fn(&LiftOffMap, f64, f64) -> HopWithin,
     ) -> Result<(Verdict, usize), Error> {
         let (mut speed, mut error) = (alpha, 0.0);
         for hops in 0..=budget {
@@ -86,9 +86,9 @@ impl Fates {
                 break;
             }
             match hop(self.map(), speed, error) {
-                BoundedHop::Next { speed: next, error: bound } => (speed, error) = (next, bound),
-                BoundedHop::Grounded => return Ok((Verdict::Grounded, hops + 1)),
-                BoundedHop::Inconclusive => {
+                HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
+                HopWithin::Grounded => return Ok((Verdict::Grounded, hops + 1)),
+                HopWithin::Inconclusive => {
                     return Ok((Verdict::Inconclusive { at: speed }, hops));
                 }
             }

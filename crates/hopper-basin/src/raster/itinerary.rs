@@ -5,7 +5,7 @@
 //! that it is the itinerary of the exact orbit. README.md has the proof; its invariants are cited here by name.
 
 use crate::raster::laps::{ID_BITS, Laps};
-use passive_hopper::{BoundedHop, LiftOffMap};
+use passive_hopper::{HopWithin, LiftOffMap};
 
 /// The end of an itinerary that is not complete. Indices of traps are smaller than this and [`GROUND`].
 const NO_END: u32 = u32::MAX - 1;
@@ -107,11 +107,11 @@ impl Itinerary {
     fn hop_off_laps(&mut self, alpha: f64, next: Option<f64>, map: &LiftOffMap) {
         self.laps = NO_LAPS;
         match (map.hop_within(alpha, f64::from(self.error)), next) {
-            (BoundedHop::Next { speed, error }, Some(next)) => {
+            (HopWithin::Next { speed, error }, Some(next)) => {
                 // `next` and `speed` are the same hop, perhaps by another solver.
                 self.error = (ROUND_UP * (error + (next - speed).abs())) as f32;
             }
-            (BoundedHop::Grounded, None) => self.end = GROUND,
+            (HopWithin::Grounded, None) => self.end = GROUND,
             _ => self.give_up(),
         }
     }

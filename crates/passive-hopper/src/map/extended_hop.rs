@@ -22,7 +22,7 @@ use std::f64::consts::PI;
 /// μ and κ.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ExtendedMasses<R> {
-    mu: R,
+    pub(crate) mu: R,
     kappa: R,
 }
 
@@ -136,8 +136,8 @@ impl<R: Extended> StartIn<R> {
         }
         if n == 0 {
             // In the interval n = 0 the landing is never a triple root: the general root search is accurate.
-            let h = first_root(&FixedPointInterval::of(speed), speed).half.h;
-            let first = ExtendedLanding::near(h, R::from(0.0), alpha, masses.kappa);
+            let root = first_root(&FixedPointInterval::of(speed), speed);
+            let first = ExtendedLanding::near(&root, R::from(0.0), alpha, masses.kappa);
             return StartIn { alpha, first, first_is_sudden: false };
         }
         let star = fixed_point_in::<R>(n);
@@ -153,14 +153,17 @@ impl<R: Extended> StartIn<R> {
         StartIn { alpha: star + offset, first, first_is_sudden: offset.nearest() < 0.0 }
     }
 
-    /// The hop, for a start that is known to within `error`; `None` if the hop exceeds the budget of `R`.
+    /// The hop, for a start that is known to within `error`; `None` if the hop exceeds the budget of `R`. `see` receives each
+    /// landing, with the bounds after it.
     pub(crate) fn hop(
         self,
         error: f64,
         masses: ExtendedMasses<R>,
+        see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
     ) -> Result<Option<HopIn<R>>, Error> {
         let speed = self.alpha.nearest();
-        let Some(chain) = chain(self.first, self.first_is_sudden, (speed, error), masses)? else {
+        let start = (speed, error);
+        let Some(chain) = chain(self.first, self.first_is_sudden, start, masses, see)? else {
             return Ok(None);
         };
         let mu = masses.mu.nearest();
@@ -181,6 +184,15 @@ fn hop_with<R: Extended>(
     start: Start,
     mass_ratio: MassRatio,
 ) -> Result<Option<ExtendedHop>, Error> {
+    watched_hop_with::<R>(start, mass_ratio, |_, _| ())
+}
+
+/// As [`hop_with`]; `see` receives each landing, with the bounds after it.
+pub(crate) fn watched_hop_with<R: Extended>(
+    start: Start,
+    mass_ratio: MassRatio,
+    see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
+) -> Result<Option<ExtendedHop>, Error> {
     let masses = ExtendedMasses::<R>::new(mass_ratio);
     let (from, offset) = match start {
         Start::Speed(speed) => {
@@ -193,7 +205,7 @@ fn hop_with<R: Extended>(
         }
     };
     let alpha = from.alpha;
-    let Some(hop) = from.hop(0.0, masses)? else { return Ok(None) };
+    let Some(hop) = from.hop(0.0, masses, see)? else { return Ok(None) };
     let HopIn { next_speed_squared, loss_of_square: loss, .. } = hop;
     let ratio = (next_speed_squared / alpha.squared()).nearest();
     let next = (next_speed_squared.nearest() > 0.0).then(|| {
@@ -249,6 +261,7 @@ fn chain<R: Extended>(
     first_is_sudden: bool,
     (alpha, error): (f64, f64),
     masses: ExtendedMasses<R>,
+    mut see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
 ) -> Result<Option<Chain<R>>, Error> {
     let kappa = masses.kappa.nearest();
     let mut landing = first;
@@ -261,6 +274,7 @@ fn chain<R: Extended>(
     };
     hop.rounding.add_flight(&rounded, kappa);
     hop.with_start.add_flight(&rounded, kappa);
+    see(&landing, &hop.rounding);
     while rounded.sudden {
         let sudden = hop.landings.len();
         let (x, v) = (landing.excess, landing.velocity);
@@ -277,12 +291,13 @@ fn chain<R: Extended>(
         }
         let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
         let root = next_root(start, start.velocity >= PI && test >= 0.0);
-        landing = ExtendedLanding::near(root.half.h, x, v, masses.kappa);
+        landing = ExtendedLanding::near(&root, x, v, masses.kappa);
         hop.loss = hop.loss + landing.closing_speed.squared();
         rounded = landing.rounded(false);
         rounded.sudden = is_sudden(rounded.excess, rounded.velocity);
         hop.rounding.add_flight_on_branch(&rounded, kappa, test);
         hop.with_start.add_flight_on_branch(&rounded, kappa, test);
+        see(&landing, &hop.rounding);
         hop.landings.push(rounded);
     }
     Ok(Some(hop))

@@ -6,7 +6,7 @@
 use crate::error::Error;
 use crate::kernel::scalar::hop::MassFactors;
 use crate::landing::fixed_point_interval::FixedPointInterval;
-use crate::map::bounded_hop::ROUND_UP;
+use crate::map::hop_within::ROUND_UP;
 use crate::map::extended_hop::{ExtendedMasses, StartIn};
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::speed_error::change_of_square;
@@ -132,7 +132,7 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
             return Ok(ExtendedStep::Inconclusive);
         }
         let start = StartIn::at_speed(self.speed, self.masses);
-        let Some(hop) = start.hop(self.error, self.masses)? else {
+        let Some(hop) = start.hop(self.error, self.masses, |_, _| ())? else {
             return Ok(ExtendedStep::Inconclusive);
         };
         let change = change_of_square(speed, self.error, &hop.landings, self.factors);
@@ -148,7 +148,7 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
             return Ok(ExtendedStep::Grounded);
         }
         let next = hop.next_speed_squared.sqrt();
-        // As in `BoundedHop::from_square`.
+        // As in `HopWithin::from_square`.
         let least = (square - error).max(0.0).sqrt();
         self.error = ROUND_UP * (error / (next.nearest() + least)) + R::EPSILON * next.nearest();
         self.speed = next;
@@ -172,7 +172,7 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
     }
 }
 
-/// As [`on_one_side`](crate::map::bounded_hop::on_one_side), for a speed with more bits.
+/// As [`on_one_side`](crate::map::hop_within::on_one_side), for a speed with more bits.
 fn on_one_side_in<R: Extended>(speed: R, error: f64) -> bool {
     let nearest = speed.nearest();
     let n = FixedPointInterval::of(nearest).n;

@@ -5,7 +5,7 @@
 //!   many_at_once.rs       many hops, in blocks of the kernel
 //!   near_fixed_point.rs   a hop in (n, δ), α = α*_n + δ
 //!   extended_hop.rs       a hop in 106 to 1024 bits
-//!   bounded_hop.rs        a hop in f64 from a speed with an error; the error of the next speed
+//!   hop_within.rs         a hop in f64 from a speed with an error; the error of the next speed
 //!   extended_orbit.rs     an orbit in 106 to 1024 bits, with a bound on its error
 //!   speed_error.rs        how far an error of α moves α′²
 //!   slopes.rs             ∂α′/∂α and ∂α′/∂M
@@ -13,7 +13,7 @@
 //!   limits.rs             limits of all of these
 //! ```
 
-pub(crate) mod bounded_hop;
+pub(crate) mod hop_within;
 pub(crate) mod extended_hop;
 pub(crate) mod extended_orbit;
 pub(crate) mod lift_off_map;

@@ -75,16 +75,16 @@ impl FlightSums {
     #[inline(always)]
     pub(crate) fn end(&self, alpha: f64, mu: f64) -> (DecidedHop, bool) {
         let loss_of_square = mu * self.closing_speeds_squared;
-        let square = alpha * alpha;
-        let next_speed_squared = square - loss_of_square;
-        let decided = next_speed_squared.abs() > self.rounding(alpha) + mu * self.error;
+        let next_speed_squared = alpha * alpha - loss_of_square;
+        let decided = next_speed_squared.abs() > self.error_of_square(alpha, mu);
         (DecidedHop { sums: *self, loss_of_square, next_speed_squared }, decided)
     }
 
-    /// The part of the bound on the error of α′² that is not propagated from flight to flight.
+    /// Bound on the error of α′²; see [`end`](Self::end).
     #[inline(always)]
-    pub(crate) fn rounding(&self, alpha: f64) -> f64 {
-        LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * (alpha * alpha)
+    pub(crate) fn error_of_square(&self, alpha: f64, mu: f64) -> f64 {
+        let rounding = LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * (alpha * alpha);
+        rounding + mu * self.error
     }
 }
 
@@ -110,14 +110,33 @@ pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> 
 
 /// The hop from `alpha`; `None` if the general solver must decide.
 #[inline]
-pub(crate) fn kernel_hop(alpha: f64, MassFactors { mu, kappa }: MassFactors) -> Option<DecidedHop> {
+pub(crate) fn kernel_hop(alpha: f64, factors: MassFactors) -> Option<DecidedHop> {
+    watched_kernel_hop(alpha, factors, |_| ())
+}
+
+/// The hop from `alpha`; `see` receives each flight's end. A `see` that does nothing costs nothing: the function is
+/// compiled for it.
+#[inline(always)]
+pub(crate) fn watched_kernel_hop(
+    alpha: f64,
+    MassFactors { mu, kappa }: MassFactors,
+    mut see: impl FnMut(&FlightEnd),
+) -> Option<DecidedHop> {
     let position = TablePosition::of(alpha, fixed_points());
     let first = position.first_flight(alpha)?;
     let mut sums = FlightSums::of_first(&first);
+    see(&FlightEnd {
+        state: state_after_first(&first, alpha, kappa),
+        closing_speed_squared: sums.closing_speeds_squared,
+        closing_speed_squared_error: sums.error,
+        half_time: first.half_time,
+        accepted: true,
+    });
     if position.sudden == 1 {
         let mut state = state_after_first(&first, alpha, kappa);
         loop {
             let end = later_flight(&state, kappa)?;
+            see(&end);
             sums = sums.with(&end);
             state = end.state;
             if !(state.excess > 0.0) {
@@ -197,9 +216,6 @@ pub(crate) fn kernel_hop_within(
         2.0 * alpha * if falling > 1.0 { falling } else { 1.0 }
     };
     let (hop, _) = sums.end(alpha, mu);
-    let rounding = sums.rounding(alpha);
-    Some(BoundedSquare {
-        square: hop.next_speed_squared,
-        error: rounding + mu * sums.error + g * direct,
-    })
+    let error = sums.error_of_square(alpha, mu) + g * direct;
+    Some(BoundedSquare { square: hop.next_speed_squared, error })
 }

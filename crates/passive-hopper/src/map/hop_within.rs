@@ -14,7 +14,7 @@ use crate::model::fixed_points::n_pi;
 
 /// The hop of every speed within an error of a given speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum BoundedHop {
+pub enum HopWithin {
     /// All these speeds hop again, and their next speeds lie within `error` of `speed`.
     Next {
         /// The computed α′.
@@ -28,19 +28,19 @@ pub enum BoundedHop {
     Inconclusive,
 }
 
-impl BoundedHop {
+impl HopWithin {
     /// From α′² and the bound on its error.
     pub(crate) fn from_square(square: f64, error: f64) -> Self {
         if !(square.abs() > error) {
-            return BoundedHop::Inconclusive;
+            return HopWithin::Inconclusive;
         }
         if square < 0.0 {
-            return BoundedHop::Grounded;
+            return HopWithin::Grounded;
         }
         // |α̂′ − α′| = |F̂ − F|/(α̂′ + α′), with α′ ≥ √(F̂ − error), and an ulp for the root.
         let speed = square.sqrt();
         let least = (square - error).sqrt();
-        BoundedHop::Next { speed, error: error / (speed + least) * ROUND_UP + f64::EPSILON * speed }
+        HopWithin::Next { speed, error: error / (speed + least) * ROUND_UP + f64::EPSILON * speed }
     }
 }
 
@@ -59,27 +59,27 @@ impl LiftOffMap {
     /// The hop of all speeds within `error` of `alpha`, in `f64`. With `error` = 0 it is the hop of `alpha` alone.
     ///
     /// ```
-    /// use passive_hopper::{BoundedHop, LiftOffMap, MassRatio};
+    /// use passive_hopper::{HopWithin, LiftOffMap, MassRatio};
     /// let map = LiftOffMap::new(MassRatio::new(0.2)?);
-    /// let BoundedHop::Next { speed, error } = map.hop_within(5.5, 1e-12) else { panic!() };
+    /// let HopWithin::Next { speed, error } = map.hop_within(5.5, 1e-12) else { panic!() };
     /// assert!(error > 1e-13 && error < 1e-11);
     /// assert!((speed - map.image(5.5)?.unwrap()).abs() <= error);
     /// # Ok::<(), passive_hopper::Error>(())
     /// ```
     ///
-    /// A wrong speed gives [`BoundedHop::Inconclusive`].
-    pub fn hop_within(&self, alpha: f64, error: f64) -> BoundedHop {
+    /// A wrong speed gives [`HopWithin::Inconclusive`].
+    pub fn hop_within(&self, alpha: f64, error: f64) -> HopWithin {
         match kernel_hop_within(alpha, error, self.factors) {
-            Some(BoundedSquare { square, error }) => BoundedHop::from_square(square, error),
+            Some(BoundedSquare { square, error }) => HopWithin::from_square(square, error),
             None => self.signed_hop_within(alpha, error),
         }
     }
 
     /// As [`hop_within`](Self::hop_within), with the signs of the derivative: the error hardly grows where the map's slope
     /// is near 1. It takes some microseconds.
-    pub fn signed_hop_within(&self, alpha: f64, error: f64) -> BoundedHop {
-        self.signed_square_within(alpha, error).map_or(BoundedHop::Inconclusive, |found| {
-            BoundedHop::from_square(found.square, found.error)
+    pub fn signed_hop_within(&self, alpha: f64, error: f64) -> HopWithin {
+        self.signed_square_within(alpha, error).map_or(HopWithin::Inconclusive, |found| {
+            HopWithin::from_square(found.square, found.error)
         })
     }
 
