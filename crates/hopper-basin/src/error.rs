@@ -43,6 +43,18 @@ pub enum Error {
         /// The end of the range, one past the last requested column.
         end: usize,
     },
+    /// More speeds at a time than the raster engine numbers.
+    #[error(
+        "{speeds} speeds in {columns} columns are more than the {largest} that are labelled at a time; divide them"
+    )]
+    TooManySpeeds {
+        /// The number of speeds of a column, with the additional speeds below the first.
+        speeds: usize,
+        /// The number of columns whose orbits hop together.
+        columns: usize,
+        /// The largest number of speeds of all these columns.
+        largest: usize,
+    },
     /// Basin fractions need at least one point.
     #[error("no points to count: {points} on each interval from α*_{from} to α*_{to}")]
     NoPoints {

@@ -63,4 +63,4 @@ pub use traps::crisis::{Crisis, crisis, grounding};
 pub use traps::immediate_basin::{
     ImmediateBasin, ImmediateBasinEdge, immediate_basin, upper_crisis_bracket,
 };
-pub use traps::trap::{Trap, TrapEdge};
+pub use traps::trap::{Trap, TrapEdge, TrapSide};

@@ -90,6 +90,17 @@ pub enum Error {
         /// Sudden lift-offs that were computed; the true number may differ.
         sudden: usize,
     },
+    /// As [`Undecided`](Self::Undecided), for one flight from a given state on the ground.
+    #[error(
+        "the landing after a lift-off at stretch 1 + {excess} with velocity {velocity} cannot be decided with 1024 bits: \
+         it is nearly a touch without speed, or lands nearly at stretch 1"
+    )]
+    UndecidedLanding {
+        /// Stretch minus one at the start of the flight.
+        excess: f64,
+        /// Velocity of the upper mass at the start of the flight.
+        velocity: f64,
+    },
     /// A number is not finite, but must be.
     #[error("{name} must be finite, not {value}")]
     NotFinite {

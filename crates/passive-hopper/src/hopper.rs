@@ -1,9 +1,8 @@
 //! The hopper as a hybrid system: both masses through flights, collisions and contacts.
 
-use crate::landing::first_landing::first_landing;
+use crate::landing::decided_landing::decided_landing;
 use crate::landing::flight_ends::{TakeOff, is_sudden};
 use crate::landing::from_air::landing_time;
-use crate::landing::next_landing::next_landing;
 use crate::model::contact::{contact_flow, contact_time, lift_off_energy};
 use crate::model::mass_ratio::MassRatio;
 use crate::model::motion::{Flight, LARGEST_LIFT_OFF_SPEED};
@@ -32,7 +31,15 @@ pub enum HopperSurface {
 ///
 /// Landings and lift-offs are solved for in closed form, not searched by an integrator. After a collision the spring
 /// may pull the lower mass off again at once (a sudden lift-off: the event leads back to flight). Otherwise the contact
-/// phase follows. At an event the energy never grows by more than rounding. The rounding is some 10⁻¹⁵ of the energy.
+/// phase follows.
+///
+/// A landing after a lift-off is [`Certainty::Certain`]: that it is the first, and whether a sudden lift-off follows, are
+/// decided from the given state with bounds on all errors, in up to 1024 bits. If these do not suffice, the result is an
+/// error. There are two exceptions, which are [`Certainty::Exact`]: a landing at a stretch so near to 1 that the rounded
+/// state is on the other side, and a landing after a start in the air. The latter is solved for in `f64` without bounds
+/// on its errors: if a flight from the air nearly touches the ground, its landing may be missed or found in error.
+///
+/// At an event the energy never grows by more than rounding. The rounding is some 10⁻¹⁵ of the energy.
 /// For speeds from 10¹¹ on, where an ulp of the time is no small angle, it is the square of that ulp.
 ///
 /// ```
@@ -65,20 +72,22 @@ impl Hopper {
     }
 
     /// Time and state of the landing after a lift-off from the ground.
-    fn landing_from_ground(&self, start: TakeOff) -> (f64, HopperState) {
-        let kappa = self.mass_ratio.kappa();
-        let landing = if start.excess > 0.0 {
-            next_landing(start, kappa)
-        } else {
-            first_landing(start.velocity, kappa)
-        };
+    fn landing_from_ground(
+        &self,
+        start: TakeOff,
+    ) -> Result<(f64, HopperState, Certainty), crate::error::Error> {
+        let landing = decided_landing(start, self.mass_ratio)?;
         let state = HopperState {
             upper_position: 1.0 + landing.excess,
             upper_velocity: landing.velocity,
             lower_position: 0.0,
             lower_velocity: -landing.closing_speed / (1.0 + self.mass_ratio.value()),
         };
-        (landing.time, state)
+        // The sum 1 + x′ may round to 1, or `reset` may see the other sign for another reason: then the next phase is not
+        // the one that was decided.
+        let kept = is_sudden(state.upper_position - 1.0, landing.velocity) == landing.sudden;
+        let certainty = if kept { Certainty::Certain } else { Certainty::Exact };
+        Ok((landing.time, state, certainty))
     }
 
     /// The end of the contact phase; `None` if the hopper stays on the ground.
@@ -121,23 +130,19 @@ impl Hopper {
         let excess = start.upper_position - 1.0;
         let velocity = start.upper_velocity;
         let on_ground = start.lower_position == 0.0 && start.lower_velocity == 0.0;
-        let (time, state) = if on_ground && is_sudden(excess, velocity) {
-            self.landing_from_ground(TakeOff { excess, velocity })
+        let (time, state, certainty) = if on_ground && is_sudden(excess, velocity) {
+            self.landing_from_ground(TakeOff { excess, velocity }).map_err(refused)?
         } else {
             let time = landing_time(&flight)?;
+            // At rest on the ground the signs of the given numbers decide that the lower mass does not leave.
+            let certainty = if on_ground { Certainty::Certain } else { Certainty::Exact };
             // On the ground y₁ is the stretch itself. If y₁ were computed from P, which may be huge, it would lose
             // digits.
             let upper_position = flight.stretch(time).0;
-            (time, HopperState { upper_position, lower_position: 0.0, ..flight.state(time) })
+            let state = HopperState { upper_position, lower_position: 0.0, ..flight.state(time) };
+            (time, state, certainty)
         };
-        // The result is certain: a bracket contains only the first landing (docs/theory.md, Theorem 7 and Theorem 12),
-        // and the search refines it.
-        Ok(Crossing {
-            surface: HopperSurface::Landing,
-            time,
-            state: state.into(),
-            certainty: Certainty::Certain,
-        })
+        Ok(Crossing { surface: HopperSurface::Landing, time, state: state.into(), certainty })
     }
 }
 

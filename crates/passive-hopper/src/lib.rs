@@ -16,7 +16,11 @@
 //! |---|---|
 //! | [`MassRatio`] | M = m₂/m₁, validated; μ, κ, 1/M |
 //! | [`LiftOffMap`], [`Hop`], [`Landing`] | the exact map in its stable form, hop by hop or landing by landing |
+//! | [`LiftOffMap::bounded_hop`], [`BoundedHop`] | a hop with bounds on the errors of its landings and of α′ |
+//! | [`LiftOffMap::reference_hop`], [`ReferenceHop`], [`Solver`] | a hop in 106 to 1024 bits, and the errors of shorter ways against it |
 //! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
+//! | [`LiftOffMap::hop_within`], [`HopWithin`] | the hop of a speed that is known to within an error |
+//! | [`ExtendedOrbit`], [`Arithmetic`] | an orbit in 106 to 1024 bits, with a bound on its error |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the map by the paper's Eqs. (6)–(8), for comparison |
 //! | [`alpha_star`], [`FixedPointSpeed`], [`index_below`] | the fixed points tan α* = α*, as `f64` and to 100 bits; the index of the fixed point below a speed |
@@ -72,6 +76,7 @@
 //! juggling is possible even with plastic collisions*, Int. J. Robotics Res. 21 (2002).
 
 mod error;
+mod evidence;
 mod hopper;
 mod kernel;
 mod landing;
@@ -80,10 +85,18 @@ mod model;
 mod precision;
 
 pub use error::Error;
+pub use evidence::bounded_hop::{BoundedHop, BoundedLanding, StateError};
+pub use evidence::compared::Compared;
+pub use evidence::function_errors::{SineErrors, sine_errors};
+pub use evidence::reference_hop::{HopErrors, LandingErrors, ReferenceHop};
+pub use evidence::solver::Solver;
 pub use hopper::{Hopper, HopperSurface, Phase};
+pub use landing::error_bound::MaximumTest;
 pub use landing::flight_ends::{Landing, TakeOff};
 pub use landing::half_flight::HalfFlight;
 pub use landing::local_flight::LocalFlight;
+pub use map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep};
+pub use map::hop_within::HopWithin;
 pub use map::lift_off_map::{Hop, LiftOffMap};
 pub use map::limits::SUDDEN_LIFT_OFF_BUDGET;
 pub use map::near_fixed_point::LocalHop;

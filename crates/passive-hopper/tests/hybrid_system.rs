@@ -5,7 +5,7 @@
 
 use approx::assert_relative_eq;
 use hopper_reference::rows;
-use hybrid_system::{Event, Execution, HybridSystem, Limits, Searched, State, Stop};
+use hybrid_system::{Certainty, Event, Execution, HybridSystem, Limits, Searched, State, Stop};
 use nalgebra::SVector;
 use passive_hopper::{
     Hopper, HopperState, HopperSurface, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
@@ -147,6 +147,26 @@ fn impossible_states_are_errors() {
         assert!(text.contains(words) || text.contains(&1e300.to_string()), "{text}");
         assert_eq!(execution.stop(), Some(Stop::Failed));
     }
+}
+
+/// Landings after a lift-off are certain. A start in the air has no bounds.
+#[test]
+fn a_landing_is_certain_after_a_lift_off_only() {
+    let hopper = hopper(3.0);
+    let certainty = |state: HopperState| {
+        let found = hopper.first_crossing(Phase::Flight, &state.into(), f64::INFINITY, None);
+        found.unwrap().unwrap().certainty
+    };
+    for alpha in [0.3, 3.5, 7.0, 50.0] {
+        let gradual = HopperState::lift_off(alpha);
+        assert_eq!(certainty(gradual), Certainty::Certain);
+        let sudden = HopperState { upper_position: 1.7, ..gradual };
+        assert_eq!(certainty(sudden), Certainty::Certain);
+        let air = HopperState { lower_position: 0.1, ..gradual };
+        assert_eq!(certainty(air), Certainty::Exact);
+    }
+    // α is the double below π: x′ < 0 is smaller than half an ulp of 1, and V′ > 0. The rounded state lifts off suddenly.
+    assert_eq!(certainty(HopperState::lift_off(std::f64::consts::PI)), Certainty::Exact);
 }
 
 #[test]

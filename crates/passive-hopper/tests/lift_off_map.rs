@@ -146,6 +146,31 @@ fn hops_at_huge_mass_ratios_end() {
     }
 }
 
+/// Within ulps of nπ, x′ of the first landing rounds to zero. For M > 1 a long flight follows a sudden landing there.
+#[test]
+fn the_landings_next_to_n_pi_are_those_of_the_hop() {
+    let mut long = 0;
+    for n in 1..20u32 {
+        for ulps in -5..=5i64 {
+            for m in [0.5, 1.5, 3.0, 10.0] {
+                let alpha = f64::from_bits((f64::from(n) * PI).to_bits().wrapping_add_signed(ulps));
+                let (hop, landings) = (map(m).hop(alpha).unwrap(), map(m).landings(alpha).unwrap());
+                assert_eq!(landings.len(), 1 + hop.sudden, "M = {m}, α = {alpha}");
+                let (last, others) = landings.split_last().unwrap();
+                assert!(!last.sudden && others.iter().all(|landing| landing.sudden));
+                let squares: f64 = landings.iter().map(|l| l.closing_speed * l.closing_speed).sum();
+                let difference =
+                    alpha * alpha - map(m).mass_ratio().mu() * squares - hop.next_speed_squared;
+                assert!(difference.abs() < 1e-12 * alpha * alpha, "M = {m}, α = {alpha}: {hop:?}");
+                long += usize::from(
+                    landings[0].excess.abs() < 1e-14 && hop.sudden > 0 && landings[1].time > 0.1,
+                );
+            }
+        }
+    }
+    assert!(long > 100, "{long} long flights from x′ near 0");
+}
+
 /// Speeds of all sizes, and speeds within a few ulps of a change of branch.
 fn degenerate_alpha() -> impl Strategy<Value = f64> {
     let nudge =

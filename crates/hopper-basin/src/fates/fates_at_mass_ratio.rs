@@ -1,9 +1,10 @@
 //! The fates of all lift-off speeds at one mass ratio.
 
 use crate::error::Error;
+use crate::fates::certain_fate::Verdict;
 use crate::fates::hopper_fate::HopperFate;
 use crate::traps::trap::Trap;
-use basin_of_attraction::{Fate, Image, ScalarMap, Traps, classify};
+use basin_of_attraction::{Image, ScalarMap, Traps, UndecidedReason};
 use passive_hopper::{LiftOffMap, MassRatio, index_below};
 use std::sync::OnceLock;
 
@@ -86,33 +87,26 @@ impl Fates {
     /// # Errors
     /// As [`fate`](Self::fate).
     pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
-        // `classify` would report an invalid α as undecided.
-        LiftOffMap::check_speed(alpha)?;
-        let (fate, hops) = classify(self, self, alpha, budget);
-        let fate = match fate {
-            Fate::Stopped => HopperFate::Grounded,
-            Fate::Trapped(0) => HopperFate::Decaying,
-            Fate::Trapped(label) if u64::from(label) < HopperFate::LARGEST_LABEL => {
-                HopperFate::Incessant { n: u64::from(label) }
+        self.map.check_speed(alpha)?;
+        let (verdict, hops) = self.verdict(alpha, budget)?;
+        let fate = match verdict {
+            Verdict::Trapped(0) => HopperFate::Decaying,
+            Verdict::Trapped(n) => HopperFate::Incessant { n },
+            Verdict::Grounded => HopperFate::Grounded,
+            Verdict::Budget => HopperFate::Undecided(UndecidedReason::Budget),
+            Verdict::Inconclusive { at } if hops == 0 && self.hop_is_undecided(alpha) => {
+                HopperFate::Undecided(UndecidedReason::Map { at })
             }
-            // All n ≥ 65 000 share this generic label. The orbit gives the index.
-            Fate::Trapped(_) => HopperFate::Incessant { n: self.last_index(alpha, hops)? },
-            Fate::Undecided(reason) => HopperFate::Undecided(reason),
+            Verdict::Inconclusive { at } => {
+                HopperFate::Undecided(UndecidedReason::Precision { at })
+            }
         };
         Ok((fate, hops))
     }
 
-    /// The index of the fixed point below the orbit of `alpha` after `hops` hops.
-    fn last_index(&self, alpha: f64, hops: usize) -> Result<u64, Error> {
-        let mut speed = alpha;
-        for _ in 0..hops {
-            match self.map.image(speed) {
-                Ok(Some(next)) => speed = next,
-                // Not reached: `classify` followed the same hops into a trap.
-                Ok(None) | Err(_) => break,
-            }
-        }
-        Ok(index_below(speed)?)
+    /// Whether the map leaves the hop from `alpha` itself undecided.
+    fn hop_is_undecided(&self, alpha: f64) -> bool {
+        self.map.image(alpha).is_err()
     }
 }
 

@@ -7,5 +7,6 @@
 //!
 //! This room uses `traps`. The raster finds the fates of many speeds faster, and gives the same labels.
 
+pub(crate) mod certain_fate;
 pub(crate) mod fates_at_mass_ratio;
 pub(crate) mod hopper_fate;

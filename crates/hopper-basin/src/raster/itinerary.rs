@@ -1,11 +1,11 @@
 //! Itineraries: the laps that an orbit visits, and its end.
 //!
-//! If the orbits of two speeds have the same itinerary, every orbit that starts between them has their fate. This holds
-//! for orbits as `f64` computes them, because an itinerary carries a bound on the rounding errors. README.md has the
-//! proof; its invariants are cited here by name. Its assumptions are those of docs/theory.md, Theorem 52.
+//! If the exact orbits of two speeds have the same itinerary, every exact orbit that starts between them has their fate
+//! (docs/theory.md, Theorem 88). An itinerary carries a bound on the distance between the computed and the exact orbit, so
+//! that it is the itinerary of the exact orbit. README.md has the proof; its invariants are cited here by name.
 
 use crate::raster::laps::{ID_BITS, Laps};
-use passive_hopper::LiftOffMap;
+use passive_hopper::{HopWithin, LiftOffMap};
 
 /// The end of an itinerary that is not complete. Indices of traps are smaller than this and [`GROUND`].
 const NO_END: u32 = u32::MAX - 1;
@@ -13,28 +13,33 @@ const NO_END: u32 = u32::MAX - 1;
 /// The end of an itinerary that ends on the ground.
 const GROUND: u32 = u32::MAX - 2;
 
-/// The laps an orbit visits, its end, and a bound on the errors of orbits beside it.
+/// The laps an exact orbit visits, its end, and a bound on the error of the computed orbit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Itinerary {
-    /// A leading one bit, then the numbers of the laps, [`ID_BITS`] bits each. 64 bits hold twelve laps.
+    /// A leading one bit, then the numbers of the laps, [`ID_BITS`] bits each. 64 bits hold twelve laps. [`NO_LAPS`] if a
+    /// hop was on no lap: the itinerary then agrees with no other.
     laps: u64,
     /// The index of the trap, [`GROUND`] or [`NO_END`].
     end: u32,
-    /// The bound of invariant BETWEEN: how far a computed orbit may lie outside the two that enclose it. Infinite if no
-    /// bound is known; the itinerary then agrees with no other.
+    /// The bound of invariant ERROR: how far the exact orbit may lie from the computed one. Infinite if no bound is known, or
+    /// if the bound reaches a verdict: the fate of the orbit is then computed alone.
     ///
     /// An `f32`, rounded up: the itinerary then has 16 bytes.
     error: f32,
 }
 
-/// The errors of two hops, one of the orbit between and one of the orbit beside it, in units of (α/α′) (s + 2) α.
+/// Bound on the error of α′², in units of (s + 2) α².
 ///
-/// The error of `LiftOffMap` is at most 4 (1 + sudden lift-offs) · 2⁻⁵³ of its unit. On a lap a hop has at most one
-/// sudden lift-off, and the unit is at most (s + 2) (α/α′) α; a test below checks both. ε = 2⁻⁵².
-const TWO_HOP_ERRORS: f64 = 8.0 * f64::EPSILON;
+/// The error of α′ that `LiftOffMap` states is at most 4 (1 + sudden lift-offs) · 2⁻⁵³ of its unit. On a lap a hop has at
+/// most one sudden lift-off, and the unit is at most (s + 2) (α/α′) α; a test below checks both. With ε = 2⁻⁵² the error of
+/// α′² = α̂′² is then at most 2α′ · 4ε (s + 2) α²/α′.
+const HOP_ERROR: f64 = 8.0 * f64::EPSILON;
 
-/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.17 would suffice
-/// (README.md).
+/// The value of [`Itinerary::laps`] of an orbit that has left the laps.
+const NO_LAPS: u64 = 0;
+
+/// A factor for the curvature of α′ = √(α′²), and for speeds within the error bound that exceed α. 1.11 would suffice
+/// (README.md, ERROR).
 const CURVATURE: f64 = 1.25;
 
 /// The largest error bound allowed, relative to α′; the proof of [`CURVATURE`] relies on it. Orbits that come near the
@@ -44,8 +49,8 @@ const LARGEST_ERROR: f64 = 0.1;
 /// Rounds an `f64` up on its conversion to `f32`, whose half ulp is a relative 6 · 10⁻⁸.
 const ROUND_UP: f64 = 1.000_001;
 
-/// How far below zero α′² must lie so that all orbits between are grounded, in units of α times the propagated error.
-/// The proof needs 2.1.
+/// How far below zero the computed α′² must lie so that the exact orbit is grounded, in units of α times the propagated
+/// error. The proof needs 2.1.
 const GROUND_MARGIN: f64 = 4.0;
 
 impl Itinerary {
@@ -64,17 +69,17 @@ impl Itinerary {
             return;
         }
         let error = f64::from(self.error);
-        // After twelve laps the leading one is at bit 60, and no thirteenth lap fits. The itinerary is then marked as
-        // unknown, and the raster follows the orbits beside this one. This is rare: an orbit of Fig. 6's window hops
-        // 3.9 times on the average.
-        let room = self.laps >> (64 - ID_BITS) == 0;
-        // LAP: all orbits between must be on one lap.
-        let Some(lap) = laps.lap(alpha, error).filter(|_| room) else {
-            return self.give_up();
+        // LAP: the exact speed must be on one lap.
+        let Some(lap) = laps.lap(alpha, error) else {
+            return self.hop_off_laps(alpha, next, map);
         };
-        self.laps = self.laps << ID_BITS | u64::from(lap.id);
-        // BETWEEN: if g bounds the error before the hop, 5/4 (α/α′) (s g + 8ε (s + 2) α) bounds it after the hop.
-        let propagated = lap.slope * error + TWO_HOP_ERRORS * (lap.slope + 2.0) * alpha;
+        // After twelve laps the leading one is at bit 60, and no thirteenth lap fits. The laps are then unknown, and the
+        // raster follows the orbits beside this one. This is rare: an orbit of Fig. 6's window hops 3.9 times on the
+        // average.
+        let room = self.laps >> (64 - ID_BITS) == 0 && self.laps != NO_LAPS;
+        self.laps = if room { self.laps << ID_BITS | u64::from(lap.id) } else { NO_LAPS };
+        // ERROR: if g bounds the error before the hop, 5/4 (α/α′) (s g + 8ε (s + 2) α) bounds it after the hop.
+        let propagated = lap.slope * error + HOP_ERROR * (lap.slope + 2.0) * alpha;
         match next {
             Some(next) => {
                 let error = CURVATURE * (alpha / next) * propagated;
@@ -86,9 +91,8 @@ impl Itinerary {
             }
             None => {
                 self.end = GROUND;
-                // GROUND: at the first hop all orbits between start between the two speeds. There α′² is monotone and
-                // the decisions of the map are certain, so that these orbits are grounded as well. At later hops α′²
-                // must be negative by more than the errors can change it.
+                // GROUND: the first hop starts at exactly this speed, and the map decides it with certainty. At later
+                // hops α′² must be negative by more than the errors can change it.
                 let margin = GROUND_MARGIN * alpha * propagated;
                 if error > 0.0 && !map.hop(alpha).is_ok_and(|hop| hop.next_speed_squared < -margin)
                 {
@@ -96,6 +100,26 @@ impl Itinerary {
                 }
             }
         }
+    }
+
+    /// Adds a hop that starts next to the end of a lap, or on no lap: its error is bounded by the map.
+    #[cold]
+    fn hop_off_laps(&mut self, alpha: f64, next: Option<f64>, map: &LiftOffMap) {
+        self.laps = NO_LAPS;
+        match (map.hop_within(alpha, f64::from(self.error)), next) {
+            (HopWithin::Next { speed, error }, Some(next)) => {
+                // `next` and `speed` are the same hop, perhaps by another solver.
+                self.error = (ROUND_UP * (error + (next - speed).abs())) as f32;
+            }
+            (HopWithin::Grounded, None) => self.end = GROUND,
+            _ => self.give_up(),
+        }
+    }
+
+    /// Whether the exact orbit has the fate of the computed orbit.
+    #[inline]
+    pub(crate) fn is_certain(&self) -> bool {
+        self.error < f32::INFINITY
     }
 
     /// Marks the itinerary as unknown: it agrees with no other from now on.
@@ -109,14 +133,17 @@ impl Itinerary {
     #[inline]
     pub(crate) fn end_in(&mut self, alpha: f64, known: &Itinerary, (left, right): (f64, f64)) {
         let error = f64::from(self.error);
-        // The bits of the known laps, without their leading one.
+        // The bits of the known laps, without their leading one. Known intervals have laps.
         let bits = 63 - known.laps.leading_zeros();
         // The laps of both must fit below bit 63.
-        let room = self.laps.leading_zeros() >= bits;
+        let room = (self.laps.leading_zeros() >= bits) & (self.laps != NO_LAPS);
         self.end = known.end;
-        self.laps = self.laps << bits | (known.laps ^ 1 << bits);
-        // KNOWN: all speeds within the error bound must lie in the interval too.
-        if !(room & (alpha - left > error) & (right - alpha > error)) {
+        self.laps = if room { self.laps << bits | (known.laps ^ 1 << bits) } else { NO_LAPS };
+        // KNOWN: the exact speed must lie in the interval too. The differences are rounded; the factor covers it. An orbit
+        // that has not hopped is exact.
+        let error = ROUND_UP * error;
+        let inside = (alpha - left > error) & (right - alpha > error);
+        if !(inside | ((error == 0.0) & (alpha >= left) & (alpha <= right))) {
             self.give_up();
         }
     }
@@ -125,7 +152,7 @@ impl Itinerary {
     #[inline]
     pub(crate) fn agrees_with(&self, other: &Self) -> bool {
         let both_known = self.error.max(other.error) < f32::INFINITY;
-        both_known && self.laps == other.laps && self.end == other.end
+        both_known && self.laps == other.laps && self.laps != NO_LAPS && self.end == other.end
     }
 }
 

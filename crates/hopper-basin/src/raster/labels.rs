@@ -4,7 +4,6 @@ use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::strip;
-use passive_hopper::LiftOffMap;
 
 /// Fewer speeds than this are classified one by one.
 ///
@@ -13,8 +12,9 @@ use passive_hopper::LiftOffMap;
 const FEWEST_SPEEDS: usize = 32;
 
 impl Fates {
-    /// The [labels](HopperFate::label) of the fates of all `speeds`, in any order: the same labels that
-    /// [`fate`](Self::fate) gives one by one, in less time.
+    /// The [labels](HopperFate::label) of the fates of all `speeds`, in any order. They are the labels that
+    /// [`fate`](Self::fate) gives one by one, in less time. A speed whose fate is undecided alone may get the label that
+    /// the orbits around it prove.
     ///
     /// The orbits hop together, as in [`LiftOffMap::images`](passive_hopper::LiftOffMap::images), and not all are
     /// followed: if two orbits visit the same laps of the map and end in the same way, every orbit between them has
@@ -29,7 +29,7 @@ impl Fates {
     /// ```
     ///
     /// # Errors
-    /// As [`fate`](Self::fate), for any of the speeds.
+    /// As [`fate`](Self::fate), for any of the speeds; [`Error::TooManySpeeds`] for more than 10⁹ speeds.
     pub fn labels(&self, speeds: &[f64]) -> Result<Vec<u16>, Error> {
         Ok(labels_of_columns(&[self], speeds)?.pop().unwrap_or_default())
     }
@@ -46,9 +46,11 @@ pub(crate) fn labels_of_columns(
         };
         return columns.iter().map(one_by_one).collect();
     }
-    // The strip requires valid speeds.
-    for &speed in speeds {
-        LiftOffMap::check_speed(speed)?;
+    if let Some(fates) = columns.first() {
+        // The strip requires valid speeds.
+        for &speed in speeds {
+            fates.map().check_speed(speed)?;
+        }
     }
     if speeds.is_sorted() {
         return strip::labels(columns, speeds);

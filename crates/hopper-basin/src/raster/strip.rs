@@ -33,6 +33,10 @@ const COARSEST: usize = 16;
 /// long. Most of them are never followed.
 const LOWER: usize = 2;
 
+/// Largest number of speeds of a strip, its columns together and with the additional speeds. Half of the numbers below 2³²
+/// remain for the intervals of traps. A strip of this size needs some 100 GB.
+const LARGEST_STRIP: usize = 1 << 31;
+
 /// A followed speed. A speed is given by its index in the column.
 #[derive(Debug, Clone, Copy)]
 struct Followed {
@@ -67,6 +71,8 @@ struct Orbits<'a> {
 struct Strip<'a> {
     columns: Vec<Column<'a>>,
     speeds: Vec<f64>,
+    /// The number of additional speeds, whose labels are not needed.
+    lower: usize,
     intervals: KnownIntervals,
     orbits: Orbits<'a>,
     /// The last error of a fate that was computed for one speed alone.
@@ -76,6 +82,11 @@ struct Strip<'a> {
 /// The labels of `speeds` > 0, in increasing order, at every mass ratio.
 pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
     let (speeds, lower) = with_lower_speeds(speeds);
+    // Orbits and intervals are numbered by `u32`, at most one for each speed of each column.
+    if speeds.len().saturating_mul(all.len()) > LARGEST_STRIP {
+        let (speeds, columns) = (speeds.len(), all.len());
+        return Err(Error::TooManySpeeds { speeds, columns, largest: LARGEST_STRIP });
+    }
     let columns: Vec<_> =
         all.iter().map(|fates| Column::new(fates, &speeds)).collect::<Result<_, _>>()?;
     let mut intervals = KnownIntervals::new(columns.len(), &speeds, lower);
@@ -85,7 +96,7 @@ pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Er
         }
     }
     let orbits = Orbits::default();
-    let mut strip = Strip { columns, speeds, intervals, orbits, failed: Ok(()) };
+    let mut strip = Strip { columns, speeds, lower, intervals, orbits, failed: Ok(()) };
     strip.label()?;
     strip.failed?;
     Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
@@ -151,8 +162,9 @@ impl Strip<'_> {
         }
         let (first, last) = (hump.start as u32, hump.end as u32 - 1);
         if !with_laps || self.columns[column].laps.is_none() {
-            for at in first..=last {
-                self.start(column, at, (at, at));
+            // No two itineraries would agree. Each orbit is followed alone.
+            for at in hump.start.max(self.lower)..hump.end {
+                self.label_alone(column, at);
             }
             return;
         }
@@ -189,9 +201,8 @@ impl Strip<'_> {
         let _ = LiftOffMap::images_of_pairs(hops);
         for ((&at, hop), &alpha) in index.iter().zip(hops.iter()).zip(before.iter()) {
             let Followed { column, itinerary, .. } = &mut all[at as usize];
-            match &self.columns[*column as usize].laps {
-                Some(laps) => itinerary.hop(alpha, hop.1, laps, hop.0),
-                None => itinerary.give_up(),
+            if let Some(laps) = &self.columns[*column as usize].laps {
+                itinerary.hop(alpha, hop.1, laps, hop.0);
             }
         }
         self.orbits.count += 1;
@@ -238,13 +249,16 @@ impl Strip<'_> {
         }
         let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
         let column = &mut self.columns[*column as usize];
+        if !itinerary.is_certain() {
+            self.end_alone(at);
+            return true;
+        }
         let Some(alpha) = speed else {
             column.labels[*start as usize] = HopperFate::GROUNDED;
             return true;
         };
         if alpha != before && alpha > 0.0 && self.orbits.count <= HOP_BUDGET {
-            // The table of intervals misses parts of traps. An orbit must end at the hop that enters a trap, as it
-            // does in `Fates::fate`: the computed map may leave the last ulps of a trap again (invariant TRAP).
+            // The table of intervals misses parts of traps.
             match column.trap(alpha) {
                 None => return false,
                 Some(trap) if u64::from(trap.0.label) != HopperFate::LARGEST_LABEL => {
@@ -255,22 +269,40 @@ impl Strip<'_> {
                 Some(_) => {}
             }
         }
-        // The orbit repeats its speed, has no valid speed, or has used up its budget of hops. Its fate is computed
-        // alone, which gives the reason.
-        itinerary.give_up();
-        match column.fates.fate(self.speeds[*start as usize]) {
-            Ok(fate) => column.labels[*start as usize] = fate.label(),
+        // The orbit repeats its speed, has no valid speed, or has used up its budget of hops.
+        self.end_alone(at);
+        true
+    }
+
+    /// Labels a speed by its fate, computed alone: this decides more orbits, and gives the reason for the others.
+    #[cold]
+    fn label_alone(&mut self, column: usize, at: usize) {
+        let column = &mut self.columns[column];
+        match column.fates.fate(self.speeds[at]) {
+            Ok(fate) => column.labels[at] = fate.label(),
             Err(error) => self.failed = Err(error),
         }
-        true
+    }
+
+    /// Ends an orbit by the fate of its start, computed alone. Its itinerary agrees with no other.
+    #[cold]
+    fn end_alone(&mut self, at: u32) {
+        let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
+        itinerary.give_up();
+        let (column, start) = (*column as usize, *start as usize);
+        self.label_alone(column, start);
     }
 
     /// Ends an orbit that has reached `alpha` in an interval of known fate.
     #[inline]
     fn end_in(&mut self, at: u32, alpha: f64, (known, ends): (KnownFate, (f64, f64))) {
-        let Followed { column, at, itinerary, .. } = &mut self.orbits.all[at as usize];
+        let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
         itinerary.end_in(alpha, &known.itinerary, ends);
-        self.columns[*column as usize].labels[*at as usize] = known.label;
+        if itinerary.is_certain() {
+            self.columns[*column as usize].labels[*start as usize] = known.label;
+        } else {
+            self.end_alone(at);
+        }
     }
 
     /// Closes or halves the gaps beside all orbits that have ended, and repeats this as long as newly started orbits

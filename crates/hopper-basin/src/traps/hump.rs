@@ -20,7 +20,7 @@ use hybrid_system::bracketed_root;
 use passive_hopper::{
     FixedPointSpeed, HalfFlight, LARGEST_LIFT_OFF_SPEED, LocalFlight, alpha_star,
 };
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::OnceLock;
 
 /// The index of the last hump that lies below the largest lift-off speed.
@@ -65,6 +65,22 @@ pub(crate) struct Touch {
     pub(crate) alpha: f64,
 }
 
+/// arctan(1/α), the angle by which α*_n lies below (n+½)π.
+fn inverse_tangent_of_inverse(alpha: f64) -> f64 {
+    pxfm::f_atan(1.0 / alpha)
+}
+
+/// (n+1)π − α*_n = ½π + arctan(1/α*_n), the length of the contact part of hump n, to an ulp (docs/theory.md, Lemma 84).
+pub(crate) fn contact_length(n: u64) -> f64 {
+    FRAC_PI_2 + inverse_tangent_of_inverse(alpha_star(n))
+}
+
+/// α*_{n+1} − α*_n = π + arctan(1/α*_n) − arctan(1/α*_{n+1}), to an ulp (docs/theory.md, Lemma 84).
+pub(crate) fn distance_to_next(n: u64) -> f64 {
+    let [angle, next] = [n, n + 1].map(|n| inverse_tangent_of_inverse(alpha_star(n)));
+    PI + (angle - next)
+}
+
 impl Hump {
     /// Hump n, if it lies below the largest lift-off speed.
     pub(crate) fn new(n: u64) -> Result<Self, Error> {
@@ -72,10 +88,12 @@ impl Hump {
             return Err(Error::Index { n, smallest: 0, largest: LARGEST_HUMP });
         }
         let star = FixedPointSpeed::new(n);
-        // t = 2(h − α*_n). The difference is rounded once, from the 100 bits of α*_n.
-        let steepest = 2.0 * star.offset_of(0.5 * alpha_star(2 * n + 1));
-        let end = 2.0 * star.offset_of((n + 1) as f64 * PI);
-        Ok(Hump { n, star, flight: LocalFlight::new(n), steepest, end })
+        // t = 2(h − α*_n) at h = ½α*_{2n+1} and at h = (n+1)π, from α*_n = (n+½)π − arctan(1/α*_n) (docs/theory.md, Lemma
+        // 6): no difference of large numbers remains.
+        let angle = inverse_tangent_of_inverse(star.value());
+        let double = inverse_tangent_of_inverse(alpha_star(2 * n + 1));
+        let steepest = (FRAC_PI_2 + 2.0 * angle) - double;
+        Ok(Hump { n, star, flight: LocalFlight::new(n), steepest, end: 2.0 * contact_length(n) })
     }
 
     /// W at t.

@@ -1,7 +1,7 @@
 //! The trap of a fixed point: an orbit that enters it never leaves, and converges to the fixed point.
 
 use crate::error::Error;
-use crate::traps::hump::Hump;
+use crate::traps::hump::{Hump, contact_length, distance_to_next};
 use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -49,20 +49,40 @@ fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
     1.001 * mass_ratio.mu() * sum < (high - low) * (high + low)
 }
 
-/// Bound on the rounding error of the offset δ at which f falls to α*_n.
+/// Bound on the difference of the two sides of α² − α*_n² = μΓ² at the computed edge, in ulps of their common value: 9 for
+/// the rounding of the left side, 29 for that of the right side, 1 for the difference, and 9 for the last step of the
+/// search (docs/theory.md, Lemma 85). A larger value makes the band around an edge wider in which the next hop decides.
+const SIDES_ULPS: f64 = 48.0;
+
+/// Bound on the error of δ(t) and of the spacing of t, in ulps of δ (docs/theory.md, Lemma 85).
+const OFFSET_ULPS: f64 = 10.0;
+
+/// Bound on the error of the offset δ at which f falls to α*_n (docs/theory.md, Lemma 85).
 ///
-/// The two sides of α² − α*_n² = μΓ² are computed to some ulps of their common value. The derivative of
-/// their difference with respect to δ is 2α (1 − 4μW); the error of δ is the quotient.
+/// The derivative of α² − α*_n² − μΓ² by δ is 2α (1 − 4μW). The error of δ is the error of both sides divided by it.
 fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
-    // Both sides together have some ten roundings. Against values of 40 digits the bound is never exceeded
-    // (tests/against_reference.rs). The value is an estimate rounded up, not a proof.
-    const ULPS: f64 = 16.0;
     let (delta, w) = (hump.delta(t), hump.w(t));
     let alpha = hump.star.value() + delta;
     let sides = delta * (alpha + hump.star.value());
     let slope = 2.0 * alpha * (4.0 * mu * w - 1.0).abs();
-    // 2δ for the rounding of δ itself.
-    f64::EPSILON * (ULPS * sides / slope + 2.0 * delta)
+    f64::EPSILON * (SIDES_ULPS * sides / slope + OFFSET_ULPS * delta)
+}
+
+/// Bound on the error of an edge that is given by a closed form, relative to Δ (docs/theory.md, Lemma 84).
+const CLOSED_FORM_ERROR: f64 = 2.0 * f64::EPSILON;
+
+/// Bound on the error of the 100 bits of α*_n, relative to α*_n: the precision that `FixedPointSpeed` states.
+const FIXED_POINT_ERROR: f64 = 7.9e-31;
+
+/// Where a speed lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum TrapSide {
+    /// In the trap.
+    Inside,
+    /// Outside the trap.
+    Outside,
+    /// Within the error of an end of the trap.
+    Unclear,
 }
 
 /// The trap of α*_n at one mass ratio: [α*_n, α*_n + Δ_n].
@@ -78,7 +98,7 @@ pub struct Trap {
     /// Δ_n, the length of the trap.
     pub delta: f64,
     /// Bound on the error of `delta`: some ulps, times the condition number of the edge, which is large for mass
-    /// ratios next to a [crisis](crate::crisis).
+    /// ratios next to a [crisis](crate::crisis). All offsets from 0 to `delta` − `error` are in the trap.
     pub error: f64,
     /// Why the trap ends there.
     pub edge: TrapEdge,
@@ -110,7 +130,7 @@ impl Trap {
             n,
             fixed_point: hump.star,
             delta,
-            error: f64::EPSILON * delta,
+            error: CLOSED_FORM_ERROR * delta,
             edge,
         };
         Ok(match hump.first_fall(mu)? {
@@ -119,24 +139,46 @@ impl Trap {
                 ..trap(hump.delta(t), TrapEdge::Crossing)
             },
             None if cannot_fall(n, mass_ratio) => {
-                trap(hump.star.offset_of(alpha_star(n + 1)), TrapEdge::NextFixedPoint)
+                trap(distance_to_next(n), TrapEdge::NextFixedPoint)
             }
-            None => trap(hump.star.offset_of((n + 1) as f64 * PI), TrapEdge::ContactEnd),
+            None => trap(contact_length(n), TrapEdge::ContactEnd),
         })
     }
 
-    /// Whether `alpha` > 0 lies in the trap.
+    /// Whether `alpha` > 0 certainly lies in the trap.
     ///
-    /// The comparison with α*_n uses its 100 bits; the comparison with the upper end is exact to an ulp.
+    /// False for a speed within [`error`](Self::error) of the upper end: [`side`](Self::side) calls it unclear. The next hop
+    /// decides there, because f(α) < α*_n beyond the end.
     pub fn contains(&self, alpha: f64) -> bool {
-        let before_end = match self.edge {
-            // `right` may round up to α*_{n+1}, which belongs to the next trap: compare with its 100 bits.
-            TrapEdge::NextFixedPoint => {
-                FixedPointSpeed::new(self.n + 1).compare(alpha) == Ordering::Less
-            }
-            TrapEdge::Crossing | TrapEdge::ContactEnd => alpha <= self.right(),
-        };
-        before_end && self.fixed_point.compare(alpha) != Ordering::Less
+        self.side(alpha) == TrapSide::Inside
+    }
+
+    /// On which side of the ends of the trap the exact number `alpha` > 0 lies.
+    ///
+    /// The offset α − α*_n is computed from the 100 bits of α*_n, and compared with Δ ± [`error`](Self::error).
+    pub fn side(&self, alpha: f64) -> TrapSide {
+        if self.edge == TrapEdge::NextFixedPoint {
+            // 100 bits of both ends.
+            let before = FixedPointSpeed::new(self.n + 1).compare(alpha) == Ordering::Less;
+            let after = self.fixed_point.compare(alpha) != Ordering::Less;
+            return if before && after { TrapSide::Inside } else { TrapSide::Outside };
+        }
+        self.side_of_offset(self.fixed_point.offset_of(alpha), 0.0)
+    }
+
+    /// On which side of the ends of the trap a speed lies whose offset from α*_n is within `error` of `offset`.
+    pub fn side_of_offset(&self, offset: f64, error: f64) -> TrapSide {
+        // The roundings of the offset to `f64` and of α*_n.
+        let error =
+            error + f64::EPSILON * offset.abs() + FIXED_POINT_ERROR * self.fixed_point.value();
+        let (above, below) = (offset, self.delta - offset);
+        if above > error && below > error + self.error {
+            TrapSide::Inside
+        } else if above < -error || below < -(error + self.error) {
+            TrapSide::Outside
+        } else {
+            TrapSide::Unclear
+        }
     }
 
     /// The upper end, α*_n + Δ_n, rounded to `f64`.

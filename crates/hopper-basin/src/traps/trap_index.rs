@@ -9,7 +9,19 @@ use std::f64::consts::FRAC_1_PI;
 /// Speeds beyond these traps are [`Lookup::NotIndexed`], and their trap is computed for each speed.
 const INDEXED_TRAPS: u64 = 64;
 
-/// The traps of the first fixed points as closed intervals of `f64`, from α*_0 = 0 up.
+/// Steps down from the computed upper end of a trap to an `f64` that is certainly inside. The sum α*_n + (Δ − error) is
+/// rounded once, so that two or three steps suffice. If they do not, the trap has no `f64` in the index, which costs time and
+/// changes no label.
+const STEPS_INSIDE: usize = 8;
+
+/// The largest `f64` that is certainly in the trap, or one a few ulps smaller.
+fn largest_inside(trap: &Trap) -> f64 {
+    let end = trap.fixed_point.value() + (trap.delta - trap.error);
+    let steps = std::iter::successors(Some(end), |end| Some(end.next_down())).take(STEPS_INSIDE);
+    { steps }.find(|&end| trap.contains(end)).unwrap_or(f64::NEG_INFINITY)
+}
+
+/// The traps of the first fixed points as closed intervals of `f64` that are certainly inside, from α*_0 = 0 up.
 pub(crate) struct TrapIndex {
     ends: Vec<(f64, f64)>,
 }
@@ -33,10 +45,9 @@ impl TrapIndex {
         let last = index_below(largest)?.min(INDEXED_TRAPS - 1);
         let ends = |n: u64| {
             let trap = trap(n)?;
-            // The largest `f64` of the trap, as `Trap::contains` has it.
             let right = match trap.edge {
                 TrapEdge::NextFixedPoint => FixedPointSpeed::new(n + 1).largest_below(),
-                TrapEdge::Crossing | TrapEdge::ContactEnd => trap.right(),
+                TrapEdge::Crossing | TrapEdge::ContactEnd => largest_inside(&trap),
             };
             Ok((trap.fixed_point.smallest_not_below(), right))
         };

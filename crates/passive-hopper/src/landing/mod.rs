@@ -9,10 +9,12 @@
 //!   local_flight.rs, extended_landing.rs  near a fixed point; in extended arithmetic
 //!   from_air.rs, printed_bracket.rs       from any state; for the printed equations
 //!   error_bound.rs                        which decisions are larger than their errors
+//!   decided_landing.rs                    one landing with its decisions larger than their errors, for both masses
 //! ```
 //!
 //! This room uses `precision` and `model`.
 
+pub(crate) mod decided_landing;
 pub(crate) mod error_bound;
 pub(crate) mod extended_landing;
 pub(crate) mod first_flight_table;

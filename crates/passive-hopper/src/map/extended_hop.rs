@@ -12,7 +12,7 @@ use crate::landing::flight_ends::{Landing, TakeOff, is_sudden};
 use crate::landing::local_flight::NearFixedPoint;
 use crate::landing::next_landing::{maximum_test, next_root};
 use crate::map::limits::SUDDEN_LIFT_OFF_BUDGET;
-use crate::model::fixed_points::{alpha_star, fixed_point_in};
+use crate::model::fixed_points::{alpha_star, fixed_point_in, n_pi};
 use crate::model::mass_ratio::MassRatio;
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
@@ -21,13 +21,13 @@ use std::f64::consts::PI;
 
 /// μ and κ.
 #[derive(Debug, Clone, Copy)]
-struct ExtendedMasses<R> {
-    mu: R,
+pub(crate) struct ExtendedMasses<R> {
+    pub(crate) mu: R,
     kappa: R,
 }
 
 impl<R: Extended> ExtendedMasses<R> {
-    fn new(mass_ratio: MassRatio) -> Self {
+    pub(crate) fn new(mass_ratio: MassRatio) -> Self {
         let m = R::from(mass_ratio.value());
         let whole = m + 1.0;
         let kappa = m / whole;
@@ -96,49 +96,134 @@ type HopWith = fn(Start, MassRatio) -> Result<Option<ExtendedHop>, Error>;
 /// result to `f64` dominates. Chosen, not derived. A smaller value sends more chains to the longer arithmetic.
 const PRECISE: f64 = 0.125 * f64::EPSILON;
 
+/// A hop in the arithmetic `R`, not rounded.
+pub(crate) struct HopIn<R> {
+    /// α′².
+    pub(crate) next_speed_squared: R,
+    /// α² − α′².
+    pub(crate) loss_of_square: R,
+    /// All landings, rounded; all but the last are sudden.
+    pub(crate) landings: Vec<Landing>,
+    /// True if every landing, sudden or not and on its branch, is decided for all speeds within the error of the start.
+    pub(crate) decided: bool,
+    /// Bound on the rounding error of α′²/α²: of a hop that starts at exactly the given speed.
+    pub(crate) ratio_error: f64,
+    /// The part of `ratio_error` that was propagated from flight to flight.
+    pub(crate) propagated: f64,
+}
+
+/// Where a hop starts, in the arithmetic `R`.
+pub(crate) struct StartIn<R> {
+    alpha: R,
+    first: ExtendedLanding<R>,
+    first_is_sudden: bool,
+}
+
+impl<R: Extended> StartIn<R> {
+    /// At `alpha`.
+    pub(crate) fn at_speed(alpha: R, masses: ExtendedMasses<R>) -> Self {
+        let speed = alpha.nearest();
+        // `speed` may lie on the other side of nπ than `alpha`, which has more bits.
+        let mut n = FixedPointInterval::of(speed).n;
+        let beyond = |n: u64| {
+            let end = n_pi(n);
+            (alpha - (R::from(end.high) + end.low)).nearest() >= 0.0
+        };
+        if n > 0 && !beyond(n) {
+            n -= 1;
+        } else if beyond(n + 1) {
+            n += 1;
+        }
+        if n == 0 {
+            // In the interval n = 0 the landing is never a triple root: the general root search is accurate.
+            let root = first_root(&FixedPointInterval::of(speed), speed);
+            let first = ExtendedLanding::near(&root, R::from(0.0), alpha, masses.kappa);
+            return StartIn { alpha, first, first_is_sudden: false };
+        }
+        let star = fixed_point_in::<R>(n);
+        let offset = alpha - star;
+        let first = NearFixedPoint::new(star).extended_landing(offset, masses.kappa);
+        StartIn { alpha, first, first_is_sudden: offset.nearest() < 0.0 }
+    }
+
+    /// At α*_n + `offset`.
+    fn at_offset(n: u64, offset: R, masses: ExtendedMasses<R>) -> Self {
+        let star = fixed_point_in::<R>(n);
+        let first = NearFixedPoint::new(star).extended_landing(offset, masses.kappa);
+        StartIn { alpha: star + offset, first, first_is_sudden: offset.nearest() < 0.0 }
+    }
+
+    /// The hop, for a start that is known to within `error`; `None` if the hop exceeds the budget of `R`. `see` receives each
+    /// landing, with the bounds after it.
+    pub(crate) fn hop(
+        self,
+        error: f64,
+        masses: ExtendedMasses<R>,
+        see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
+    ) -> Result<Option<HopIn<R>>, Error> {
+        let speed = self.alpha.nearest();
+        let start = (speed, error);
+        let Some(chain) = chain(self.first, self.first_is_sudden, start, masses, see)? else {
+            return Ok(None);
+        };
+        let mu = masses.mu.nearest();
+        let loss_of_square = masses.mu * chain.loss;
+        Ok(Some(HopIn {
+            next_speed_squared: self.alpha.squared() - loss_of_square,
+            loss_of_square,
+            decided: !chain.with_start.landing_inconclusive(),
+            ratio_error: chain.rounding.ratio_error(mu, speed),
+            propagated: chain.rounding.propagated(mu, speed),
+            landings: chain.landings,
+        }))
+    }
+}
+
 /// The hop in the arithmetic `R`; `None` if the hop exceeds the budget of `R`.
 fn hop_with<R: Extended>(
     start: Start,
     mass_ratio: MassRatio,
 ) -> Result<Option<ExtendedHop>, Error> {
+    watched_hop_with::<R>(start, mass_ratio, |_, _| ())
+}
+
+/// As [`hop_with`]; `see` receives each landing, with the bounds after it.
+pub(crate) fn watched_hop_with<R: Extended>(
+    start: Start,
+    mass_ratio: MassRatio,
+    see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
+) -> Result<Option<ExtendedHop>, Error> {
     let masses = ExtendedMasses::<R>::new(mass_ratio);
-    let (alpha, offset, first, first_is_sudden) = match start {
+    let (from, offset) = match start {
         Start::Speed(speed) => {
-            let interval = FixedPointInterval::of(speed);
             let alpha = R::from(speed);
-            let first = if interval.n == 0 {
-                // In the interval n = 0 the landing is never a triple root: the general root search is accurate.
-                let h = first_root(&interval, speed).half.h;
-                ExtendedLanding::near(h, R::from(0.0), alpha, masses.kappa)
-            } else {
-                let star = fixed_point_in::<R>(interval.n);
-                NearFixedPoint::new(star).extended_landing(alpha - star, masses.kappa)
-            };
-            (alpha, alpha, first, interval.sudden)
+            (StartIn::at_speed(alpha, masses), alpha)
         }
         Start::Offset { n, delta } => {
-            let star = fixed_point_in::<R>(n);
             let offset = R::from(delta);
-            let first = NearFixedPoint::new(star).extended_landing(offset, masses.kappa);
-            (star + offset, offset, first, delta < 0.0)
+            (StartIn::at_offset(n, offset, masses), offset)
         }
     };
-    let Some(chain) = chain(first, first_is_sudden, alpha.nearest(), masses)? else {
-        return Ok(None);
-    };
-    let loss = masses.mu * chain.loss;
-    let next_speed_squared = alpha.squared() - loss;
+    let alpha = from.alpha;
+    let Some(hop) = from.hop(0.0, masses, see)? else { return Ok(None) };
+    let HopIn { next_speed_squared, loss_of_square: loss, .. } = hop;
     let ratio = (next_speed_squared / alpha.squared()).nearest();
     let next = (next_speed_squared.nearest() > 0.0).then(|| {
         let speed = next_speed_squared.sqrt();
         let lost = loss / (alpha + speed);
         Next { speed: speed.nearest(), loss: lost.nearest(), offset: (offset - lost).nearest() }
     });
-    let (mu, speed) = (masses.mu.nearest(), alpha.nearest());
-    // With at most one sudden landing the propagated error is neglected. The bound is absolute, but the single flight
-    // after a sudden landing near a fixed point is short, and its landing has a small relative error.
-    let propagated =
-        if chain.landings.len() > 2 { chain.error_bound.propagated(mu, speed) } else { 0.0 };
+    let speed = alpha.nearest();
+    // The bound is absolute. At an offset from a fixed point the time of the first flight and the state after it have
+    // small relative errors instead (`NearFixedPoint`), and a short second flight keeps them. There the propagated
+    // error is neglected; an offset far below the spacing of the arithmetic would otherwise never be precise.
+    let relative = matches!(start, Start::Offset { .. })
+        && match hop.landings.as_slice() {
+            [_] => true,
+            [_, second] => second.time < SHORT_FLIGHT,
+            _ => false,
+        };
+    let propagated = if relative { 0.0 } else { hop.propagated };
     let precise = next.as_ref().is_none_or(|next| {
         // d(α′) = ½ α²/α′ d(α′²/α²).
         let error = 0.5 * propagated * (speed / next.speed) * speed;
@@ -147,27 +232,36 @@ fn hop_with<R: Extended>(
     Ok(Some(ExtendedHop {
         next,
         next_speed_squared: next_speed_squared.nearest(),
-        certain: !chain.error_bound.inconclusive(ratio, mu, speed),
+        certain: hop.decided && ratio.abs() > hop.ratio_error,
         precise,
-        landings: chain.landings,
+        landings: hop.landings,
     }))
 }
+
+/// Longest second flight, τ, after a first flight from an offset, for which the propagated error is neglected. Near α*_n
+/// that flight lasts 3|t| (docs/theory.md, Theorem 36). Chosen: a larger value would neglect errors of flights that are
+/// not short; a smaller one sends more local hops to the longer arithmetic.
+const SHORT_FLIGHT: f64 = 1.0;
 
 /// All flights of a hop.
 struct Chain<R> {
     /// Σ Γ².
     loss: R,
     landings: Vec<Landing>,
-    error_bound: ErrorBound,
+    /// The bound for a hop that starts at exactly the given speed.
+    rounding: ErrorBound,
+    /// The bound that contains the error of the start.
+    with_start: ErrorBound,
 }
 
-/// All flights of a hop, from its first landing and the decision whether that landing is sudden; `None` if the hop
-/// exceeds the budget of the arithmetic.
+/// All flights of a hop, from its first landing and the decision whether that landing is sudden, for a start that is known
+/// to within `error`; `None` if the hop exceeds the budget of the arithmetic.
 fn chain<R: Extended>(
     first: ExtendedLanding<R>,
     first_is_sudden: bool,
-    alpha: f64,
+    (alpha, error): (f64, f64),
     masses: ExtendedMasses<R>,
+    mut see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
 ) -> Result<Option<Chain<R>>, Error> {
     let kappa = masses.kappa.nearest();
     let mut landing = first;
@@ -175,9 +269,12 @@ fn chain<R: Extended>(
     let mut hop = Chain {
         loss: first.closing_speed.squared(),
         landings: vec![rounded],
-        error_bound: ErrorBound::of_extended(alpha, R::EPSILON),
+        rounding: ErrorBound::of_extended(alpha, R::EPSILON),
+        with_start: ErrorBound::of_extended(alpha, R::EPSILON).with_speed_error(error),
     };
-    hop.error_bound.add_flight(&rounded, kappa);
+    hop.rounding.add_flight(&rounded, kappa);
+    hop.with_start.add_flight(&rounded, kappa);
+    see(&landing, &hop.rounding);
     while rounded.sudden {
         let sudden = hop.landings.len();
         let (x, v) = (landing.excess, landing.velocity);
@@ -192,11 +289,13 @@ fn chain<R: Extended>(
         let Some(start) = start.resolved() else { break };
         let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
         let root = next_root(start, start.velocity >= PI && test >= 0.0);
-        landing = ExtendedLanding::near(root.half.h, x, v, masses.kappa);
+        landing = ExtendedLanding::near(&root, x, v, masses.kappa);
         hop.loss = hop.loss + landing.closing_speed.squared();
         rounded = landing.rounded(false);
         rounded.sudden = is_sudden(rounded.excess, rounded.velocity);
-        hop.error_bound.add_flight_on_branch(&rounded, kappa, test);
+        hop.rounding.add_flight_on_branch(&rounded, kappa, test);
+        hop.with_start.add_flight_on_branch(&rounded, kappa, test);
+        see(&landing, &hop.rounding);
         hop.landings.push(rounded);
     }
     Ok(Some(hop))

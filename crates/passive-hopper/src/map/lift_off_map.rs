@@ -75,15 +75,8 @@ impl LiftOffMap {
     ///
     /// # Errors
     /// [`Error::LiftOffSpeed`] unless `alpha` is positive and finite, [`Error::LiftOffSpeedTooLarge`] above 2⁴³.
-    pub fn check_speed(alpha: f64) -> Result<(), Error> {
-        if !(alpha > 0.0) || !alpha.is_finite() {
-            return Err(Error::LiftOffSpeed { value: alpha });
-        }
-        if alpha > LARGEST_LIFT_OFF_SPEED {
-            let largest = LARGEST_LIFT_OFF_SPEED;
-            return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest });
-        }
-        Ok(())
+    pub fn check_speed(&self, alpha: f64) -> Result<(), Error> {
+        check_speed(alpha)
     }
 
     /// f(α): the next lift-off speed, or `None` if the hopper is grounded.
@@ -144,11 +137,11 @@ impl LiftOffMap {
     fn decide(
         &self,
         alpha: f64,
-        see: impl FnMut(&Landing),
+        mut see: impl FnMut(&Landing),
     ) -> Result<(Hop, Option<Vec<Landing>>), Error> {
-        Self::check_speed(alpha)?;
+        check_speed(alpha)?;
         if alpha <= LARGEST_PLAIN_SPEED {
-            let (hop, certain) = self.plain_hop(alpha, see)?;
+            let (hop, certain) = self.plain_hop(alpha, |landing, _| see(landing))?;
             if certain {
                 return Ok((hop, None));
             }
@@ -161,11 +154,16 @@ impl LiftOffMap {
         if !hop.certain {
             return Err(Error::Undecided { alpha, sudden: hop.landings.len() - 1 });
         }
-        Ok((rounded(alpha, &hop), Some(hop.landings)))
+        Ok((self.rounded(alpha, &hop), Some(hop.landings)))
     }
 
-    /// The hop in plain `f64`, and whether every decision is larger than its error.
-    fn plain_hop(&self, alpha: f64, mut see: impl FnMut(&Landing)) -> Result<(Hop, bool), Error> {
+    /// The hop in plain `f64`, and whether every decision is larger than its error. `see` receives each landing, with the
+    /// bounds after it.
+    pub(crate) fn plain_hop(
+        &self,
+        alpha: f64,
+        mut see: impl FnMut(&Landing, &ErrorBound),
+    ) -> Result<(Hop, bool), Error> {
         let landings = PlainLandings::new(alpha, self.factors.kappa);
         // Σ (Γ/α)²: of ratios, so that no square underflows for tiny α.
         let (mut ratios_squared, mut sudden, mut flight_time) = (0.0, 0, 0.0);
@@ -177,7 +175,7 @@ impl LiftOffMap {
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
             error_bound.add_flight(&landing, self.factors.kappa);
-            see(&landing);
+            see(&landing, &error_bound);
         }
         let t = self.factors.mu * ratios_squared;
         let certain = !error_bound.inconclusive(1.0 - t, self.factors.mu, alpha);
@@ -188,22 +186,22 @@ impl LiftOffMap {
         let next_speed_squared = alpha * alpha * (1.0 - t);
         Ok((Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time }, certain))
     }
-}
 
-/// The hop of the map, from the hop in longer arithmetic.
-fn rounded(alpha: f64, hop: &ExtendedHop) -> Hop {
-    Hop {
-        speed: alpha,
-        next: hop.next.as_ref().map(|next| next.speed),
-        loss: hop.next.as_ref().map(|next| next.loss),
-        next_speed_squared: hop.next_speed_squared,
-        sudden: hop.landings.len() - 1,
-        flight_time: hop.landings.iter().map(|landing| landing.time).sum(),
+    /// The hop of the map, from the hop in longer arithmetic.
+    pub(crate) fn rounded(&self, alpha: f64, hop: &ExtendedHop) -> Hop {
+        Hop {
+            speed: alpha,
+            next: hop.next.as_ref().map(|next| next.speed),
+            loss: hop.next.as_ref().map(|next| next.loss),
+            next_speed_squared: hop.next_speed_squared,
+            sudden: hop.landings.len() - 1,
+            flight_time: hop.landings.iter().map(|landing| landing.time).sum(),
+        }
     }
 }
 
 impl DecidedHop {
-    fn hop(&self, alpha: f64) -> Hop {
+    pub(crate) fn hop(&self, alpha: f64) -> Hop {
         let next = self.next();
         Hop {
             speed: alpha,
@@ -215,4 +213,15 @@ impl DecidedHop {
             flight_time: 2.0 * self.sums.half_time,
         }
     }
+}
+
+/// See [`LiftOffMap::check_speed`].
+pub(crate) fn check_speed(alpha: f64) -> Result<(), Error> {
+    if !(alpha > 0.0) || !alpha.is_finite() {
+        return Err(Error::LiftOffSpeed { value: alpha });
+    }
+    if alpha > LARGEST_LIFT_OFF_SPEED {
+        return Err(Error::LiftOffSpeedTooLarge { value: alpha, largest: LARGEST_LIFT_OFF_SPEED });
+    }
+    Ok(())
 }

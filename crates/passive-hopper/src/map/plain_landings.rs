@@ -36,11 +36,16 @@ impl Iterator for PlainLandings {
         }
         let landing = if self.flights == 0 {
             first_landing(start.velocity, self.kappa)
-        } else {
+        } else if let Some(start) = start.resolved() {
             next_landing(start, self.kappa)
+        } else {
+            // A flight of no length. Its x′ = 0 is not larger than any error, so that the hop is computed in longer
+            // arithmetic, in which x > 0.
+            let TakeOff { velocity, .. } = start;
+            Landing { time: 0.0, closing_speed: 0.0, excess: 0.0, velocity, sudden: false }
         };
         self.flights += 1;
-        self.start = landing.sudden.then(|| landing.take_off()).and_then(TakeOff::resolved);
+        self.start = landing.sudden.then(|| landing.take_off());
         Some(Ok(landing))
     }
 }

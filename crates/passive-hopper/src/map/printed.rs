@@ -1,12 +1,13 @@
 //! The map as the paper prints it: Eqs. (6)–(8), solved by Brent's method.
 //!
 //! The printed form gives the same values as the stable form. But it subtracts nearly equal numbers and loses digits
-//! where their difference is small. It serves to show this loss, and as an independent check of the stable form.
+//! where their difference is small. It serves to show this loss, and as an independent check of the stable form. Its
+//! decisions (sudden or not, grounded or not) are the signs of plain `f64`: next to a change of branch they may be wrong.
 
 use crate::error::Error;
 use crate::landing::flight_ends::TakeOff;
 use crate::landing::printed_bracket::time_bracket;
-use crate::map::lift_off_map::LiftOffMap;
+use crate::map::lift_off_map::check_speed;
 use crate::map::limits::SUDDEN_LIFT_OFF_BUDGET;
 use crate::model::mass_ratio::MassRatio;
 use hybrid_system::bracketed_root;
@@ -22,7 +23,7 @@ type UpperState = (f64, f64);
 /// [`Error::LiftOffSpeed`], [`Error::LiftOffSpeedTooLarge`] and [`Error::SuddenLiftOffBudget`] as in the stable form;
 /// [`Error::Landing`] if rounding hides the sign change of Eq. (8) on the bracket.
 pub fn printed_image(mass_ratio: MassRatio, alpha: f64) -> Result<Option<f64>, Error> {
-    LiftOffMap::check_speed(alpha)?;
+    check_speed(alpha)?;
     let mut state = (1.0, alpha);
     for _ in 0..SUDDEN_LIFT_OFF_BUDGET {
         let time = flight_time(state)?;

@@ -75,11 +75,16 @@ impl FlightSums {
     #[inline(always)]
     pub(crate) fn end(&self, alpha: f64, mu: f64) -> (DecidedHop, bool) {
         let loss_of_square = mu * self.closing_speeds_squared;
-        let square = alpha * alpha;
-        let next_speed_squared = square - loss_of_square;
-        let rounding = LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * square;
-        let decided = next_speed_squared.abs() > rounding + mu * self.error;
+        let next_speed_squared = alpha * alpha - loss_of_square;
+        let decided = next_speed_squared.abs() > self.error_of_square(alpha, mu);
         (DecidedHop { sums: *self, loss_of_square, next_speed_squared }, decided)
+    }
+
+    /// Bound on the error of α′²; see [`end`](Self::end).
+    #[inline(always)]
+    pub(crate) fn error_of_square(&self, alpha: f64, mu: f64) -> f64 {
+        let rounding = LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * (alpha * alpha);
+        rounding + mu * self.error
     }
 }
 
@@ -105,14 +110,33 @@ pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> 
 
 /// The hop from `alpha`; `None` if the general solver must decide.
 #[inline]
-pub(crate) fn kernel_hop(alpha: f64, MassFactors { mu, kappa }: MassFactors) -> Option<DecidedHop> {
+pub(crate) fn kernel_hop(alpha: f64, factors: MassFactors) -> Option<DecidedHop> {
+    watched_kernel_hop(alpha, factors, |_| ())
+}
+
+/// The hop from `alpha`; `see` receives each flight's end. A `see` that does nothing costs nothing: the function is
+/// compiled for it.
+#[inline(always)]
+pub(crate) fn watched_kernel_hop(
+    alpha: f64,
+    MassFactors { mu, kappa }: MassFactors,
+    mut see: impl FnMut(&FlightEnd),
+) -> Option<DecidedHop> {
     let position = TablePosition::of(alpha, fixed_points());
     let first = position.first_flight(alpha)?;
     let mut sums = FlightSums::of_first(&first);
+    see(&FlightEnd {
+        state: state_after_first(&first, alpha, kappa),
+        closing_speed_squared: sums.closing_speeds_squared,
+        closing_speed_squared_error: sums.error,
+        half_time: first.half_time,
+        accepted: true,
+    });
     if position.sudden == 1 {
         let mut state = state_after_first(&first, alpha, kappa);
         loop {
             let end = later_flight(&state, kappa)?;
+            see(&end);
             sums = sums.with(&end);
             state = end.state;
             if !(state.excess > 0.0) {
@@ -125,4 +149,73 @@ pub(crate) fn kernel_hop(alpha: f64, MassFactors { mu, kappa }: MassFactors) -> 
     }
     let (hop, decided) = sums.end(alpha, mu);
     decided.then_some(hop)
+}
+
+/// α′² and a bound on its error.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BoundedSquare {
+    /// α′², negative if the hopper is grounded.
+    pub(crate) square: f64,
+    pub(crate) error: f64,
+}
+
+/// Largest error of a speed in [`kernel_hop_within`], relative to 1 + α.
+///
+/// Tables end 10⁻⁷ π from nπ and 2⁻¹³ from α*_n: all speeds within the error of a tabled speed have the same kind of first
+/// landing. Within 2⁻²⁷ the derivatives of the first flight change by less than a thousandth, since they grow like
+/// δ^{−2/3} towards δ = 0, and 2⁻²⁷/2⁻¹³ = 6·10⁻⁵. 1 + α ≤ 101 makes it 3·10⁻¹⁰ and more.
+const LARGEST_SPEED_ERROR: f64 = 3e-11;
+
+/// A factor for the change of the derivatives of the first flight within the error.
+const DERIVATIVE_CHANGE: f64 = 1.01;
+
+/// The hop of all speeds within `error` of `alpha`: α′² and a bound on its error; `None` if a landing is inconclusive, or
+/// if the speed or the error lies outside the kernel's range.
+///
+/// On the contact part dF/dα = 2α (1 − 4μW) with 0 ≤ W = D (h − α) ≤ (h + ½)(h − α) (docs/theory.md, Lemma 26). In a window
+/// D ≤ h, since SC ≥ 0, and with b = α − h and h′ = dh/dα = D/Γ
+///
+/// ```text
+///   dx′/dα = 2bh′ + 2h (1 − h′)      dV′/dα = 1 − 2h′ − 4κ α b h′      d(Γ²)/dα = −8αDb
+/// ```
+#[inline]
+pub(crate) fn kernel_hop_within(
+    alpha: f64,
+    error: f64,
+    MassFactors { mu, kappa }: MassFactors,
+) -> Option<BoundedSquare> {
+    if !(error <= LARGEST_SPEED_ERROR * (1.0 + alpha)) {
+        return None;
+    }
+    let position = TablePosition::of(alpha, fixed_points());
+    let first = position.first_flight(alpha)?;
+    let mut sums = FlightSums::of_first(&first);
+    let FirstFlight { half_time: h, beyond, closing_speed } = first;
+    let g = DERIVATIVE_CHANGE * error;
+    // The part of the error of α′² that comes directly from α, not through later flights.
+    let direct = if position.sudden == 1 {
+        let mut state = state_after_first(&first, alpha, kappa);
+        let rate = h / closing_speed; // at least h′
+        let excess = 2.0 * (beyond * rate + h * (1.0 + rate));
+        let velocity = 1.0 + 2.0 * rate + 4.0 * kappa * alpha * beyond * rate;
+        state.error += g * if excess > velocity { excess } else { velocity };
+        loop {
+            let end = later_flight(&state, kappa)?;
+            sums = sums.with(&end);
+            state = end.state;
+            if !(state.excess > 0.0) {
+                break;
+            }
+            if !(sums.flights < MOST_FLIGHTS) {
+                return None;
+            }
+        }
+        2.0 * alpha * (1.0 + 4.0 * mu * h * beyond)
+    } else {
+        let falling = 4.0 * mu * (h + 0.5) * -beyond - 1.0;
+        2.0 * alpha * if falling > 1.0 { falling } else { 1.0 }
+    };
+    let (hop, _) = sums.end(alpha, mu);
+    let error = sums.error_of_square(alpha, mu) + g * direct;
+    Some(BoundedSquare { square: hop.next_speed_squared, error })
 }

@@ -1,0 +1,189 @@
+//! An orbit in 106 to 1024 bits, with a bound on its error.
+//!
+//! The speed is not rounded to `f64` between hops. The error of a hop has two parts: the rounding errors of the hop, and
+//! the error of its start, which the hop propagates by its slope (`speed_error.rs`).
+
+use crate::error::Error;
+use crate::kernel::scalar::hop::MassFactors;
+use crate::landing::fixed_point_interval::FixedPointInterval;
+use crate::map::extended_hop::{ExtendedMasses, StartIn};
+use crate::map::hop_within::ROUND_UP;
+use crate::map::lift_off_map::{LiftOffMap, check_speed};
+use crate::map::speed_error::change_of_square;
+use crate::model::fixed_points::{fixed_point_in, n_pi};
+use crate::precision::double_double::DoubleDouble;
+use crate::precision::long::Long;
+use crate::precision::real::Extended;
+use std::fmt::Debug;
+
+/// The arithmetics of an [`ExtendedOrbit`], from short to long.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Arithmetic {
+    /// 106 bits.
+    Bits106,
+    /// 256 bits.
+    Bits256,
+    /// 512 bits.
+    Bits512,
+    /// 1024 bits.
+    Bits1024,
+}
+
+impl Arithmetic {
+    /// All arithmetics, from short to long.
+    pub const ALL: [Arithmetic; 4] =
+        [Arithmetic::Bits106, Arithmetic::Bits256, Arithmetic::Bits512, Arithmetic::Bits1024];
+}
+
+/// The result of one hop of an [`ExtendedOrbit`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ExtendedStep {
+    /// The hopper lifts off again; the orbit is at its next speed.
+    LiftsOff,
+    /// The hopper is grounded; the orbit stays where it was.
+    Grounded,
+    /// The arithmetic does not decide the hop, or its budget of sudden lift-offs is used up; the orbit stays where it was.
+    Inconclusive,
+}
+
+/// The orbit of a speed in 106 to 1024 bits, with a bound on its error.
+///
+/// ```
+/// use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep, LiftOffMap, MassRatio};
+/// let map = LiftOffMap::new(MassRatio::new(0.2)?);
+/// let mut orbit = ExtendedOrbit::new(&map, 5.5, Arithmetic::Bits106)?;
+/// assert_eq!(orbit.hop()?, ExtendedStep::LiftsOff);
+/// assert!((orbit.speed() - 3.783365713345068).abs() < 1e-15 && orbit.error() < 1e-27);
+/// # Ok::<(), passive_hopper::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct ExtendedOrbit(Box<dyn Orbit>);
+
+impl ExtendedOrbit {
+    /// The orbit that starts at exactly `alpha`, under `map`.
+    ///
+    /// # Errors
+    /// The errors of [`LiftOffMap::hop`] for a wrong speed.
+    pub fn new(map: &LiftOffMap, alpha: f64, arithmetic: Arithmetic) -> Result<Self, Error> {
+        check_speed(alpha)?;
+        Ok(ExtendedOrbit(match arithmetic {
+            Arithmetic::Bits106 => Box::new(OrbitIn::<DoubleDouble>::new(map, alpha)),
+            Arithmetic::Bits256 => Box::new(OrbitIn::<Long<4>>::new(map, alpha)),
+            Arithmetic::Bits512 => Box::new(OrbitIn::<Long<8>>::new(map, alpha)),
+            Arithmetic::Bits1024 => Box::new(OrbitIn::<Long<16>>::new(map, alpha)),
+        }))
+    }
+
+    /// Follows one hop.
+    ///
+    /// # Errors
+    /// [`Error::SuddenLiftOffBudget`] after a million sudden lift-offs.
+    pub fn hop(&mut self) -> Result<ExtendedStep, Error> {
+        self.0.hop()
+    }
+
+    /// The speed, rounded to `f64`.
+    pub fn speed(&self) -> f64 {
+        self.0.speed()
+    }
+
+    /// Bound on the distance of the exact orbit from the speed, which has more bits than an `f64`.
+    pub fn error(&self) -> f64 {
+        self.0.error()
+    }
+
+    /// The speed minus α*_n, and a bound on the error of this difference.
+    pub fn offset_from(&self, n: u64) -> (f64, f64) {
+        self.0.offset_from(n)
+    }
+}
+
+/// An orbit in one of the arithmetics.
+trait Orbit: Debug + Send {
+    fn hop(&mut self) -> Result<ExtendedStep, Error>;
+    fn speed(&self) -> f64;
+    fn error(&self) -> f64;
+    fn offset_from(&self, n: u64) -> (f64, f64);
+}
+
+#[derive(Debug)]
+struct OrbitIn<R> {
+    speed: R,
+    error: f64,
+    masses: ExtendedMasses<R>,
+    factors: MassFactors,
+}
+
+impl<R: Extended> OrbitIn<R> {
+    fn new(map: &LiftOffMap, alpha: f64) -> Self {
+        let masses = ExtendedMasses::new(map.mass_ratio());
+        OrbitIn { speed: R::from(alpha), error: 0.0, masses, factors: map.factors }
+    }
+}
+
+/// Distance of a speed from nπ, relative to the speed, within which 100 bits of nπ do not decide its side.
+const BITS_OF_N_PI: f64 = 1e-29;
+
+impl<R: Extended + Send> Orbit for OrbitIn<R> {
+    fn hop(&mut self) -> Result<ExtendedStep, Error> {
+        let speed = self.speed.nearest();
+        // The start of the orbit is exact, and the solver decides its first landing on the bits of α*_n and nπ.
+        if self.error > 0.0 && !on_one_side_in(self.speed, self.error) {
+            return Ok(ExtendedStep::Inconclusive);
+        }
+        let start = StartIn::at_speed(self.speed, self.masses);
+        let Some(hop) = start.hop(self.error, self.masses, |_, _| ())? else {
+            return Ok(ExtendedStep::Inconclusive);
+        };
+        let change = change_of_square(speed, self.error, &hop.landings, self.factors);
+        let (true, Some(change)) = (hop.decided, change) else {
+            return Ok(ExtendedStep::Inconclusive);
+        };
+        let square = hop.next_speed_squared.nearest();
+        let error = speed * speed * hop.ratio_error + change;
+        if !(square.abs() > error) {
+            return Ok(ExtendedStep::Inconclusive);
+        }
+        if square < 0.0 {
+            return Ok(ExtendedStep::Grounded);
+        }
+        let next = hop.next_speed_squared.sqrt();
+        // As in `HopWithin::from_square`.
+        let least = (square - error).max(0.0).sqrt();
+        self.error = ROUND_UP * (error / (next.nearest() + least)) + R::EPSILON * next.nearest();
+        self.speed = next;
+        Ok(ExtendedStep::LiftsOff)
+    }
+
+    fn speed(&self) -> f64 {
+        self.speed.nearest()
+    }
+
+    fn error(&self) -> f64 {
+        self.error
+    }
+
+    fn offset_from(&self, n: u64) -> (f64, f64) {
+        let star = if n == 0 { R::from(0.0) } else { fixed_point_in::<R>(n) };
+        let offset = (self.speed - star).nearest();
+        // The roundings of α*_n, of the difference, and of its conversion to `f64`.
+        let rounding = 2.0 * R::EPSILON * self.speed.nearest() + f64::EPSILON * offset.abs();
+        (offset, self.error + rounding)
+    }
+}
+
+/// As [`on_one_side`](crate::map::hop_within::on_one_side), for a speed with more bits.
+fn on_one_side_in<R: Extended>(speed: R, error: f64) -> bool {
+    let nearest = speed.nearest();
+    let n = FixedPointInterval::of(nearest).n;
+    let least = 2.0 * error + BITS_OF_N_PI * nearest;
+    let away = |from: DoubleDouble| {
+        let from = R::from(from.high) + from.low;
+        (speed - from).nearest().abs() > least
+    };
+    let away_from_star = || {
+        let least = 2.0 * error + R::EPSILON * nearest;
+        (speed - fixed_point_in::<R>(n)).nearest().abs() > least
+    };
+    (n == 0 || (away(n_pi(n)) && away_from_star())) && away(n_pi(n + 1))
+}

@@ -1,0 +1,71 @@
+//! How far α′² moves if the lift-off speed moves by at most a given error.
+//!
+//! The derivative of α′² = α² − μ Σ Γ² along the flights of a hop keeps its signs, so that the parts of a chain of flights
+//! cancel as they do in the map. An orbit that leaves a fixed point slowly then loses a factor near 1 at each hop. A sum of
+//! absolute values would lose a factor of 2 to 12 there, and after some ten hops all digits.
+//!
+//! ```text
+//!   |F(ξ) − F(α)| ≤ |∂F/∂α| g + g² + second order          |ξ − α| ≤ g
+//! ```
+//!
+//! docs/theory.md, Section 15, states what is proved of this bound.
+
+use crate::kernel::scalar::hop::MassFactors;
+use crate::landing::flight_derivative::{FlightDerivative, Variation};
+use crate::landing::flight_ends::{Landing, TakeOff};
+
+/// The second order in units of q times the sum of the absolute values of all terms of the derivative, for each flight of
+/// the hop. q is the largest relative change of a time of flight or a closing speed within the error. A term of the
+/// derivative has at most five factors that change with q, and each of them by about q. 8 leaves room for the third order.
+/// It is an estimate; `cargo xtask check-bounds` measures the bound against longer arithmetic.
+const SECOND_ORDER: f64 = 8.0;
+
+/// Largest q. Beyond it the expansion is not used, and the orbit is followed in longer arithmetic.
+const LARGEST_CHANGE: f64 = 1.0 / 64.0;
+
+/// Bound on |F(ξ) − F(α)| for |ξ − α| ≤ `error`, to second order, from the `landings` of the hop from `alpha`. `None` if
+/// the error is too large for the expansion.
+pub(crate) fn change_of_square(
+    alpha: f64,
+    error: f64,
+    landings: &[Landing],
+    MassFactors { mu, kappa }: MassFactors,
+) -> Option<f64> {
+    if error == 0.0 {
+        return Some(0.0);
+    }
+    let mut start = TakeOff { excess: 0.0, velocity: alpha };
+    let mut by_speed = Variation { excess: 0.0, velocity: 1.0 };
+    // Σ Γ ∂Γ/∂α; its terms by absolute value; the part of the second order from a change of x′.
+    let (mut sum, mut sizes, mut bend) = (0.0, 0.0, 0.0);
+    let mut largest_rate = 0.0_f64;
+    for landing in landings {
+        let gamma = landing.closing_speed;
+        if !(gamma > 0.0) {
+            return None;
+        }
+        let flight = FlightDerivative::new(start, landing, kappa);
+        let (after, closing) = flight.carry(by_speed);
+        let size = Variation { excess: by_speed.excess.abs(), velocity: by_speed.velocity.abs() };
+        let (most, most_closing) = flight.bound(size);
+        // |∂τ/∂α|: the bound of V′ is |dV| + |dτ| + κ |dΓ|.
+        let time = (most.velocity - size.velocity - kappa * most_closing).abs();
+        largest_rate = largest_rate.max(time / landing.time.min(1.0)).max(most_closing / gamma);
+        sum += gamma * closing;
+        sizes += gamma * most_closing;
+        bend += gamma * most.excess * time;
+        by_speed = after;
+        start = landing.take_off();
+    }
+    let change = error * largest_rate;
+    if !(change <= LARGEST_CHANGE) {
+        return None;
+    }
+    let slope = (2.0 * (alpha - mu * sum)).abs();
+    let flights = landings.len() as f64;
+    let second_order = SECOND_ORDER * flights * change * sizes + error * bend;
+    let bound = error * (slope + error + 2.0 * mu * second_order);
+    // The slope is computed in `f64`, to some ulps of its terms.
+    let rounding = 64.0 * flights * f64::EPSILON * error * (alpha + mu * sizes);
+    (bound + rounding).is_finite().then_some(bound + rounding)
+}
