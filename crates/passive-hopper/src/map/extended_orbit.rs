@@ -6,8 +6,8 @@
 use crate::error::Error;
 use crate::kernel::scalar::hop::MassFactors;
 use crate::landing::fixed_point_interval::FixedPointInterval;
-use crate::map::hop_within::ROUND_UP;
 use crate::map::extended_hop::{ExtendedMasses, StartIn};
+use crate::map::hop_within::ROUND_UP;
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::speed_error::change_of_square;
 use crate::model::fixed_points::{fixed_point_in, n_pi};

@@ -84,7 +84,8 @@ impl LiftOffMap {
     }
 
     fn signed_square_within(&self, alpha: f64, error: f64) -> Option<BoundedSquare> {
-        if check_speed(alpha).is_err() || alpha > LARGEST_PLAIN_SPEED || !on_one_side(alpha, error) {
+        if check_speed(alpha).is_err() || alpha > LARGEST_PLAIN_SPEED || !on_one_side(alpha, error)
+        {
             return None;
         }
         let kappa = self.factors.kappa;

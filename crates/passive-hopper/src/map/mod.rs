@@ -13,9 +13,9 @@
 //!   limits.rs             limits of all of these
 //! ```
 
-pub(crate) mod hop_within;
 pub(crate) mod extended_hop;
 pub(crate) mod extended_orbit;
+pub(crate) mod hop_within;
 pub(crate) mod lift_off_map;
 pub(crate) mod limits;
 pub(crate) mod many_at_once;

@@ -46,8 +46,7 @@ pub(crate) fn change_of_square(
         }
         let flight = FlightDerivative::new(start, landing, kappa);
         let (after, closing) = flight.carry(by_speed);
-        let size =
-            Variation { excess: by_speed.excess.abs(), velocity: by_speed.velocity.abs() };
+        let size = Variation { excess: by_speed.excess.abs(), velocity: by_speed.velocity.abs() };
         let (most, most_closing) = flight.bound(size);
         // |∂τ/∂α|: the bound of V′ is |dV| + |dτ| + κ |dΓ|.
         let time = (most.velocity - size.velocity - kappa * most_closing).abs();
