@@ -1,10 +1,10 @@
 //! The map on the right of a fixed point, to five orders.
 //!
-//! Proof: docs/theory.md, Theorem 35.
+//! Proof: docs/theory.md, Theorem 35 and Theorem 74.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
-use crate::expansion_value::ExpansionValue;
+use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use passive_hopper::MassRatio;
 
 /// δ′ = δ − λδ^{4/3} [1 + ℓ₅δ^{1/3} + ℓ₆δ^{2/3} + ℓ₇δ + ℓ₈δ^{4/3}] + O(δ³), δ > 0.
@@ -32,16 +32,22 @@ pub struct RightExpansion {
     pub coefficients: [f64; 4],
 }
 
-/// The largest δ for which the error was measured, and for which [`RightExpansion`] has values.
+/// The largest δ for which the error is proved (docs/theory.md, Theorem 74), and for which [`RightExpansion`] has values.
+///
+/// A larger range would need a larger [`RightExpansion::REMAINDER`].
 pub const RIGHT_RANGE: f64 = 0.1;
 
-/// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|. The largest measured value, against the exact map for n = 1…100, M = 10⁻³…10³, δ up
-/// to [`RIGHT_RANGE`], is 0.44. Outside that range the error may be larger than stated.
-const NEGLECTED: f64 = 0.5;
+/// Bound on the rounding error of a loss, in ulps of its leading term (docs/theory.md, Lemma 79): 16.2 units 2⁻⁵³ of
+/// the leading term λδ^{4/3}, 5 of the series, and 2 for the last sum and product, times the largest series, 1.15.
+const LOSS_ULPS: f64 = 14.0;
 
 impl RightExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 3.0;
+
+    /// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|, for all n ≥ 1, all M and 0 ≤ δ ≤ [`RIGHT_RANGE`] (docs/theory.md, Theorem 74). The
+    /// proof gives 0.445; the rest of 0.5 covers the rounding of the bound.
+    pub const REMAINDER: f64 = 0.5;
 
     /// The expansion about α*_n.
     ///
@@ -68,8 +74,8 @@ impl RightExpansion {
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let loss = self.loss(delta)?;
-        // One ulp of δ for the rounding of the difference.
-        let error = loss.error + f64::EPSILON * delta;
+        // Half an ulp of δ′ for the rounding of the difference; the other half covers the rounding of the bound.
+        let error = loss.error + f64::EPSILON * (delta - loss.value).abs();
         Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
     }
 
@@ -85,9 +91,8 @@ impl RightExpansion {
         let leading = self.lambda * delta * root;
         // Horner: ((ℓ₈ v + ℓ₇) v + …) v with v = δ^{1/3}.
         let series = self.coefficients.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
-        // Eight ulps cover the roundings of λ, the root, the products and the series.
-        let rounding = 8.0 * f64::EPSILON * leading;
-        let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
+        let rounding = LOSS_ULPS * f64::EPSILON * leading;
+        let error = Self::REMAINDER * self.lambda * delta * delta * delta + rounding + UNDERFLOW;
         let neglected_exponent = Self::NEGLECTED_EXPONENT;
         Ok(ExpansionValue { value: leading * (1.0 + series), error, neglected_exponent })
     }

@@ -1,17 +1,22 @@
 //! Small hops: the map about α*_0 = 0.
 //!
-//! Proof: docs/theory.md, Lemma 39.
+//! Proof: docs/theory.md, Lemma 39 and Theorem 78.
 
 use crate::error::Error;
-use crate::expansion_value::ExpansionValue;
+use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use passive_hopper::MassRatio;
 
-/// The largest α for which the error was measured, and for which [`small_hop_loss`] has a value.
+/// The largest α for which the error is proved (docs/theory.md, Theorem 78), and for which [`small_hop_loss`] has a value.
 pub const SMALL_ALPHA_RANGE: f64 = 0.3;
 
-/// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + …. The largest measured value, against the exact map for
-/// all μ (at most ¼) and α up to [`SMALL_ALPHA_RANGE`], is 4.3.
-const NEGLECTED: f64 = 5.0;
+/// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + … of [`small_hop_loss`], for all M and 0 ≤ α ≤
+/// [`SMALL_ALPHA_RANGE`] (docs/theory.md, Theorem 78). The proof gives 2.365; the rest of 2.4 covers the rounding of the
+/// bound.
+pub const SMALL_HOP_REMAINDER: f64 = 2.4;
+
+/// Bound on the rounding error in ulps of the leading term (docs/theory.md, Lemma 79): 11 units 2⁻⁵³ of the leading
+/// term, and 2.5 of the factor and the product.
+const LOSS_ULPS: f64 = 7.0;
 
 /// The loss α − f(α) = (32/9) μ α⁵ [1 − (8/5) α²] + O(α⁹) of a small hop.
 ///
@@ -40,7 +45,7 @@ pub fn small_hop_loss(mass_ratio: MassRatio, alpha: f64) -> Result<ExpansionValu
     }
     let square = alpha * alpha;
     let leading = 32.0 / 9.0 * mass_ratio.mu() * alpha * square * square;
-    // Sixteen ulps cover the roundings of μ, of the five factors α and of the series.
-    let error = leading * (NEGLECTED * square * square + 16.0 * f64::EPSILON);
+    let relative = SMALL_HOP_REMAINDER * square * square + LOSS_ULPS * f64::EPSILON;
+    let error = leading * relative + UNDERFLOW;
     Ok(ExpansionValue { value: leading * (1.0 - 1.6 * square), error, neglected_exponent: 9.0 })
 }

@@ -5,6 +5,7 @@
 //!   traced_hop.rs      a hop by one of them: every landing with its bounds, unrounded
 //!   bounded_hop.rs     a hop as users see it, with its bounds
 //!   reference_hop.rs   a hop in longer arithmetic, and the errors of other ways against it
+//!   reference_local_hop.rs   a hop near a fixed point in 512 bits
 //!   compared.rs        an actual error beside its bound
 //! ```
 //!
@@ -13,5 +14,6 @@
 pub(crate) mod bounded_hop;
 pub(crate) mod compared;
 pub(crate) mod reference_hop;
+pub(crate) mod reference_local_hop;
 pub(crate) mod solver;
 pub(crate) mod traced_hop;

@@ -52,6 +52,21 @@ impl LiftOffMap {
     /// [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop); [`Error::Undecided`] if 1024 bits, or the budget of
     /// sudden lift-offs in them, do not suffice for the decisions and the digits of δ′.
     pub fn hop_near_fixed_point(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
+        self.check_offset(n, delta)?;
+        let star = exact_alpha_star(n);
+        if delta == 0.0 {
+            return Ok(LocalHop { next: Some(0.0), loss: Some(0.0), sudden: 0, time_shift: 0.0 });
+        }
+        let local = NearFixedPoint::new(star.high);
+        let t = local.time_shift(delta);
+        let plain = (local.a <= LARGEST_PLAIN_SPEED)
+            .then(|| self.plain_hop_near(&local, delta, t))
+            .flatten();
+        plain.map_or_else(|| self.extended_hop_near(n, delta, t), Ok)
+    }
+
+    /// The error of an offset for which the hop has no value.
+    pub(crate) fn check_offset(&self, n: u64, delta: f64) -> Result<(), Error> {
         let star = exact_alpha_star(n);
         // The interval (nπ, (n+1)π) in δ, to 100 bits.
         // The largest n has no successor; it is refused below, since its speed is too large.
@@ -62,15 +77,7 @@ impl LiftOffMap {
         if n == 0 || star.high > LARGEST_LIFT_OFF_SPEED || !inside || !resolved {
             return Err(Error::Offset { n, delta, left: left.high, right: right.high });
         }
-        if delta == 0.0 {
-            return Ok(LocalHop { next: Some(0.0), loss: Some(0.0), sudden: 0, time_shift: 0.0 });
-        }
-        let local = NearFixedPoint::new(star.high);
-        let t = local.time_shift(delta);
-        let plain = (local.a <= LARGEST_PLAIN_SPEED)
-            .then(|| self.plain_hop_near(&local, delta, t))
-            .flatten();
-        plain.map_or_else(|| self.extended_hop_near(n, delta, t), Ok)
+        Ok(())
     }
 
     /// The hop in plain `f64`; `None` if the loss is not small compared with δ, or a decision is inconclusive.
