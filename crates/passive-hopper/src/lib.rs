@@ -80,7 +80,7 @@ pub use error::Error;
 pub use evidence::bounded_hop::{BoundedHop, BoundedLanding, StateError};
 pub use evidence::compared::Compared;
 pub use evidence::function_errors::{SineErrors, sine_errors};
-pub use evidence::reference_hop::{HopErrors, LandingErrors, ReferenceHop};
+pub use evidence::reference_hop::{FirstFlightErrors, HopErrors, LandingErrors, ReferenceHop};
 pub use evidence::solver::Solver;
 pub use hopper::{Hopper, HopperSurface, Phase};
 pub use landing::error_bound::MaximumTest;
