@@ -9,7 +9,7 @@
 //! derivative and a bound on the terms of second order. The propagated part grows along a chain of sudden lift-offs.
 //!
 //! The bounds are derived in docs/theory.md, section 13: the rounding of a landing in Lemma 58, the kernel's in
-//! Lemma 60, propagation in Theorem 61, the decisions in Theorem 66.
+//! Lemma 61, propagation in Theorem 60, the decisions in Theorem 66.
 
 use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::flight_ends::{Landing, TakeOff};
@@ -32,7 +32,7 @@ pub(crate) const LANDING_ULPS: f64 = 32.0;
 /// and at h = π/4 in the kernel, where D = h − sin h cos h cancels most.
 pub(crate) const BACKWARD_ULPS: f64 = 16.0;
 
-/// Largest sum q of the terms that Theorem 61 of docs/theory.md compares with Γ: with q below this number the linear map
+/// Largest sum q of the terms that Theorem 60 of docs/theory.md compares with Γ: with q below this number the linear map
 /// of the flight, with a part 4q added, bounds the change of its landing. A flight with a larger q nearly touches the
 /// ground, or is so short that its start is hardly known. It counts as inconclusive.
 ///
@@ -42,7 +42,7 @@ const LARGEST_NONLINEARITY: f64 = 1.0 / 16.0;
 
 /// The propagated error is increased by this part of its bound without cancellation, for the rounding errors of the
 /// derivative's coefficients in `f64`. They are below 64 ulps apart from the error of the phase, which is counted
-/// separately (docs/theory.md, Theorem 61). The value 10⁻⁶ also covers the rounding of the bound itself and changes no
+/// separately (docs/theory.md, Theorem 60). The value 10⁻⁶ also covers the rounding of the bound itself and changes no
 /// bound noticeably.
 const DERIVATIVE_ERROR: f64 = 1e-6;
 
@@ -52,8 +52,12 @@ const PHASE_ULPS: f64 = 4.0;
 
 /// Factor of (1 + x + |V| + τ + Γ) T² in the terms of second order of x′ and Γ, with T a bound on the change of the time.
 /// Taylor's formula gives ½; the first-order correction of the search leaves ½ T² in x′ and 14 times the sum in Γ
-/// (docs/theory.md, Theorem 61). T² is 10⁻²⁶ except near a touch.
+/// (docs/theory.md, Theorem 60). T² is 10⁻²⁶ except near a touch.
 const SECOND_ORDER: f64 = 16.0;
+
+/// Factor of α (1 + h) e^{1/3} in the change of dΓ²/dα = 8α Su over a distance e: |(Su)′| ≤ 2 (1 + h), and h changes by at
+/// most 2 e^{1/3} (docs/theory.md, Lemma 62).
+const LOSS_BEND: f64 = 32.0;
 
 /// A running bound on the error of the state on the ground.
 ///
@@ -132,21 +136,24 @@ impl ErrorBound {
             let two_branches = test.is_finite();
             self.last_test = two_branches.then_some(MaximumTest { value: test, error: slack });
         }
-        if landing.sudden || !first {
-            let half = 0.5 * landing.time;
-            let difference = (velocity - half).abs();
-            let backward = if self.sines_are_exact {
-                BACKWARD_ULPS * self.epsilon * (difference + landing.time.min(1.0))
-            } else {
-                BACKWARD_ULPS * self.epsilon * size
-            };
-            // The largest residual at which the search may stop. It is removed to first order. The rest of it is smaller
-            // than the whole (docs/theory.md, Lemma 59).
-            let stop = self.epsilon * (difference + LARGE_DIFFERENCE + landing.closing_speed);
-            let change = Variation {
-                excess: self.error.excess,
-                velocity: self.error.velocity + backward + stop,
-            };
+        let half = 0.5 * landing.time;
+        let difference = (velocity - half).abs();
+        let backward = if self.sines_are_exact {
+            BACKWARD_ULPS * self.epsilon * (difference + landing.time.min(1.0))
+        } else {
+            BACKWARD_ULPS * self.epsilon * size
+        };
+        // The largest residual at which the search may stop. It is removed to first order. The rest of it is smaller than
+        // the whole (docs/theory.md, Lemma 59).
+        let scale = velocity.abs().min(half).min(difference + LARGE_DIFFERENCE);
+        let stop = self.epsilon * (scale + landing.closing_speed);
+        let change = Variation {
+            excess: self.error.excess,
+            velocity: self.error.velocity + backward + stop,
+        };
+        if first && !landing.sudden {
+            self.loss += self.only_loss(landing, kappa, change.velocity);
+        } else {
             let (after, closing) = self.propagate(landing, kappa, change, size);
             let closing = rounding + closing;
             self.loss += (2.0 * landing.closing_speed + closing) * closing;
@@ -161,9 +168,19 @@ impl ErrorBound {
         self.start = landing.take_off();
     }
 
+    /// Bound on the error of Γ² of a first flight that ends in contact, for an error of its speed up to `change`.
+    ///
+    /// The state after it does not matter, and Γ² is smooth where the time of flight is not, next to α*_n
+    /// (docs/theory.md, Lemma 62).
+    fn only_loss(&self, landing: &Landing, kappa: f64, change: f64) -> f64 {
+        let slope = FlightDerivative::new(self.start, landing, kappa).largest_loss_slope();
+        let bend = LOSS_BEND * (1.0 + 0.5 * landing.time) * pxfm::f_cbrt(change);
+        change * (slope + bend * self.start.velocity)
+    }
+
     /// Bounds on the errors of the state after a flight, and of Γ, for errors before the flight that are bounded by
     /// `change`: the linear map of the flight, a part of its bound without cancellation, and the terms of second order
-    /// (docs/theory.md, Theorem 61). A flight that is too far from linear is inconclusive.
+    /// (docs/theory.md, Theorem 60). A flight that is too far from linear is inconclusive.
     fn propagate(
         &mut self,
         landing: &Landing,

@@ -74,6 +74,11 @@ impl FlightDerivative {
         (self.versine * change.excess + self.delay.abs() * change.velocity) / self.closing_speed
     }
 
+    /// Bound on |d(Γ²)/dV| = 2 |(1 − cos τ) Γ + (τ − sin τ) x′|, which is finite where Γ = 0.
+    pub(crate) fn largest_loss_slope(&self) -> f64 {
+        2.0 * (self.versine * self.closing_speed + self.delay.abs() * self.excess.abs())
+    }
+
     /// Bounds on the results of [`carry`](Self::carry) for changes bounded by `change`: the sums of the absolute values
     /// of all terms, so that no term cancels another.
     pub(crate) fn bound(&self, change: Variation) -> (Variation, f64) {
