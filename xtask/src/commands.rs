@@ -22,7 +22,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 11] = [
+const TASKS: [Task; 12] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -51,6 +51,11 @@ const TASKS: [Task; 11] = [
     Task {
         name: "check-reference",
         about: "Compare the map and the fates with files of reference values",
+        package: MEASUREMENTS,
+    },
+    Task {
+        name: "check-bounds",
+        about: "Compare every error bound with the actual error, on millions of hops",
         package: MEASUREMENTS,
     },
     Task {

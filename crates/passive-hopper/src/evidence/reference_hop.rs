@@ -7,8 +7,12 @@ use crate::evidence::traced_hop::{
     TracedHop, TracedLanding, extended_trace, general_trace, kernel_trace,
 };
 use crate::landing::error_bound::MaximumTest;
+use crate::landing::first_flight_table::{
+    BEYOND_FLOOR, FirstFlight, TABLE_ULPS, TablePosition, fixed_points,
+};
 use crate::landing::flight_derivative::Variation;
 use crate::map::lift_off_map::LiftOffMap;
+use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
 use crate::precision::real::{Extended, Real};
@@ -47,14 +51,24 @@ pub struct HopErrors {
 /// The errors of one landing, with their bounds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LandingErrors {
-    /// x′; `None` if the hop consists of this landing alone.
+    /// x′; `None` in a hop without sudden lift-off.
     pub excess: Option<Compared>,
-    /// V′; `None` if the hop consists of this landing alone.
+    /// V′; `None` in a hop without sudden lift-off.
     pub velocity: Option<Compared>,
     /// μ Γ²/α².
     pub loss: Compared,
-    /// The number that decides on which branch the flight lands; `None` if only one branch was possible.
+    /// The number that decides on which branch the flight lands; `None` if only one branch was possible, and for a longer
+    /// arithmetic, where this number is rounded to an `f64` after the decision.
     pub maximum_test: Option<Compared>,
+}
+
+/// The errors of the table of the first flight, with their bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstFlightErrors {
+    /// Γ.
+    pub closing_speed: Compared,
+    /// α − h, h half the time of flight.
+    pub beyond: Compared,
 }
 
 impl LiftOffMap {
@@ -113,15 +127,27 @@ impl ReferenceHop {
         }
     }
 
+    /// The errors of Γ and α − h of the first flight as the kernel's table gives them; `None` for a speed outside the table.
+    pub fn first_flight_errors(&self) -> Option<FirstFlightErrors> {
+        match &self.trace {
+            ReferenceTrace::Bits106(exact) => first_flight_errors(exact),
+            ReferenceTrace::Bits256(exact) => first_flight_errors(exact),
+            ReferenceTrace::Bits512(exact) => first_flight_errors(exact),
+            ReferenceTrace::Bits1024(exact) => first_flight_errors(exact),
+        }
+    }
+
     fn errors_against<E: Extended>(
         &self,
         solver: Solver,
         exact: &TracedHop<E>,
     ) -> Result<Option<HopErrors>, Error> {
         let (map, alpha) = (&self.map, exact.alpha);
-        let plain = |(_, trace): (_, TracedHop<f64>)| errors(&trace, exact);
+        let plain = |(_, trace): (_, TracedHop<f64>)| errors(&trace, exact, true);
         Ok(match solver {
             Solver::Kernel => kernel_trace(map, alpha).and_then(plain),
+            // Faster hops are computed in longer arithmetic from the start.
+            Solver::General if alpha > LARGEST_PLAIN_SPEED => None,
             Solver::General => plain(general_trace(map, alpha)?),
             Solver::Bits106 => extended_errors::<DoubleDouble, E>(map, exact)?,
             Solver::Bits256 => extended_errors::<Long<4>, E>(map, exact)?,
@@ -131,28 +157,52 @@ impl ReferenceHop {
     }
 }
 
+/// The table's bounds are those of `landing/first_flight_table.rs`.
+fn first_flight_errors<E: Extended>(exact: &TracedHop<E>) -> Option<FirstFlightErrors> {
+    let alpha = exact.alpha;
+    let FirstFlight { beyond, closing_speed, .. } =
+        TablePosition::of(alpha, fixed_points()).first_flight(alpha)?;
+    let landing = exact.landings.first()?;
+    // A backward error e of V changes h by eD/Γ and Γ by at most e (1 + τ)²/Γ. The numbers of the longer arithmetic have
+    // some ulps of e; 64 is far more. The table begins 2⁻¹³ from α*_n, where Γ is not small.
+    let size = 1.0 + landing.time.nearest();
+    let reference_bound = 64.0 * E::EPSILON * size * size * size / closing_speed;
+    let ulps = TABLE_ULPS * f64::EPSILON;
+    let exact_beyond = -(landing.time * 0.5) + alpha;
+    Some(FirstFlightErrors {
+        closing_speed: Compared::of(
+            (closing_speed, ulps * closing_speed),
+            (landing.closing_speed, reference_bound),
+        ),
+        beyond: Compared::of(
+            (beyond, ulps * (beyond.abs() + BEYOND_FLOOR)),
+            (exact_beyond, reference_bound),
+        ),
+    })
+}
+
 fn extended_errors<C: Extended, E: Extended>(
     map: &LiftOffMap,
     exact: &TracedHop<E>,
 ) -> Result<Option<HopErrors>, Error> {
     let traced = extended_trace::<C>(map, exact.alpha)?;
-    Ok(traced.and_then(|(_, trace)| errors(&trace, exact)))
+    Ok(traced.and_then(|(_, trace)| errors(&trace, exact, false)))
 }
 
 /// The errors of a hop; `None` if it is not certain.
 fn errors<C: Real, E: Extended>(
     computed: &TracedHop<C>,
     exact: &TracedHop<E>,
+    in_f64: bool,
 ) -> Option<HopErrors> {
     if !computed.certain {
         return None;
     }
-    let same_decisions = computed.landings.len() == exact.landings.len()
-        && computed.next.is_some() == exact.next.is_some();
-    let single = exact.landings.len() == 1;
+    let same_decisions =
+        computed.sudden == exact.sudden && computed.next.is_some() == exact.next.is_some();
     let mut starts = (0.0, 0.0);
     let landings = computed.landings.iter().zip(&exact.landings).map(|(landing, same)| {
-        let errors = landing_errors(landing, same, starts, single);
+        let errors = landing_errors(landing, same, starts, (exact.sudden > 0, in_f64));
         starts = (landing.velocity.nearest(), same.velocity.nearest());
         errors
     });
@@ -169,17 +219,18 @@ fn landing_errors<C: Real, E: Extended>(
     landing: &TracedLanding<C>,
     same: &TracedLanding<E>,
     starts: (f64, f64),
-    single: bool,
+    (is_sudden, in_f64): (bool, bool),
 ) -> LandingErrors {
     let state = |of: fn(Variation) -> f64, computed: C, exact: E| {
         let bounds = (of(landing.state_error), of(same.state_error));
-        (!single).then(|| Compared::of((computed, bounds.0), (exact, bounds.1)))
+        is_sudden.then(|| Compared::of((computed, bounds.0), (exact, bounds.1)))
     };
+    let tests = landing.maximum_test.zip(same.maximum_test).filter(|_| in_f64);
     LandingErrors {
         excess: state(|error| error.excess, landing.excess, same.excess),
         velocity: state(|error| error.velocity, landing.velocity, same.velocity),
         loss: Compared::of((landing.loss, landing.loss_error), (same.loss, same.loss_error)),
-        maximum_test: landing.maximum_test.zip(same.maximum_test).map(|tests| test(tests, starts)),
+        maximum_test: tests.map(|tests| test(tests, starts)),
     }
 }
 

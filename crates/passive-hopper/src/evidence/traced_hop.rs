@@ -14,6 +14,9 @@ use crate::precision::real::{Extended, Real};
 pub(crate) struct TracedHop<R> {
     pub(crate) alpha: f64,
     pub(crate) landings: Vec<TracedLanding<R>>,
+    /// Number of sudden lift-offs. It may exceed the number of later landings by one: if x′ of a sudden landing rounds to
+    /// zero, the flight after it is too short to be represented, and loses no energy.
+    pub(crate) sudden: usize,
     /// α′²/α².
     pub(crate) ratio: R,
     /// Bound on the error of the ratio.
@@ -96,8 +99,11 @@ pub(crate) fn kernel_trace(map: &LiftOffMap, alpha: f64) -> Option<(Hop, TracedH
     let ratio = decided.next_speed_squared / square;
     let next = hop.next;
     let rounding_of_next = ROUNDINGS_OF_NEXT;
-    let certain = true;
-    Some((hop, TracedHop { alpha, landings, ratio, ratio_error, next, rounding_of_next, certain }))
+    let (sudden, certain) = (hop.sudden, true);
+    Some((
+        hop,
+        TracedHop { alpha, landings, sudden, ratio, ratio_error, next, rounding_of_next, certain },
+    ))
 }
 
 /// The hop from `alpha` by the general solver, certain or not.
@@ -125,9 +131,12 @@ pub(crate) fn general_trace(map: &LiftOffMap, alpha: f64) -> Result<(Hop, Traced
         });
         ratio_error = bound.ratio_error(mu, alpha);
     })?;
-    let (next, certain) = (hop.next, hop.certain);
+    let (next, sudden, certain) = (hop.next, hop.sudden, hop.certain);
     let (ratio, rounding_of_next) = (1.0 - mu * squares, ROUNDINGS_OF_NEXT);
-    Ok((hop, TracedHop { alpha, landings, ratio, ratio_error, next, rounding_of_next, certain }))
+    Ok((
+        hop,
+        TracedHop { alpha, landings, sudden, ratio, ratio_error, next, rounding_of_next, certain },
+    ))
 }
 
 /// The hop from `alpha` in the arithmetic `R`, certain or not; `None` if it exceeds the budget of `R`.
@@ -161,7 +170,20 @@ pub(crate) fn extended_trace<R: Extended>(
     })?;
     Ok(hop.map(|hop| {
         let next = (ratio.nearest() > 0.0).then(|| speed * ratio.sqrt());
-        let (rounding_of_next, certain) = (EXTENDED_ROUNDINGS * R::EPSILON, hop.certain);
-        (hop, TracedHop { alpha, landings, ratio, ratio_error, next, rounding_of_next, certain })
+        let (sudden, certain) = (hop.landings.len() - 1, hop.certain);
+        let rounding_of_next = EXTENDED_ROUNDINGS * R::EPSILON;
+        (
+            hop,
+            TracedHop {
+                alpha,
+                landings,
+                sudden,
+                ratio,
+                ratio_error,
+                next,
+                rounding_of_next,
+                certain,
+            },
+        )
     }))
 }

@@ -117,8 +117,8 @@ pub(crate) fn watched_hop_with<R: Extended>(
             let alpha = R::from(speed);
             let first = if interval.n == 0 {
                 // In the interval n = 0 the landing is never a triple root: the general root search is accurate.
-                let h = first_root(&interval, speed).half.h;
-                ExtendedLanding::near(h, R::from(0.0), alpha, masses.kappa)
+                let root = first_root(&interval, speed);
+                ExtendedLanding::near(&root, R::from(0.0), alpha, masses.kappa)
             } else {
                 let star = fixed_point_in::<R>(interval.n);
                 NearFixedPoint::new(star).extended_landing(alpha - star, masses.kappa)
@@ -205,7 +205,7 @@ fn chain<R: Extended>(
         }
         let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
         let root = next_root(start, start.velocity >= PI && test >= 0.0);
-        landing = ExtendedLanding::near(root.half.h, x, v, masses.kappa);
+        landing = ExtendedLanding::near(&root, x, v, masses.kappa);
         hop.loss = hop.loss + landing.closing_speed.squared();
         rounded = landing.rounded(false);
         rounded.sudden = is_sudden(rounded.excess, rounded.velocity);

@@ -24,12 +24,14 @@ const LARGEST_VELOCITY: f64 = 128.0;
 
 /// Within this distance of mπ, in units of π, the general solver computes the flight.
 ///
-/// There ⌊V/π⌋ depends on rounding. The value is far above the rounding error of V/π below [`LARGEST_VELOCITY`], 10⁻¹⁴.
-/// It leaves two flights in 10⁹ to the general solver.
+/// There ⌊V/π⌋ depends on rounding. The rounding error of V/π below [`LARGEST_VELOCITY`] is 10⁻¹⁴ (two roundings of a
+/// number up to 41), and that of (m+1)π and mπ as much. The error of V itself does no harm: the flights on both sides of
+/// mπ land on one branch (docs/theory.md, Theorem 12). The value 10⁻⁹ leaves two flights in 10⁹ to the general solver.
 const NEAR_MULTIPLE_OF_PI: f64 = 1e-9;
 
-/// Bound on the error of the sine and cosine in the maximum test: eight digits, see [`HalfAngle::to_eight_digits`].
-const EIGHT_DIGITS: f64 = 1e-8;
+/// Bound on the error of the sine and cosine in the maximum test, and of the test relative to 1 + x + V: the terms that
+/// [`HalfAngle::to_eight_digits`] omits are below 1.8·10⁻⁹ (docs/theory.md, Lemma 57).
+pub(crate) const EIGHT_DIGITS: f64 = 2e-9;
 
 /// The maximum test of the kernel for a flight with V ≥ π, with the bound on its error; m = ⌊V/π⌋ has this `parity`.
 ///
@@ -41,9 +43,8 @@ fn kernel_maximum_test(state: &GroundState, parity: u64) -> MaximumTest {
     let at = HalfAngle::to_eight_digits(velocity);
     let value = negated_if_odd(velocity * at.cos - (1.0 + excess) * at.sin, parity);
     // |test| must be larger than its error: that of the sines, and that of x and V, where |∂test/∂x| ≤ 1 and
-    // |∂test/∂V| ≤ 1 + Y + V. A factor 2 would do, since 1 + Y + V ≤ 2 (1 + x + V); 4 is a margin. A larger
-    // factor would send more flights to the careful path.
-    let size = 4.0 * (1.0 + excess + velocity);
+    // |∂test/∂V| ≤ x + V (docs/theory.md, Lemma 64).
+    let size = 1.0 + excess + velocity;
     MaximumTest { value, error: EIGHT_DIGITS * size + error + size * error }
 }
 
