@@ -49,6 +49,9 @@
 //! α′ is at most 4 (1 + sudden lift-offs) units of ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³
 //! (`cargo xtask check-reference`).
 //!
+//! [`LiftOffMap::bounded_hop`] gives bounds on the errors of a hop. On ten million hops of eleven classes no actual error
+//! exceeds its bound (`cargo xtask check-bounds`, docs/accuracy.md).
+//!
 //! # Decisions
 //! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. The methods
 //! of [`LiftOffMap`] return a result only if every decision of the hop is larger than the bound on its error. If 53 bits do
@@ -88,7 +91,8 @@ pub use error::Error;
 pub use evidence::bounded_hop::{BoundedHop, BoundedLanding, StateError};
 pub use evidence::compared::Compared;
 pub use evidence::function_errors::{SineErrors, sine_errors};
-pub use evidence::reference_hop::{HopErrors, LandingErrors, ReferenceHop};
+pub use evidence::reference_hop::{FirstFlightErrors, HopErrors, LandingErrors, ReferenceHop};
+pub use evidence::reference_local_hop::{ReferenceLocalHop, ReferenceNumber};
 pub use evidence::solver::Solver;
 pub use hopper::{Hopper, HopperSurface, Phase};
 pub use landing::error_bound::MaximumTest;

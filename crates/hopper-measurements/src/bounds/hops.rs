@@ -2,7 +2,7 @@
 //!
 //! Each hop is computed in 106 bits, and every shorter way that decides it is compared, landing by landing. The bound
 //! of the 106 bits themselves is added to the error. Where the ratio then passes ½, and on one hop in a hundred, the
-//! comparison is made with 256 bits, and the 106 bits are compared as well.
+//! comparison is made with 256 or 512 bits, and the 106 bits are compared as well.
 
 use super::hop_classes::CLASSES;
 use super::measured::Measured;
@@ -16,10 +16,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The ways that are compared with longer ones.
 const SOLVERS: [Solver; 4] = [Solver::Kernel, Solver::General, Solver::Bits106, Solver::Bits256];
 
-/// The bounded quantities of a hop.
-const QUANTITIES: usize = 7;
+/// The place of the kernel in [`SOLVERS`].
+const KERNEL: usize = 0;
 
-/// The names of the bounds of one way.
+/// The bounded quantities of a hop.
+const QUANTITIES: usize = 9;
+
+/// The place of the decisions among the quantities.
+const DECISIONS: usize = 6;
+
+/// The names of the bounds of one way. Only the kernel has a table.
 macro_rules! names {
     ($way:literal) => {
         [
@@ -30,6 +36,8 @@ macro_rules! names {
             concat!($way, ": α′²/α²"),
             concat!($way, ": α′"),
             concat!($way, ": decisions"),
+            concat!($way, ": Γ of the first flight's table"),
+            concat!($way, ": α − h of the first flight's table"),
         ]
     };
 }
@@ -46,7 +54,8 @@ const EVERY_256: u64 = 100;
 /// One hop in so many is compared with 512 bits, and 256 bits with them. 512 bits take five times as long as 256.
 const EVERY_512: u64 = 2000;
 
-/// From this ratio on a comparison with 106 bits is repeated with 256.
+/// Above this ratio a comparison is repeated with a longer arithmetic, up to 512 bits: the bound of the reference may be a
+/// large part of the ratio.
 const LARGE_RATIO: f64 = 0.5;
 
 /// Hops that one thread takes at a time: enough for the progress bar, few enough that all threads end together.
@@ -126,7 +135,11 @@ impl Total {
             return Ok(());
         };
         self.compared += 1;
-        for (way, errors) in found {
+        if let Some([closing_speed, beyond]) = found.first_flight {
+            self.tally(class, KERNEL, DECISIONS + 1).add(closing_speed, index);
+            self.tally(class, KERNEL, DECISIONS + 2).add(beyond, index);
+        }
+        for (way, errors) in found.of_ways {
             each_ratio(&errors, |quantity, ratio| {
                 self.tally(class, way, quantity).add(ratio, index);
             });
@@ -164,22 +177,32 @@ impl Total {
     }
 }
 
+/// The errors of one hop.
+struct Found {
+    /// Γ and α − h of the table, as ratios.
+    first_flight: Option<[f64; 2]>,
+    /// By the place of each way in [`SOLVERS`].
+    of_ways: Vec<(usize, HopErrors)>,
+}
+
 /// The errors of all ways that decide the hop, against `arithmetic` or a longer one. `None` if no arithmetic decides
 /// the hop.
-fn compare(map: &LiftOffMap, alpha: f64, arithmetic: Solver) -> Option<Vec<(usize, HopErrors)>> {
+fn compare(map: &LiftOffMap, alpha: f64, arithmetic: Solver) -> Option<Found> {
     // An error of the hop, such as its budget of sudden lift-offs, is an undecided hop as well.
     let reference = map.reference_hop(alpha, arithmetic).ok().flatten();
     let Some(reference) = reference else { return compare(map, alpha, arithmetic.longer()?) };
-    let mut found = Vec::new();
-    let mut largest = 0.0f64;
+    let first_flight = reference.first_flight_errors();
+    let first_flight = first_flight.map(|e| [e.closing_speed.ratio(), e.beyond.ratio()]);
+    let mut found = Found { first_flight, of_ways: Vec::new() };
+    let mut largest = first_flight.map_or(0.0, |[a, b]| a.max(b));
     for (way, &solver) in SOLVERS.iter().enumerate().filter(|(_, solver)| **solver < arithmetic) {
         if let Ok(Some(errors)) = reference.errors_of(solver) {
             each_ratio(&errors, |_, ratio| largest = largest.max(ratio));
-            found.push((way, errors));
+            found.of_ways.push((way, errors));
         }
     }
-    let is_short = largest > LARGE_RATIO && arithmetic == Solver::Bits106;
-    // Above 1 the longest arithmetic is asked: the bound of the reference may be the reason.
+    let is_short = largest > LARGE_RATIO && arithmetic < Solver::Bits512;
+    // Above 1 the longest arithmetic is asked as well.
     if is_short || largest > 1.0 {
         let again = arithmetic.longer().and_then(|longer| compare(map, alpha, longer));
         return again.or(Some(found));
@@ -191,7 +214,6 @@ fn compare(map: &LiftOffMap, alpha: f64, arithmetic: Solver) -> Option<Vec<(usiz
 ///
 /// After a wrong decision there is no error to compare: its ratio is infinite, and the other quantities are left out.
 fn each_ratio(errors: &HopErrors, mut see: impl FnMut(usize, f64)) {
-    const DECISIONS: usize = QUANTITIES - 1;
     if !errors.same_decisions {
         return see(DECISIONS, f64::INFINITY);
     }

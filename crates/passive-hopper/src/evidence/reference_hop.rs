@@ -7,6 +7,9 @@ use crate::evidence::traced_hop::{
     TracedHop, TracedLanding, extended_trace, general_trace, kernel_trace,
 };
 use crate::landing::error_bound::MaximumTest;
+use crate::landing::first_flight_table::{
+    BEYOND_FLOOR, FirstFlight, TABLE_ULPS, TablePosition, fixed_points,
+};
 use crate::landing::flight_derivative::Variation;
 use crate::map::lift_off_map::LiftOffMap;
 use crate::map::limits::LARGEST_PLAIN_SPEED;
@@ -57,6 +60,15 @@ pub struct LandingErrors {
     /// The number that decides on which branch the flight lands; `None` if only one branch was possible, and for a longer
     /// arithmetic, where this number is rounded to an `f64` after the decision.
     pub maximum_test: Option<Compared>,
+}
+
+/// The errors of the table of the first flight, with their bounds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FirstFlightErrors {
+    /// Γ.
+    pub closing_speed: Compared,
+    /// α − h, h half the time of flight.
+    pub beyond: Compared,
 }
 
 impl LiftOffMap {
@@ -115,6 +127,16 @@ impl ReferenceHop {
         }
     }
 
+    /// The errors of Γ and α − h of the first flight as the kernel's table gives them; `None` for a speed outside the table.
+    pub fn first_flight_errors(&self) -> Option<FirstFlightErrors> {
+        match &self.trace {
+            ReferenceTrace::Bits106(exact) => first_flight_errors(exact),
+            ReferenceTrace::Bits256(exact) => first_flight_errors(exact),
+            ReferenceTrace::Bits512(exact) => first_flight_errors(exact),
+            ReferenceTrace::Bits1024(exact) => first_flight_errors(exact),
+        }
+    }
+
     fn errors_against<E: Extended>(
         &self,
         solver: Solver,
@@ -133,6 +155,30 @@ impl ReferenceHop {
             Solver::Bits1024 => extended_errors::<Long<16>, E>(map, exact)?,
         })
     }
+}
+
+/// The table's bounds are those of `landing/first_flight_table.rs`.
+fn first_flight_errors<E: Extended>(exact: &TracedHop<E>) -> Option<FirstFlightErrors> {
+    let alpha = exact.alpha;
+    let FirstFlight { beyond, closing_speed, .. } =
+        TablePosition::of(alpha, fixed_points()).first_flight(alpha)?;
+    let landing = exact.landings.first()?;
+    // A backward error e of V changes h by eD/Γ and Γ by at most e (1 + τ)²/Γ. The numbers of the longer arithmetic have
+    // some ulps of e; 64 is far more. The table begins 2⁻¹³ from α*_n, where Γ is not small.
+    let size = 1.0 + landing.time.nearest();
+    let reference_bound = 64.0 * E::EPSILON * size * size * size / closing_speed;
+    let ulps = TABLE_ULPS * f64::EPSILON;
+    let exact_beyond = -(landing.time * 0.5) + alpha;
+    Some(FirstFlightErrors {
+        closing_speed: Compared::of(
+            (closing_speed, ulps * closing_speed),
+            (landing.closing_speed, reference_bound),
+        ),
+        beyond: Compared::of(
+            (beyond, ulps * (beyond.abs() + BEYOND_FLOOR)),
+            (exact_beyond, reference_bound),
+        ),
+    })
 }
 
 fn extended_errors<C: Extended, E: Extended>(

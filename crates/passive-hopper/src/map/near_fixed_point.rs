@@ -14,9 +14,21 @@ use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::model::fixed_points::{alpha_star, exact_alpha_star, n_pi};
 use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 
-/// Up to this ratio of the loss to |δ| the plain result is used: the rounding error of the loss, some ulps of it, is
-/// then below an ulp of δ′. Hops with a larger loss are computed in extended arithmetic. Chosen, not derived.
+/// Up to this ratio of the loss to |δ| the plain result is used.
+///
+/// The plain loss has a relative error of up to 111 ulps, and δ′ = δ − loss must be right to 8 ulps: 1/16 is the largest
+/// power of two that ensures this (docs/theory.md, Theorem 81). Hops with a larger loss are computed in extended
+/// arithmetic. A smaller value would send more hops there.
 const SMALL_LOSS: f64 = 1.0 / 16.0;
+
+/// Smallest |δ| other than 0. Here t³ ∝ δ, the smallest term of δ(t), is 10⁸ times the smallest normal number, so that no
+/// factor of the local functions underflows (docs/theory.md, Lemma 80). Further down the terms would lose digits.
+const SMALLEST_OFFSET: f64 = 1e-300;
+
+/// A second flight that is shorter than this is not followed by a sudden lift-off, whatever the rounding of its landing
+/// (docs/theory.md, Lemma 82). The lemma needs τ < α*_1 = 4.49. The error of δ′ is derived for flights shorter than 1
+/// (Theorem 81); the landings of longer ones are decided with their error bound.
+const SHORT_FLIGHT: f64 = 1.0;
 
 /// A hop near a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +36,9 @@ pub struct LocalHop {
     /// δ′ = α′ − α*_n; `None` if the hopper is grounded.
     pub next: Option<f64>,
     /// δ − δ′, without cancellation; `None` if the hopper is grounded.
+    ///
+    /// The loss is about λ|δ|^{4/3}, ten times as much on the left. For |δ| below some 10⁻²³¹ (with λ = 1) it is a subnormal
+    /// number and has fewer digits, and below 10⁻²⁴³ it rounds to 0. δ′ then is δ: the loss is far below its last digit.
     pub loss: Option<f64>,
     /// Number of sudden lift-offs.
     pub sudden: usize,
@@ -34,7 +49,7 @@ pub struct LocalHop {
 impl LiftOffMap {
     /// The hop from α = α*_n + `delta`, in the coordinate δ.
     ///
-    /// δ′ is right to a few ulps of itself, from |δ| = 10⁻³⁰⁰ to the ends of (nπ, (n+1)π). An orbit in δ therefore
+    /// δ′ is right to 8 ulps of itself, from |δ| = 10⁻³⁰⁰ to the ends of (nπ, (n+1)π). An orbit in δ therefore
     /// follows the algebraic approach to α*_n without end. An orbit in α stops at |δ| ≈ 10⁻¹².
     ///
     /// ```
@@ -52,16 +67,8 @@ impl LiftOffMap {
     /// [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop); [`Error::Undecided`] if 1024 bits, or the budget of
     /// sudden lift-offs in them, do not suffice for the decisions and the digits of δ′.
     pub fn hop_near_fixed_point(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
+        self.check_offset(n, delta)?;
         let star = exact_alpha_star(n);
-        // The interval (nπ, (n+1)π) in δ, to 100 bits.
-        // The largest n has no successor; it is refused below, since its speed is too large.
-        let (left, right) = (n_pi(n) - star, n_pi(n.saturating_add(1)) - star);
-        let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
-        // Below 10⁻³⁰⁰ the terms of δ(t), of size t³ ∝ δ, come near the smallest normal number and lose digits.
-        let resolved = delta == 0.0 || delta.abs() >= 1e-300;
-        if n == 0 || star.high > LARGEST_LIFT_OFF_SPEED || !inside || !resolved {
-            return Err(Error::Offset { n, delta, left: left.high, right: right.high });
-        }
         if delta == 0.0 {
             return Ok(LocalHop { next: Some(0.0), loss: Some(0.0), sudden: 0, time_shift: 0.0 });
         }
@@ -71,6 +78,20 @@ impl LiftOffMap {
             .then(|| self.plain_hop_near(&local, delta, t))
             .flatten();
         plain.map_or_else(|| self.extended_hop_near(n, delta, t), Ok)
+    }
+
+    /// The error of an offset for which the hop has no value.
+    pub(crate) fn check_offset(&self, n: u64, delta: f64) -> Result<(), Error> {
+        let star = exact_alpha_star(n);
+        // The interval (nπ, (n+1)π) in δ, to 100 bits.
+        // The largest n has no successor; it is refused below, since its speed is too large.
+        let (left, right) = (n_pi(n) - star, n_pi(n.saturating_add(1)) - star);
+        let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
+        let resolved = delta == 0.0 || delta.abs() >= SMALLEST_OFFSET;
+        if n == 0 || star.high > LARGEST_LIFT_OFF_SPEED || !inside || !resolved {
+            return Err(Error::Offset { n, delta, left: left.high, right: right.high });
+        }
+        Ok(())
     }
 
     /// The hop in plain `f64`; `None` if the loss is not small compared with δ, or a decision is inconclusive.
@@ -84,10 +105,8 @@ impl LiftOffMap {
             let start = TakeOff { excess, velocity };
             let next = next_landing(start, kappa);
             // A second sudden landing would make the loss large. The decision that the second landing is not sudden
-            // must be larger than its error. After a short flight that error is some ulps of the excess before the
-            // flight, and 10⁻¹⁰ of this excess is far more (chosen, not derived). After a long flight the error bound
-            // of `is_conclusive` is used.
-            let short = next.time < 1.0 && next.excess < -1e-10 * excess;
+            // must be larger than its error.
+            let short = next.time < SHORT_FLIGHT;
             if next.sudden
                 || !(short || Self::is_conclusive(local, start, t, closing_speed, &next, kappa))
             {
@@ -132,5 +151,115 @@ impl LiftOffMap {
         }
         let (next, loss) = hop.next.map(|next| (next.offset, next.loss)).unzip();
         Ok(LocalHop { next, loss, sudden, time_shift })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::mass_ratio::MassRatio;
+
+    /// (error of δ′, error of the loss) in ulps, against 512 bits.
+    fn ulps(n: u64, mass_ratio: f64, delta: f64) -> (f64, f64) {
+        let map = LiftOffMap::new(MassRatio::new(mass_ratio).unwrap());
+        let hop = map.hop_near_fixed_point(n, delta).unwrap();
+        let exact = map.reference_local_hop(n, delta).unwrap().unwrap();
+        assert_eq!(hop.sudden, exact.sudden, "{n} {mass_ratio} {delta:e}");
+        let next = exact.next.unwrap().error_of(hop.next.unwrap()) / hop.next.unwrap().abs();
+        let loss = exact.loss.unwrap();
+        let loss = loss.error_of(hop.loss.unwrap()) / loss.nearest;
+        (next / f64::EPSILON, loss / f64::EPSILON)
+    }
+
+    /// Starts with the largest errors of a search: right, left with a short second flight, left with a long one, large n.
+    const PLANTED: [(u64, f64, f64); 8] = [
+        (1, 0.010907304827861081, 0.0002546572882442288),
+        (9843555168, 0.13431827198618587, 1.2613044519465298e-25),
+        (794, 2.108726604372915e-9, 0.015702838572973592),
+        (1, 0.02783775485290209, -3.8359763625895474e-6),
+        (9539457, 939042.7438450479, -1.6714438862110644e-13),
+        (1, 1.720148734991015e-5, -1.0076174996334226),
+        (1, 7.273548307447073e-6, -1.350997673072077),
+        (100, 0.013613571355108071, 3.0869183734174e-23),
+    ];
+
+    #[test]
+    fn planted_hops_are_right_to_eight_ulps() {
+        for (n, mass_ratio, delta) in PLANTED {
+            let (next, _) = ulps(n, mass_ratio, delta);
+            assert!(next <= 8.0, "{n} {mass_ratio} {delta:e}: {next}");
+        }
+        // These errors are actual ones: one of them is more than the rounding of δ′ alone.
+        let next = PLANTED.map(|(n, mass_ratio, delta)| ulps(n, mass_ratio, delta).0);
+        assert!(next.iter().any(|&next| next > 0.5), "{next:?}");
+    }
+
+    /// Next to the largest loss of the plain arithmetic, on both sides of the limit, the loss has at most the error that
+    /// the limit is derived from.
+    #[test]
+    fn losses_next_to_the_limit_have_the_derived_error() {
+        const LOSS_ULPS: f64 = 111.0;
+        for n in [1, 2, 30, 1000] {
+            for mass_ratio in [0.003, 0.1, 1.0, 40.0] {
+                for side in [1.0, -1.0] {
+                    let map = LiftOffMap::new(MassRatio::new(mass_ratio).unwrap());
+                    let share = |size: f64| {
+                        let hop = map.hop_near_fixed_point(n, side * size).unwrap();
+                        hop.loss.unwrap_or(f64::INFINITY) / size
+                    };
+                    // The share of the loss grows with |δ| here: bisection for 1/16.
+                    let (mut low, mut high) = (1e-12, 0.05);
+                    if share(high) < SMALL_LOSS {
+                        continue;
+                    }
+                    while high / low > 1.0 + 1e-9 {
+                        let middle = (low * high).sqrt();
+                        if share(middle) < SMALL_LOSS { low = middle } else { high = middle }
+                    }
+                    for k in 0..20 {
+                        let delta = side * low * (1.0 + 1e-7 * f64::from(k - 10));
+                        let (next, loss) = ulps(n, mass_ratio, delta);
+                        assert!(next <= 8.0 && loss <= LOSS_ULPS, "{n} {mass_ratio} {delta:e}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// The loss is subnormal and then 0; δ′ stays right.
+    #[test]
+    fn losses_below_the_smallest_number_are_zero() {
+        let map = LiftOffMap::new(MassRatio::ONE);
+        let loss = |delta: f64| map.hop_near_fixed_point(1, delta).unwrap().loss.unwrap();
+        assert!(loss(1e-230) > f64::MIN_POSITIVE);
+        assert!(loss(1e-240) > 0.0 && loss(1e-240) < f64::MIN_POSITIVE);
+        assert_eq!(loss(1e-245), 0.0);
+        for delta in [1e-230, 1e-245, SMALLEST_OFFSET, -1e-245, -SMALLEST_OFFSET] {
+            let hop = map.hop_near_fixed_point(1, delta).unwrap();
+            let exact = map.reference_local_hop(1, delta).unwrap().unwrap();
+            let error = exact.next.unwrap().error_of(hop.next.unwrap());
+            assert!(error <= f64::EPSILON * delta.abs(), "{delta:e}");
+            let error = exact.time_shift.error_of(hop.time_shift);
+            assert!(error <= 8.0 * f64::EPSILON * hop.time_shift.abs(), "{delta:e}");
+        }
+    }
+
+    /// The second landing of a flight that is shorter than `SHORT_FLIGHT` is below stretch one (docs/theory.md, Lemma 82).
+    #[test]
+    fn short_second_flights_end_in_contact() {
+        for k in 0..2000 {
+            let part = f64::from(k) / 2000.0;
+            let delta = -10f64.powf(-12.0 * part) * 0.9;
+            for (n, m) in [(1, 1e-6), (1, 1e6), (3, 1.0), (1000, 0.2)] {
+                let local = NearFixedPoint::new(alpha_star(n));
+                let kappa = MassRatio::new(m).unwrap().kappa();
+                let (excess, velocity, _) = local.landing(local.time_shift(delta), kappa);
+                let next = next_landing(TakeOff { excess, velocity }, kappa);
+                assert!(
+                    next.time >= SHORT_FLIGHT || (next.excess < 0.0 && !next.sudden),
+                    "{n} {m}"
+                );
+            }
+        }
     }
 }
