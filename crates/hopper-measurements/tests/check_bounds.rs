@@ -18,7 +18,8 @@ fn the_bounds_of_hops_hold_on_three_thousand_hops() {
     let output = check(&["--hops", "3000", "--group", "hops"]);
     let (out, error) = (text(&output.stdout), text(&output.stderr));
     assert!(output.status.success(), "{error}");
-    for line in ["kernel: x′", "general solver: α′²/α²", "106 bits: μΓ²/α²", "next to grounding"] {
+    for line in ["kernel: x′", "general solver: α′²/α²", "106 bits: μΓ²/α²", "next to grounding"]
+    {
         assert!(out.contains(line), "{line}: {out}");
     }
     assert!(out.contains("3000 hops were compared; 0 hops are undecided"), "{out}");
@@ -27,7 +28,9 @@ fn the_bounds_of_hops_hold_on_three_thousand_hops() {
 /// With a thousandth of each bound, every group fails, and the error names the bound, the class and the input.
 #[test]
 fn planted_bounds_that_are_too_small_fail() {
-    for (group, bound) in [("hops", "general solver: α′ (random)"), ("sines", "kernel: sin and cos")] {
+    for (group, bound) in
+        [("hops", "general solver: α′ (random)"), ("sines", "kernel: sin and cos")]
+    {
         let output = check(&["--hops", "3000", "--group", group, "--bound-factor", "0.001"]);
         let error = text(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{error}");
