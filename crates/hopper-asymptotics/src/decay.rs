@@ -29,7 +29,7 @@ pub struct Decay {
 }
 
 /// Bound on dδ of an error of K, relative to its first order where the slope of rK is 1 (docs/theory.md, Theorem 76): the
-/// slope is at least 0.69, and the error of K changes u by at most 4.5 %.
+/// slope is at least 0.69, and the error of K changes u by at most 5 %.
 const OFFSET_FACTOR: f64 = 2.0;
 
 /// The smallest λ. The number of hops is about 3u/λ, and u reaches 10¹⁰⁸ for the smallest positive δ, so that the
@@ -198,5 +198,49 @@ impl Decay {
             error: neglected + rounding,
             neglected_exponent: Self::NEGLECTED_EXPONENT,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// After so many hops δ is about (3/(λk))³, here a subnormal number; u³ would overflow.
+    #[test]
+    fn offsets_below_the_normal_numbers_have_values() {
+        let law = Decay::new(1, MassRatio::ONE).unwrap();
+        for (hops, exponent) in [(1e106, 318), (3e106, 320), (1e107, 321)] {
+            let found = law.offset_after(1e-6, hops).unwrap();
+            let exact = (1.0 / (law.rate * hops * 10f64.powi(-107))).powi(3); // δ 10³²¹
+            let value = found.value * 1e300 * 1e21;
+            assert!(
+                (value - exact).abs() <= found.error * 1e300 * 1e21,
+                "{exponent} {value} {exact}"
+            );
+            assert!(found.value > 0.0 && found.value < f64::MIN_POSITIVE);
+        }
+        // Far below the smallest number.
+        let found = law.offset_after(1e-6, 1e200).unwrap();
+        assert!(found.value == 0.0 && found.error > 0.0);
+    }
+
+    /// The offset cannot be the start again.
+    #[test]
+    fn numbers_of_hops_with_an_infinite_u_are_errors() {
+        let law = Decay::new(1 << 40, MassRatio::ONE).unwrap();
+        let start = law.range();
+        assert!(matches!(law.offset_after(start, 1e308), Err(Error::OutsideRange { .. })));
+        let found = law.offset_after(start, 1e290).unwrap();
+        assert!(found.value < start && found.error < start, "{found:?}");
+    }
+
+    /// A start that is a subnormal number.
+    #[test]
+    fn subnormal_offsets_are_accepted() {
+        let law = Decay::new(1, MassRatio::ONE).unwrap();
+        let start = f64::from_bits(1000);
+        let found = law.offset_after(start, 0.0).unwrap();
+        assert!((found.value - start).abs() <= found.error && found.error < 0.01 * start);
+        assert!(law.hops(start, f64::from_bits(1)).unwrap().value > 1e100);
     }
 }

@@ -39,3 +39,40 @@ pub fn fixed_point_series(n: u64) -> Result<ExpansionValue, Error> {
     let error = neglected + ulps * f64::EPSILON * q;
     Ok(ExpansionValue { value: q - sum / q, error, neglected_exponent: -11.0 })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use passive_hopper::FixedPointSpeed;
+
+    /// |sum − α*_n|/error, with 100 bits of α*_n.
+    fn ratio(n: u64) -> f64 {
+        let (found, star) = (fixed_point_series(n).unwrap(), FixedPointSpeed::new(n));
+        ((found.value - star.value()) - star.rest()).abs() / found.error
+    }
+
+    #[test]
+    fn the_bound_holds_for_a_million_indices_and_is_nearly_met() {
+        let largest = (1..1_000_000)
+            .map(|n| (ratio(n), n))
+            .fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a });
+        assert!(largest.0 <= 1.0 && largest.0 > 0.9, "{largest:?}");
+        // An error above one ulp of q.
+        assert!(ratio(1306) > 1.0 / ULPS);
+    }
+
+    #[test]
+    fn the_bound_holds_where_the_index_is_rounded() {
+        for n in [
+            1 << 51,
+            (1 << 52) - 1,
+            1 << 52,
+            (1 << 52) + 1,
+            (1 << 53) + 1,
+            (1 << 60) + 511,
+            u64::MAX,
+        ] {
+            assert!(ratio(n) <= 1.0, "{n}: {}", ratio(n));
+        }
+    }
+}

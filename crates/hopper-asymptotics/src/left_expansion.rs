@@ -103,3 +103,37 @@ impl LeftExpansion {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bound_holds_where_the_loss_is_subnormal() {
+        let series = LeftExpansion::new(1, MassRatio::ONE).unwrap();
+        let spacing = f64::from_bits(1);
+        for (k, delta) in [(250, 3e-20), (252, 1e-18), (255, 2e-17), (260, 5e-18)] {
+            let large = series.loss(-delta).unwrap().value;
+            let small = series.loss(-delta * 2f64.powi(-3 * k)).unwrap();
+            let exact = large * 2f64.powi(1074 - 4 * k);
+            let off = (small.value / spacing - exact).abs();
+            assert!(off > 0.0 && off <= small.error / spacing, "{k} {delta:e}: {exact} {small:?}");
+        }
+    }
+
+    /// The range does not depend on λ.
+    #[test]
+    fn large_indices_have_values_up_to_the_range() {
+        let ratio = MassRatio::ONE;
+        for n in [100, 10_000] {
+            let series = LeftExpansion::new(n, ratio).unwrap();
+            let map = passive_hopper::LiftOffMap::new(ratio);
+            for part in [1.0, 0.3, 0.01] {
+                let delta = -part * series.range();
+                let exact = map.reference_local_hop(n, delta).unwrap().unwrap().loss.unwrap();
+                let found = series.loss(delta).unwrap();
+                assert!(exact.error_of(found.value) <= found.error, "{n} {delta}: {found:?}");
+            }
+        }
+    }
+}

@@ -97,3 +97,33 @@ impl RightExpansion {
         Ok(ExpansionValue { value: leading * (1.0 + series), error, neglected_exponent })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At δ·8^{−k} the loss is 16^{−k} of that at δ, to 10⁻²⁰. So its exact value is known where it is subnormal.
+    #[test]
+    fn the_bound_holds_where_the_loss_is_subnormal() {
+        let series = RightExpansion::new(1, MassRatio::ONE).unwrap();
+        let spacing = f64::from_bits(1);
+        for (k, delta) in [(250, 3e-20), (252, 1e-18), (255, 2e-17), (258, 1e-18), (260, 5e-18)] {
+            let large = series.loss(delta).unwrap().value;
+            let small = series.loss(delta * 2f64.powi(-3 * k)).unwrap();
+            assert!(small.value < f64::MIN_POSITIVE && small.error > 0.0, "{small:?}");
+            // Both in spacings of the subnormal numbers, where the exact loss has all its digits.
+            let exact = large * 2f64.powi(1074 - 4 * k);
+            let off = (small.value / spacing - exact).abs();
+            assert!(off <= small.error / spacing, "{k} {delta:e}: {exact} {small:?}");
+            assert!(off > 0.0, "{k} {delta:e}");
+        }
+    }
+
+    /// With a large λ the loss is far larger than δ, and the rounding of δ′ is that of the loss.
+    #[test]
+    fn the_bound_of_the_displacement_counts_the_rounding_of_large_losses() {
+        let series = RightExpansion::new(1 << 40, MassRatio::ONE).unwrap();
+        let found = series.displacement(0.1).unwrap();
+        assert!(found.value.abs() > 1e9 && found.error > f64::EPSILON * found.value.abs());
+    }
+}

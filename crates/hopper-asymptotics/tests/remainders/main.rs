@@ -97,6 +97,20 @@ fn one_hop_changes_the_number_of_hops_by_one() {
     assert!(sum < 0.603 && Decay::ORBIT > 0.603, "{sum}");
 }
 
+/// Theorem 76: the slope of rK.
+#[test]
+fn the_slope_of_the_number_of_hops_is_near_one() {
+    let mut range = Interval::from(1.0);
+    for p in inverse_speeds() {
+        for v in Interval::split(0.0, right::LARGEST_ROOT, 16) {
+            for s in Interval::split(0.0, 0.1, 8) {
+                range = range.hull(right::slope(p, v, s));
+            }
+        }
+    }
+    assert!(range.low >= 0.69 && range.high <= 1.2, "{range:?}");
+}
+
 /// Theorem 78: small hops, and the fixed points.
 #[test]
 fn remainders_of_small_hops_and_fixed_points_are_below_their_bounds() {

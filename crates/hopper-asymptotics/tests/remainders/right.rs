@@ -11,7 +11,7 @@ const WIDTH: f64 = 1.25;
 /// Parts of 0 ≤ t ≤ 1.25.
 const PARTS: u32 = 40;
 /// At least ∛0.1 = 0.46415888…
-const LARGEST_ROOT: f64 = 0.464_159;
+pub(crate) const LARGEST_ROOT: f64 = 0.464_159;
 
 /// G = (δ − δ′)/(λδ^{4/3}) is at least this for 0 ≤ δ ≤ 0.1 (docs/theory.md, Theorem 74).
 pub(crate) const SMALLEST_LOSS: f64 = 0.879;
@@ -129,6 +129,20 @@ pub(crate) fn hop_remainder(p: Interval, mu: Interval, z: Interval, remainder: f
         + &(&square * &(&down * &loss)).scaled(Interval::from(3.0));
     let rest = (&change - &constant(1.0)).without(3);
     rest.range(Interval::new(0.0, width))
+}
+
+/// The slope of rK, 1 − Lv − ev², for v and s = λv in the given intervals.
+pub(crate) fn slope(p: Interval, v: Interval, s: Interval) -> Interval {
+    let one = Interval::from(1.0);
+    let beta = (Interval::from(12.0) / (one + p.squared())).cube_root();
+    let [l5, l6, ..] = coefficients(p, beta, Interval::from(0.0));
+    let m = l5 * v + s * Interval::ratio(2.0, 3.0);
+    let inverse = l6 * v.squared()
+        + s * l5 * v * Interval::ratio(4.0, 3.0)
+        + s.squared() * Interval::ratio(14.0, 27.0)
+        - m.squared()
+        + s * m * Interval::ratio(1.0, 6.0);
+    one - m - inverse
 }
 
 /// ((1 − y)^s − 1)/y for y = O(w).
