@@ -9,6 +9,7 @@
 //! | no imports through `lib.rs` | `lib_imports.rs` |
 //! | the root of the repository holds known names only | `root_folder.rs` |
 //! | citations of `docs/theory.md` name statements that exist | `theory_citations.rs` |
+//! | links lead to files and headings that exist | `links.rs` |
 //! | the files and tests that the documentation names exist | `names_in_pages.rs` |
 
 mod breach;
@@ -17,6 +18,7 @@ mod import_cycles;
 mod imports;
 mod lib_imports;
 mod line_rules;
+mod links;
 mod module_tree;
 mod names_in_pages;
 mod root_folder;
@@ -62,6 +64,7 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     root_folder::check(root, &mut breaches)?;
     let documents = sources::documents(root)?;
     theory_citations::check(&sources, &documents, &mut breaches);
+    links::check(root, &documents, &mut breaches);
     let pages: Vec<_> = documents.into_iter().filter(sources::is_page).collect();
     names_in_pages::check(&pages, &sources, &mut breaches);
     Ok(breaches)

@@ -3,7 +3,6 @@
 //! The scanner reads the SVG that `journal-figures` writes: elements, attributes in double quotes, and text. It refuses
 //! comments, declarations and images.
 
-use super::unreadable;
 use crate::error::Error;
 use std::collections::BTreeMap;
 
@@ -39,8 +38,8 @@ pub(crate) struct Drawing(Vec<Part>);
 impl Drawing {
     /// Reads an SVG file.
     pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Self, Error> {
-        let text = std::str::from_utf8(bytes).map_err(|e| unreadable(name, e))?;
-        let parts = parts(text).map_err(|reason| unreadable(name, reason))?;
+        let text = std::str::from_utf8(bytes).map_err(|e| Error::unreadable(name, e))?;
+        let parts = parts(text).map_err(|reason| Error::unreadable(name, reason))?;
         Ok(Drawing(parts))
     }
 

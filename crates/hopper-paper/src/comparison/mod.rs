@@ -28,8 +28,3 @@ pub(crate) fn difference(name: &str, old: &[u8], new: &[u8]) -> Result<Option<St
     let read = |bytes| Table::read(name, bytes);
     Ok(read(old)?.difference(&read(new)?))
 }
-
-/// A file that cannot be read as what its name says.
-fn unreadable(name: &str, reason: impl std::fmt::Display) -> Error {
-    Error::CheckFailed(format!("{name} cannot be compared: {reason}"))
-}

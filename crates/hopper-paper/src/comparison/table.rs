@@ -1,6 +1,5 @@
 //! Tables of numbers: the contents of CSV files, NumPy arrays and PNG images.
 
-use super::unreadable;
 use crate::error::Error;
 
 /// An entry of a table.
@@ -41,10 +40,10 @@ impl Table {
     /// Reads a file; the ending of its name decides how.
     pub(crate) fn read(name: &str, bytes: &[u8]) -> Result<Self, Error> {
         match name.rsplit_once('.').map(|(_, ending)| ending) {
-            Some("csv") => csv_table(bytes).map_err(|e| unreadable(name, e)),
-            Some("npy") => npy_table(bytes).map_err(|reason| unreadable(name, reason)),
-            Some("png") => png_table(bytes).map_err(|e| unreadable(name, e)),
-            _ => Err(unreadable(name, "only CSV, NumPy and PNG files are tables")),
+            Some("csv") => csv_table(bytes).map_err(|e| Error::unreadable(name, e)),
+            Some("npy") => npy_table(bytes).map_err(|reason| Error::unreadable(name, reason)),
+            Some("png") => png_table(bytes).map_err(|e| Error::unreadable(name, e)),
+            _ => Err(Error::unreadable(name, "only CSV, NumPy and PNG files are tables")),
         }
     }
 
