@@ -7,8 +7,8 @@ use crate::least_squares::{fit_curvature, fit_line};
 /// A fit of value ∝ scale^exponent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PowerLaw {
-    /// The exponent, with the 95 % interval of its least-squares fit. The interval assumes that the law holds:
-    /// see `warning` and `local`.
+    /// The exponent, with the 95 % interval of its least-squares fit. The interval assumes that the law holds and that the
+    /// errors of ln value are independent and normal, with one variance: see `warning` and `local`.
     pub exponent: ConfidenceInterval,
     /// The smallest and the largest scale.
     pub range: (f64, f64),
