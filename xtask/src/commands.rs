@@ -55,6 +55,11 @@ const TASKS: [Task; 12] = [
         package: MEASUREMENTS,
     },
     Task {
+        name: "check-bounds",
+        about: "Compare every error bound with the actual error, on millions of hops",
+        package: MEASUREMENTS,
+    },
+    Task {
         name: "work-precision",
         about: "Measure time against error of every way to compute a hop",
         package: MEASUREMENTS,

@@ -7,11 +7,11 @@
 //! |---|---|
 //! | [`commands`] | the commands, one file each |
 //! | `reference` | which question and which answer does a line of a reference file contain? |
+//! | `bounds` | is every error bound at least the actual error? |
 //! | `work_precision` | how much time and error does each way to compute a hop have? |
 //! | `speed` | how fast are hops and rasters, with their output checked first? |
 //! | `peers` | how do heyoka, SciPy and numba compare on the same hops? |
 
-#[allow(dead_code)] // the command check-bounds follows
 mod bounds;
 pub mod cli;
 pub mod commands;

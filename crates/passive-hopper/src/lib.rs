@@ -16,6 +16,8 @@
 //! |---|---|
 //! | [`MassRatio`] | M = m₂/m₁, validated; μ, κ, 1/M |
 //! | [`LiftOffMap`], [`Hop`], [`Landings`], [`Landing`] | the exact map in its stable form, hop by hop or landing by landing |
+//! | [`LiftOffMap::bounded_hop`], [`BoundedHop`] | a hop with bounds on the errors of its landings and of α′ |
+//! | [`LiftOffMap::reference_hop`], [`ReferenceHop`], [`Solver`] | a hop in 106 to 1024 bits, and the errors of shorter ways against it |
 //! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the map by the paper's Eqs. (6)–(8), for comparison |
@@ -66,6 +68,7 @@
 //! juggling is possible even with plastic collisions*, Int. J. Robotics Res. 21 (2002).
 
 mod error;
+mod evidence;
 mod hopper;
 mod kernel;
 mod landing;
@@ -74,7 +77,13 @@ mod model;
 mod precision;
 
 pub use error::Error;
+pub use evidence::bounded_hop::{BoundedHop, BoundedLanding, StateError};
+pub use evidence::compared::Compared;
+pub use evidence::function_errors::{SineErrors, sine_errors};
+pub use evidence::reference_hop::{FirstFlightErrors, HopErrors, LandingErrors, ReferenceHop};
+pub use evidence::solver::Solver;
 pub use hopper::{Hopper, HopperSurface, Phase};
+pub use landing::error_bound::MaximumTest;
 pub use landing::flight_ends::{Landing, TakeOff};
 pub use landing::half_flight::HalfFlight;
 pub use landing::local_flight::LocalFlight;

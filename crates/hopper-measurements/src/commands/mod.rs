@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+pub mod check_bounds;
 pub mod check_reference;
 pub mod compare_peers;
 pub mod speed;

@@ -1,13 +1,32 @@
 //! The first flight by tables.
 //!
-//! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone. It is analytic in δ except at δ = 0, where
-//! it has a cube root. The table cuts the interval into pieces whose length is a 16th of their distance from δ = 0. On
-//! each piece α − h and Γ are polynomials of degree 7, to an ulp. A piece is the set of numbers δ of one sign with the
-//! same exponent and the same first four bits of the fraction: its index is read from the bits of δ, without a search.
-//! In the code δ is measured from the `f64` nearest to α*_n, because the difference of two close `f64` is exact.
+//! In the interval (nπ, (n+1)π) the landing depends on δ = α − α*_n alone. The table cuts the interval into pieces whose
+//! length is a 16th of their distance from δ = 0, or less. On each piece α − h and Γ are polynomials of degree 7. A piece is
+//! the set of numbers δ of one sign with the same exponent and the same first four bits of the fraction: its index is
+//! read from the bits of δ, without a search. In the code δ is measured from the `f64` nearest to α*_n, because the
+//! difference of two close `f64` is exact.
+//!
+//! # Why these pieces
+//! h(α) is the inverse of A(h) = (h² − S²)/D, which is meromorphic in the whole plane. Such an inverse is singular only above
+//! critical values and asymptotic values of A. A′ = 2u²/D² vanishes only where tan h = h ≠ 0, and these h are real:
+//! the critical values are ±α*_k, k ≥ 1. A tends to a finite value along a path to infinity only where |Im h| → ∞, and
+//! then A = tan h + … → ±i. So h(α) and Γ(α) continue analytically along every path that avoids ±α*_k and ±i. Therefore
+//! the error of a polynomial of degree 7 decreases as ρ⁻⁸, where ρ = z + √(z² − 1) and z is the distance of the nearest
+//! singularity from the centre of the piece, divided by half the length of the piece (Bernstein's ellipse):
+//!
+//! ```text
+//!   interval n     nearest singularities                smallest ρ
+//!   n ≥ 1          α*_n, at 16.5/0.5 half-lengths       66        next to nπ and (n+1)π also α*_{n∓1}, ρ ≥ 95
+//!   0              ±i, and next to π α*_1               83        α = 0 is not singular
+//! ```
+//!
+//! In the interval 0 pieces of a 16th would have ρ = 42 next to π, because α*_1 is only 1.35 from π. The error would grow by
+//! a factor (66/42)⁸ ≈ 40. The pieces there are half as long. No speed lies below α*_0 = 0, so that the places of the
+//! other sign are free for them.
 //!
 //! A table is computed when a speed in its interval is used for the first time. That takes some milliseconds.
 
+use crate::landing::error_bound::LANDING_ULPS;
 use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::landing::half_time::HalfTime;
 use crate::landing::half_time_root::HalfTimeRoot;
@@ -21,9 +40,30 @@ use std::sync::{LazyLock, OnceLock};
 /// expansion. The number is a power of two, so that a mask replaces the bounds check of an index.
 pub(crate) const TABLES: usize = 32;
 
-/// Coefficients of a piece: eight `f64`, one vector of AVX-512 and one line of the cache. Degree 7 is not derived;
-/// on pieces of this length its error is about an ulp (measured).
+/// Coefficients of a piece: eight `f64`, one vector of AVX-512 and one line of the cache. With degree 7 the error of the
+/// interpolation is below that of the rounding; see [`TABLE_ULPS`]. With degree 6 it would be 100 times as large.
 const COEFFICIENTS: usize = 8;
+
+/// Bound on the error of the tables, in units of ε = 2⁻⁵²: TABLE_ULPS·ε·Γ for Γ, and
+/// TABLE_ULPS·ε·(|α − h| + [`BEYOND_FLOOR`]) for α − h.
+///
+/// *Rounding.* Let q be Σ|cₖ|/|c₀| over k ≥ 1, with |c₀| + BEYOND_FLOOR instead of |c₀| for α − h. On every piece q ≤ 0.065.
+/// c₀ is rounded once and takes part in three additions of [`polynomial`]. Every other term takes part in at most eleven
+/// roundings. The error is at most (4 + 11q)/(1 − q) half-units, below 2.6 ε.
+/// *Interpolation.* Its error is T₈ times a function that changes little on a piece. At the extrema of T₈ it is at most
+/// 0.45 ε Γ and 1.05 ε (|α − h| + BEYOND_FLOOR), computed with 40 digits. `xtask/generators/first_flight.py` makes these
+/// numbers and q.
+///
+/// Measured with both: 1.9 and 1.7, at 214 723 speeds on all pieces of all intervals, against 40 digits.
+pub(crate) const TABLE_ULPS: f64 = 4.0;
+
+/// α − h vanishes at nπ and (n+1)π, but the error of its polynomial does not vanish there. The value is the smallest power
+/// of two for which the bound of the rounding stays below three units: a smaller one makes q larger.
+pub(crate) const BEYOND_FLOOR: f64 = 0.25;
+
+// The decisions of a hop count LANDING_ULPS for each quantity of a landing. The errors of Γ² and of x′ = 2h (α − h) are
+// twice those of the factors, and |α − h| < 1.
+const _: () = assert!(2.0 * TABLE_ULPS * (1.0 + BEYOND_FLOOR) < LANDING_ULPS);
 
 /// Octaves of |δ| with pieces, from 2⁻¹³ up to 4; |δ| is at most π. Speeds within 2⁻¹³ of α*_n have no piece. Such
 /// speeds are few. The kernel leaves them undecided, and the root search solves them.
@@ -31,7 +71,7 @@ const OCTAVES: usize = 15;
 /// The exponent field of 2⁻¹³ in an `f64`.
 const FIRST_OCTAVE: u64 = 1023 - 13;
 
-/// Pieces on one side of α*_n: 16 in each octave, by four bits of the fraction.
+/// Pieces on one side of α*_n: 16 in each octave, by four bits of the fraction. In the interval 0 there are twice as many.
 const PIECES: usize = 16 * OCTAVES;
 
 /// Speeds nearer to nπ than this, in units of π, have no piece. The kind of the landing changes at nπ, and α/π has a
@@ -43,7 +83,7 @@ const NEAR_END: f64 = 1e-7;
 pub(crate) type Piece = [f64; COEFFICIENTS];
 
 /// The pieces of an interval: first the pieces above α*_n, then the pieces below α*_n, then one piece whose values are
-/// NaN.
+/// NaN. In the interval 0: first the left halves of the pieces, then their right halves.
 #[derive(Debug)]
 #[repr(align(64))]
 pub(crate) struct FirstFlightTable {
@@ -121,14 +161,18 @@ impl TablePosition {
         // index wraps to a huge number.
         let index = (bits >> 48).wrapping_sub(FIRST_OCTAVE << 4);
         let sudden = delta.to_bits() >> 63;
+        // In the interval n = 0, where δ ≥ 0, the fifth bit of the fraction takes the place of the sign.
+        let is_halved = interval == 0;
+        let (second_half, shift_of) =
+            if is_halved { (bits >> 47 & 1, bits << 5) } else { (sudden, bits << 4) };
         // In the interval n = 0 the kind of the landing does not change near α = 0: small speeds keep their piece.
         let inside = (index < PIECES as u64)
             & (alpha_over_pi < TABLES as f64)
             & (part < 1.0 - NEAR_END)
             & ((part > NEAR_END) | (alpha_over_pi < 0.5));
-        let piece = if inside { index + sudden * PIECES as u64 } else { NO_PIECE as u64 };
+        let piece = if inside { index + second_half * PIECES as u64 } else { NO_PIECE as u64 };
         // The remaining bits of the fraction, as the fraction of a number in [1, 2).
-        let fraction = f64::from_bits((bits << 4) & (u64::MAX >> 12) | ONE);
+        let fraction = f64::from_bits(shift_of & (u64::MAX >> 12) | ONE);
         TablePosition {
             interval,
             piece,
@@ -190,14 +234,15 @@ impl FirstFlightTable {
         let end = |multiple: u64| {
             (DoubleDouble::multiple_of_pi(multiple as f64) - fixed_point).high.abs()
         };
+        let (above, below) = (end(n + 1), end(n));
         let mut table = Box::new(FirstFlightTable::EMPTY);
-        for (side, sign, multiple) in [(0, 1.0, n + 1), (PIECES, -1.0, n)] {
+        for slot in 0..NO_PIECE {
+            let span = Span::of(n, slot);
             // No speed of the interval lies on a piece that begins beyond its end.
-            let reach = end(multiple);
-            for index in (0..PIECES).take_while(|&index| left_end(index) < reach) {
-                let (closing_speed, beyond) = piece(fixed_point, index, sign);
-                table.closing_speed[side + index] = closing_speed;
-                table.beyond[side + index] = beyond;
+            if span.left < if span.sign > 0.0 { above } else { below } {
+                let (closing_speed, beyond) = span.coefficients(fixed_point);
+                table.closing_speed[slot] = closing_speed;
+                table.beyond[slot] = beyond;
             }
         }
         table
@@ -219,18 +264,38 @@ pub(crate) fn polynomial(c: &Piece, x: f64) -> f64 {
     low + fourth * high
 }
 
-/// Γ and α − h on a piece of the side with this `sign`.
-fn piece(fixed_point: DoubleDouble, index: usize, sign: f64) -> (Piece, Piece) {
-    let left = left_end(index);
-    let half = 0.5 * (left_end(index + 1) - left);
-    let values: [_; COEFFICIENTS] = std::array::from_fn(|k| {
-        let size = (INTERPOLATION.nodes[k] + 1.0) * half + left;
-        exact_first(fixed_point + size * sign)
-    });
-    (
-        INTERPOLATION.coefficients(values.map(|(speed, _)| speed)),
-        INTERPOLATION.coefficients(values.map(|(_, beyond)| beyond)),
-    )
+/// The part of an interval that a piece covers: δ from `sign`·`left` to `sign`·(`left` + `width`).
+struct Span {
+    left: f64,
+    width: f64,
+    sign: f64,
+}
+
+impl Span {
+    /// The part of the interval n that the piece at index `slot` covers.
+    fn of(n: u64, slot: usize) -> Self {
+        let (index, second) = (slot % PIECES, slot >= PIECES);
+        let left = left_end(index);
+        let width = left_end(index + 1) - left;
+        if n > 0 {
+            return Span { left, width, sign: if second { -1.0 } else { 1.0 } };
+        }
+        let half = 0.5 * width;
+        Span { left: if second { left + half } else { left }, width: half, sign: 1.0 }
+    }
+
+    /// Γ and α − h by powers of the position.
+    fn coefficients(&self, fixed_point: DoubleDouble) -> (Piece, Piece) {
+        let half = 0.5 * self.width;
+        let values: [_; COEFFICIENTS] = std::array::from_fn(|k| {
+            let size = (INTERPOLATION.nodes[k] + 1.0) * half + self.left;
+            exact_first(fixed_point + size * self.sign)
+        });
+        (
+            INTERPOLATION.coefficients(values.map(|(speed, _)| speed)),
+            INTERPOLATION.coefficients(values.map(|(_, beyond)| beyond)),
+        )
+    }
 }
 
 /// Γ and α − h from `alpha`, to nearly 30 digits: one evaluation in 106 bits at the root that `f64` finds, corrected to
@@ -294,5 +359,85 @@ impl Interpolation {
             let terms = row.iter().zip(values).map(|(&factor, value)| factor * value);
             terms.fold(DoubleDouble::ZERO, |sum, term| sum + term).high
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// α, then Γ and α − h as sums of two numbers: from 50 digits, made with mpmath from A(h) = α.
+    ///
+    /// The first two are the places with the largest errors of each of both, among 214 723. At the third and fourth, next to π,
+    /// pieces of a 16th had errors of up to 20 units in Γ and 330 in α − h.
+    const WORST: [(f64, [f64; 2], [f64; 2]); 6] = [
+        (
+            48.174857773621056,
+            [64.63483573257757, -1.3977531131515864e-15],
+            [0.46046174632412634, 1.497611630725665e-17],
+        ),
+        (
+            18.220755271931772,
+            [33.93062084686079, -3.5040945001288176e-16],
+            [-0.3034370889122746, -1.9848269902102622e-17],
+        ),
+        (
+            3.1295085938536618,
+            [6.28295651784837, 4.204715306189653e-16],
+            [-0.006041956554337576, -2.0596303722638652e-19],
+        ),
+        (
+            3.1261,
+            [6.282809513057498, -2.962179347373632e-16],
+            [-0.007746172419638805, 3.3418752643031823e-19],
+        ),
+        (
+            2.618033988749895,
+            [5.892865180711441, -1.1689865843587998e-17],
+            [-0.25628266739301353, -5.9058381172073745e-18],
+        ),
+        (
+            1.8632011245757307,
+            [4.222473248762292, 1.5181248118923702e-16],
+            [-0.5598694317209838, -5.0354735356522825e-17],
+        ),
+    ];
+
+    /// Errors of Γ and α − h at `alpha` in the units of [`TABLE_ULPS`].
+    fn errors(alpha: f64, gamma: DoubleDouble, beyond: DoubleDouble) -> [f64; 2] {
+        let found = TablePosition::of(alpha, fixed_points()).first_flight(alpha).unwrap();
+        let far = |found: f64, exact: DoubleDouble| (-exact + found).high.abs() / f64::EPSILON;
+        [
+            far(found.closing_speed, gamma) / gamma.high,
+            far(found.beyond, beyond) / (beyond.high.abs() + BEYOND_FLOOR),
+        ]
+    }
+
+    #[test]
+    fn the_worst_places_are_within_the_bound() {
+        for (alpha, gamma, beyond) in WORST {
+            let exact = |[high, low]: [f64; 2]| DoubleDouble::from(high) + low;
+            let [of_gamma, of_beyond] = errors(alpha, exact(gamma), exact(beyond));
+            assert!(of_gamma < 2.0 && of_beyond < 2.0, "{alpha}: {of_gamma} {of_beyond}");
+        }
+    }
+
+    /// Every piece of some intervals, against the function that is interpolated, at four places that are no nodes.
+    #[test]
+    fn every_piece_is_within_the_bound() {
+        for n in [0, 1, 2, 31] {
+            for span in (0..NO_PIECE).map(|slot| Span::of(n, slot)) {
+                for part in [0.001, 0.25, 0.64, 0.999] {
+                    let alpha = alpha_star(n) + span.sign * (span.left + part * span.width);
+                    let position = TablePosition::of(alpha, fixed_points());
+                    if position.interval != n || position.piece == NO_PIECE as u64 {
+                        continue; // beyond the end of the interval, or next to it
+                    }
+                    let (gamma, beyond) = exact_first(DoubleDouble::from(alpha));
+                    let errors = errors(alpha, gamma, beyond);
+                    assert!(errors.iter().all(|&error| error < TABLE_ULPS), "{alpha}: {errors:?}");
+                }
+            }
+        }
     }
 }

@@ -68,12 +68,23 @@ impl FlightDerivative {
         (Variation { excess, velocity: dv - dt + self.kappa * closing }, closing)
     }
 
+    /// Bound on the change of the time to first order, N/Γ with N = (1 − cos τ) dx + (τ − sin τ) dV, for changes bounded
+    /// by `change`.
+    pub(crate) fn largest_delay(&self, change: Variation) -> f64 {
+        (self.versine * change.excess + self.delay.abs() * change.velocity) / self.closing_speed
+    }
+
+    /// Bound on |d(Γ²)/dV| = 2 |(1 − cos τ) Γ + (τ − sin τ) x′|, which is finite where Γ = 0.
+    pub(crate) fn largest_loss_slope(&self) -> f64 {
+        2.0 * (self.versine * self.closing_speed + self.delay.abs() * self.excess.abs())
+    }
+
     /// Bounds on the results of [`carry`](Self::carry) for changes bounded by `change`: the sums of the absolute values
     /// of all terms, so that no term cancels another.
     pub(crate) fn bound(&self, change: Variation) -> (Variation, f64) {
         let (dx, dv) = (change.excess, change.velocity);
         let (sin, cos) = (self.sin.abs(), self.cos.abs());
-        let dt = (self.versine * dx + self.delay.abs() * dv) / self.closing_speed;
+        let dt = self.largest_delay(change);
         let closing = sin * dx + self.versine * dv + self.excess.abs() * dt;
         let excess = cos * dx + sin * dv + (self.rates.0.abs() + self.rates.1.abs()) * dt;
         (Variation { excess, velocity: dv + dt + self.kappa * closing }, closing)

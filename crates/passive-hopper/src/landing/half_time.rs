@@ -113,8 +113,22 @@ impl<R: Extended> HalfTime<R> {
     /// The functions at `h` > 0 in extended arithmetic.
     pub(crate) fn extended_at(h: R) -> Self {
         let (sin, cos) = h.sin_cos();
-        let small = h.nearest() < EXTENDED_SERIES_BELOW;
-        let (d, u) = if small { extended_series(h) } else { (h - sin * cos, h * cos - sin) };
+        if h.nearest() < EXTENDED_SERIES_BELOW {
+            // As in `f64`, ρ and σ are quotients of u/h³ and D/h³, because h³ underflows in 106 bits.
+            let (d_hat, u_hat) = extended_series(h);
+            let cube = h.squared() * h;
+            let sigma = (sin / h).squared() / (d_hat * h);
+            return HalfTime {
+                h,
+                sin,
+                cos,
+                d: d_hat * cube,
+                u: u_hat * cube,
+                rho: u_hat / d_hat,
+                sigma,
+            };
+        }
+        let (d, u) = (h - sin * cos, h * cos - sin);
         HalfTime { h, sin, cos, d, u, rho: u / d, sigma: sin.squared() / d }
     }
 }
@@ -143,14 +157,17 @@ impl<R: Real> HalfTime<R> {
     }
 }
 
-/// D and u by their series.
+/// D/h³ and u/h³ by their series.
 fn extended_series<R: Extended>(h: R) -> (R, R) {
     let minus_square = -h.squared();
     let (mut d, mut u) = (R::from(0.0), R::from(0.0));
-    let mut term = h; // (−1)^k h^{2k+1}/(2k+1)!
+    let mut term = R::from(-1.0); // (−1)^k h^{2k−2}/(2k+1)!
     let mut power_of_four = 1.0;
     for k in 1..=MOST_TERMS {
-        term = (term * minus_square).over(2 * k * (2 * k + 1));
+        if k > 1 {
+            term = term * minus_square;
+        }
+        term = term.over(2 * k * (2 * k + 1));
         power_of_four *= 4.0;
         d = d - term * power_of_four;
         u = u + term * f64::from(2 * k);

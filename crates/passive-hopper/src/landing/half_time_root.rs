@@ -10,18 +10,31 @@ pub(crate) struct HalfTimeRoot {
     residual: f64,
     /// The exact root minus h.
     rest: f64,
+    /// The interval that holds the root, with its ends rounded.
+    pub(crate) bracket: (f64, f64),
 }
 
-/// Guard on the number of steps, never reached: bisection alone ends within 64 + 53 steps of any bracket.
+/// Guard on the number of steps, never reached in tests. Halving alone leaves no `f64` in a bracket after 53 steps from
+/// a bracket of the root's own size, and after 1074 from one that reaches down to 0; there Halley's steps converge from
+/// the expansion's guess. After the last step the search returns the current h, whose residual is removed to first order.
 const MOST_STEPS: usize = 200;
 
-/// Added to |V − h| in the scale of the tolerance, so that the tolerance is not zero where V − h vanishes. Chosen, not
-/// derived.
-const LARGE_DIFFERENCE: f64 = 8.0;
+/// Added to |V − h| in the scale of the tolerance, so that the tolerance is not zero where V − h vanishes.
+///
+/// The rounding error of the residual is up to 16 ulps of |V − h| + 1 (docs/theory.md, Lemma 58): a tolerance far below
+/// that would not be met. A residual within the tolerance is still removed to first order, so that a larger value would
+/// cost accuracy only where that fails, next to a touch. The error bound counts the tolerance there
+/// (`error_bound.rs`).
+pub(crate) const LARGE_DIFFERENCE: f64 = 8.0;
 
-/// The square of a relative correction of this size is 10⁻¹⁸, less than an ulp: the first order of the correction
-/// suffices.
+/// Largest relative corrections of h and of Γ² that are left to first order. What they leave is at most 8·10⁻¹⁸ of h, or
+/// of 1 where h > 1: a tenth of half an ulp (docs/theory.md, Lemma 59). A larger value would lose digits; a smaller one
+/// costs steps.
 const FIRST_ORDER: f64 = 1e-9;
+
+/// The correction may leave the bracket by this many ulps of h: the ends nπ and (n+1)π of a bracket are rounded by an
+/// ulp, and a landing may lie between the rounded end and the exact one. V(h) increases there too.
+const ROUNDED_ENDS: f64 = 2.0;
 
 impl HalfTimeRoot {
     /// Halley's method inside a bracket on which V(h) increases, from `start` or from the middle.
@@ -57,10 +70,12 @@ impl HalfTimeRoot {
             half = HalfTime::at(h);
             residual = (h - velocity) + half.speed_beyond_h(excess);
         }
-        let rest =
-            (-residual / half.start_speed_slope(excess)).clamp(left.min(h) - h, right.max(h) - h);
+        let beyond = ROUNDED_ENDS * f64::EPSILON * h;
+        let rest = (-residual / half.start_speed_slope(excess))
+            .clamp(left.min(h) - h - beyond, right.max(h) - h + beyond);
         // At a triple root both residual and slope may be zero.
-        HalfTimeRoot { half, residual, rest: if rest.is_nan() { 0.0 } else { rest } }
+        let rest = if rest.is_nan() { 0.0 } else { rest };
+        HalfTimeRoot { half, residual, rest, bracket }
     }
 
     /// The landing at the root, corrected to first order in `rest`; `sudden` if it is known already.

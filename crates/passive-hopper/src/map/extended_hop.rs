@@ -21,13 +21,13 @@ use std::f64::consts::PI;
 
 /// μ and κ.
 #[derive(Debug, Clone, Copy)]
-struct ExtendedMasses<R> {
-    mu: R,
+pub(crate) struct ExtendedMasses<R> {
+    pub(crate) mu: R,
     kappa: R,
 }
 
 impl<R: Extended> ExtendedMasses<R> {
-    fn new(mass_ratio: MassRatio) -> Self {
+    pub(crate) fn new(mass_ratio: MassRatio) -> Self {
         let m = R::from(mass_ratio.value());
         let whole = m + 1.0;
         let kappa = m / whole;
@@ -101,6 +101,15 @@ fn hop_with<R: Extended>(
     start: Start,
     mass_ratio: MassRatio,
 ) -> Result<Option<ExtendedHop>, Error> {
+    watched_hop_with::<R>(start, mass_ratio, |_, _| ())
+}
+
+/// As [`hop_with`]; `see` receives each landing, with the bounds after it.
+pub(crate) fn watched_hop_with<R: Extended>(
+    start: Start,
+    mass_ratio: MassRatio,
+    see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
+) -> Result<Option<ExtendedHop>, Error> {
     let masses = ExtendedMasses::<R>::new(mass_ratio);
     let (alpha, offset, first, first_is_sudden) = match start {
         Start::Speed(speed) => {
@@ -108,8 +117,8 @@ fn hop_with<R: Extended>(
             let alpha = R::from(speed);
             let first = if interval.n == 0 {
                 // In the interval n = 0 the landing is never a triple root: the general root search is accurate.
-                let h = first_root(&interval, speed).half.h;
-                ExtendedLanding::near(h, R::from(0.0), alpha, masses.kappa)
+                let root = first_root(&interval, speed);
+                ExtendedLanding::near(&root, R::from(0.0), alpha, masses.kappa)
             } else {
                 let star = fixed_point_in::<R>(interval.n);
                 NearFixedPoint::new(star).extended_landing(alpha - star, masses.kappa)
@@ -123,7 +132,7 @@ fn hop_with<R: Extended>(
             (star + offset, offset, first, delta < 0.0)
         }
     };
-    let Some(chain) = chain(first, first_is_sudden, alpha.nearest(), masses)? else {
+    let Some(chain) = chain(first, first_is_sudden, alpha.nearest(), masses, see)? else {
         return Ok(None);
     };
     let loss = masses.mu * chain.loss;
@@ -168,6 +177,7 @@ fn chain<R: Extended>(
     first_is_sudden: bool,
     alpha: f64,
     masses: ExtendedMasses<R>,
+    mut see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
 ) -> Result<Option<Chain<R>>, Error> {
     let kappa = masses.kappa.nearest();
     let mut landing = first;
@@ -178,6 +188,7 @@ fn chain<R: Extended>(
         error_bound: ErrorBound::of_extended(alpha, R::EPSILON),
     };
     hop.error_bound.add_flight(&rounded, kappa);
+    see(&landing, &hop.error_bound);
     while rounded.sudden {
         let sudden = hop.landings.len();
         let (x, v) = (landing.excess, landing.velocity);
@@ -194,11 +205,12 @@ fn chain<R: Extended>(
         }
         let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
         let root = next_root(start, start.velocity >= PI && test >= 0.0);
-        landing = ExtendedLanding::near(root.half.h, x, v, masses.kappa);
+        landing = ExtendedLanding::near(&root, x, v, masses.kappa);
         hop.loss = hop.loss + landing.closing_speed.squared();
         rounded = landing.rounded(false);
         rounded.sudden = is_sudden(rounded.excess, rounded.velocity);
         hop.error_bound.add_flight_on_branch(&rounded, kappa, test);
+        see(&landing, &hop.error_bound);
         hop.landings.push(rounded);
     }
     Ok(Some(hop))

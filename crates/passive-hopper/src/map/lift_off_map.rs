@@ -123,11 +123,11 @@ impl LiftOffMap {
     fn decide(
         &self,
         alpha: f64,
-        see: impl FnMut(&Landing),
+        mut see: impl FnMut(&Landing),
     ) -> Result<(Hop, Option<Vec<Landing>>), Error> {
         check_speed(alpha)?;
         if alpha <= LARGEST_PLAIN_SPEED {
-            let hop = self.plain_hop(alpha, see)?;
+            let hop = self.plain_hop(alpha, |landing, _| see(landing))?;
             // A hop with more sudden lift-offs than longer arithmetic allows stays uncertain.
             if hop.certain || hop.sudden > DoubleDouble::SUDDEN_BUDGET {
                 return Ok((hop, None));
@@ -137,8 +137,12 @@ impl LiftOffMap {
         Ok((self.rounded(alpha, &hop), Some(hop.landings)))
     }
 
-    /// The hop in plain `f64`, certain or not.
-    fn plain_hop(&self, alpha: f64, mut see: impl FnMut(&Landing)) -> Result<Hop, Error> {
+    /// The hop in plain `f64`, certain or not. `see` receives each landing, with the bounds after it.
+    pub(crate) fn plain_hop(
+        &self,
+        alpha: f64,
+        mut see: impl FnMut(&Landing, &ErrorBound),
+    ) -> Result<Hop, Error> {
         let landings = self.landings(alpha)?;
         // Σ (Γ/α)²: of ratios, so that no square underflows for tiny α.
         let (mut ratios_squared, mut sudden, mut flight_time) = (0.0, 0, 0.0);
@@ -150,7 +154,7 @@ impl LiftOffMap {
             sudden += usize::from(landing.sudden);
             flight_time += landing.time;
             error_bound.add_flight(&landing, self.factors.kappa);
-            see(&landing);
+            see(&landing, &error_bound);
         }
         let t = self.factors.mu * ratios_squared;
         let certain = !error_bound.inconclusive(1.0 - t, self.factors.mu, alpha);
@@ -162,7 +166,7 @@ impl LiftOffMap {
         Ok(Hop { speed: alpha, next, loss, next_speed_squared, sudden, flight_time, certain })
     }
 
-    fn rounded(&self, alpha: f64, hop: &ExtendedHop) -> Hop {
+    pub(crate) fn rounded(&self, alpha: f64, hop: &ExtendedHop) -> Hop {
         Hop {
             speed: alpha,
             next: hop.next.as_ref().map(|next| next.speed),
@@ -189,7 +193,7 @@ impl LiftOffMap {
 }
 
 impl DecidedHop {
-    fn hop(&self, alpha: f64) -> Hop {
+    pub(crate) fn hop(&self, alpha: f64) -> Hop {
         let next = self.next();
         Hop {
             speed: alpha,
@@ -204,7 +208,7 @@ impl DecidedHop {
     }
 }
 
-fn check_speed(alpha: f64) -> Result<(), Error> {
+pub(crate) fn check_speed(alpha: f64) -> Result<(), Error> {
     if !(alpha > 0.0) || !alpha.is_finite() {
         return Err(Error::LiftOffSpeed { value: alpha });
     }

@@ -68,8 +68,11 @@ fn four_terms(c: &[f64; 6], z: f64) -> f64 {
     (c[0] + c[1] * z) + (z * z) * (c[2] + c[3] * z)
 }
 
+/// Bound on the errors of S and C in units of ε = 2⁻⁵² of the value.
+pub(crate) const SINE_ULPS: f64 = 1.2;
+
 impl HalfAngle {
-    /// The functions of `h`, 0 < h < 2²⁰: S and C to 1.2 ulps, D and u without cancellation at small h.
+    /// The functions of `h`, 0 < h < 2²⁰: S and C to [`SINE_ULPS`], D and u without cancellation at small h.
     #[inline(always)]
     pub(crate) fn at(h: f64) -> Self {
         let (quarters, bits) = nearest_integer(h * FRAC_2_PI);

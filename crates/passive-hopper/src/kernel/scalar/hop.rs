@@ -75,11 +75,16 @@ impl FlightSums {
     #[inline(always)]
     pub(crate) fn end(&self, alpha: f64, mu: f64) -> (DecidedHop, bool) {
         let loss_of_square = mu * self.closing_speeds_squared;
-        let square = alpha * alpha;
-        let next_speed_squared = square - loss_of_square;
-        let rounding = LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * square;
-        let decided = next_speed_squared.abs() > rounding + mu * self.error;
+        let next_speed_squared = alpha * alpha - loss_of_square;
+        let decided = next_speed_squared.abs() > self.error_of_square(alpha, mu);
         (DecidedHop { sums: *self, loss_of_square, next_speed_squared }, decided)
+    }
+
+    /// Bound on the error of α′²; see [`end`](Self::end).
+    #[inline(always)]
+    pub(crate) fn error_of_square(&self, alpha: f64, mu: f64) -> f64 {
+        let rounding = LANDING_ULPS * f64::EPSILON * (2.0 + self.flights) * (alpha * alpha);
+        rounding + mu * self.error
     }
 }
 
@@ -105,14 +110,33 @@ pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> 
 
 /// The hop from `alpha`; `None` if the general solver must decide.
 #[inline]
-pub(crate) fn kernel_hop(alpha: f64, MassFactors { mu, kappa }: MassFactors) -> Option<DecidedHop> {
+pub(crate) fn kernel_hop(alpha: f64, factors: MassFactors) -> Option<DecidedHop> {
+    watched_kernel_hop(alpha, factors, |_| ())
+}
+
+/// The hop from `alpha`; `see` receives each flight's end. A `see` that does nothing costs nothing: the function is
+/// compiled for it.
+#[inline(always)]
+pub(crate) fn watched_kernel_hop(
+    alpha: f64,
+    MassFactors { mu, kappa }: MassFactors,
+    mut see: impl FnMut(&FlightEnd),
+) -> Option<DecidedHop> {
     let position = TablePosition::of(alpha, fixed_points());
     let first = position.first_flight(alpha)?;
     let mut sums = FlightSums::of_first(&first);
+    see(&FlightEnd {
+        state: state_after_first(&first, alpha, kappa),
+        closing_speed_squared: sums.closing_speeds_squared,
+        closing_speed_squared_error: sums.error,
+        half_time: first.half_time,
+        accepted: true,
+    });
     if position.sudden == 1 {
         let mut state = state_after_first(&first, alpha, kappa);
         loop {
             let end = later_flight(&state, kappa)?;
+            see(&end);
             sums = sums.with(&end);
             state = end.state;
             if !(state.excess > 0.0) {

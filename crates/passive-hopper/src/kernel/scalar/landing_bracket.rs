@@ -12,6 +12,7 @@
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::half_angle::{HalfAngle, negated_if_odd};
 use crate::kernel::scalar::initial_guess;
+use crate::landing::error_bound::MaximumTest;
 use crate::precision::nearest_integer::nearest_integer;
 use std::f64::consts::{FRAC_1_PI, PI};
 
@@ -23,12 +24,35 @@ const LARGEST_VELOCITY: f64 = 128.0;
 
 /// Within this distance of mπ, in units of π, the general solver computes the flight.
 ///
-/// There ⌊V/π⌋ depends on rounding. The value is far above the rounding error of V/π below [`LARGEST_VELOCITY`], 10⁻¹⁴.
-/// It leaves two flights in 10⁹ to the general solver.
+/// There ⌊V/π⌋ depends on rounding. The rounding error of V/π below [`LARGEST_VELOCITY`] is 10⁻¹⁴ (two roundings of a
+/// number up to 41), and that of (m+1)π and mπ as much. The error of V itself does no harm: the flights on both sides of
+/// mπ land on one branch (docs/theory.md, Theorem 12). The value 10⁻⁹ leaves two flights in 10⁹ to the general solver.
 const NEAR_MULTIPLE_OF_PI: f64 = 1e-9;
 
-/// Bound on the error of the sine and cosine in the maximum test: eight digits, see [`HalfAngle::to_eight_digits`].
-const EIGHT_DIGITS: f64 = 1e-8;
+/// Bound on the error of the sine and cosine in the maximum test, and of the test relative to 1 + x + V: the terms that
+/// [`HalfAngle::to_eight_digits`] omits are below 1.8·10⁻⁹ (docs/theory.md, Lemma 57).
+pub(crate) const EIGHT_DIGITS: f64 = 2e-9;
+
+/// The maximum test of the kernel for a flight with V ≥ π, with the bound on its error; m = ⌊V/π⌋ has this `parity`.
+///
+/// The same formula as `maximum_test` of `landing/next_landing.rs`; written again because eight digits of the sines
+/// suffice here and cost less, and because the parity comes with m, without a branch.
+#[inline(always)]
+fn kernel_maximum_test(state: &GroundState, parity: u64) -> MaximumTest {
+    let GroundState { excess, velocity, error } = *state;
+    let at = HalfAngle::to_eight_digits(velocity);
+    let value = negated_if_odd(velocity * at.cos - (1.0 + excess) * at.sin, parity);
+    // |test| must be larger than its error: that of the sines, and that of x and V, where |∂test/∂x| ≤ 1 and
+    // |∂test/∂V| ≤ x + V (docs/theory.md, Lemma 64).
+    let size = 1.0 + excess + velocity;
+    MaximumTest { value, error: EIGHT_DIGITS * size + error + size * error }
+}
+
+/// The maximum test that decides the branch of the flight from `state`, or `None` for V < π: there is one branch.
+pub(crate) fn maximum_test_of(state: &GroundState) -> Option<MaximumTest> {
+    let (_, parity) = nearest_integer(state.velocity * FRAC_1_PI - 0.5);
+    (state.velocity >= PI).then(|| kernel_maximum_test(state, parity))
+}
 
 /// The bracket of a flight's landing.
 ///
@@ -63,21 +87,12 @@ impl LandingBracket {
     /// The bracket for V ≥ π.
     #[inline(always)]
     pub(crate) fn from_pi(state: &GroundState) -> Self {
-        let GroundState { excess, velocity, error } = *state;
+        let GroundState { excess, velocity, .. } = *state;
         let velocity_over_pi = velocity * FRAC_1_PI;
         let (m, parity) = nearest_integer(velocity_over_pi - 0.5); // ⌊V/π⌋
         let part = velocity_over_pi - m; // in [0, 1]
-        // The same formula as `maximum_test` of `landing/next_landing.rs`; written again because eight digits of the
-        // sines suffice here and cost less, and because the parity comes with m, without a branch.
-        let at_velocity = HalfAngle::to_eight_digits(velocity);
-        let test =
-            negated_if_odd(velocity * at_velocity.cos - (1.0 + excess) * at_velocity.sin, parity);
+        let MaximumTest { value: test, error: slack } = kernel_maximum_test(state, parity);
         let before_maximum = (test >= 0.0) & (part < 0.5);
-        // |test| must be larger than its error: that of the sines, and that of x and V, where |∂test/∂x| ≤ 1 and
-        // |∂test/∂V| ≤ 1 + Y + V. A factor 2 would do, since 1 + Y + V ≤ 2 (1 + x + V); 4 is a margin. A larger
-        // factor would send more flights to the careful path.
-        let size = 4.0 * (1.0 + excess + velocity);
-        let slack = EIGHT_DIGITS * size + error + size * error;
         let (low, high) = (m * PI, (m + 1.0) * PI);
         let certain = (test.abs() > slack)
             & (part > NEAR_MULTIPLE_OF_PI)

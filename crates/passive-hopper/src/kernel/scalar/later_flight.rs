@@ -14,7 +14,7 @@
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::half_angle::HalfAngle;
 use crate::kernel::scalar::landing_bracket::LandingBracket;
-use crate::landing::error_bound::LANDING_ULPS;
+use crate::landing::error_bound::{BACKWARD_ULPS, LANDING_ULPS};
 use crate::landing::flight_ends::{TakeOff, state_after_flight};
 use crate::landing::half_time::HalfTime;
 use std::f64::consts::PI;
@@ -35,12 +35,20 @@ const LAST_STEP: f64 = 3e-5;
 /// Largest relative correction that is added to first order: its square, 10⁻¹⁸, is below an ulp.
 const FIRST_ORDER: f64 = 1e-9;
 
-/// The part of the size of a flight's quantities that is added to |ṡ|, the rate of the stretch at the landing.
-///
-/// ṡ can cancel, and its computed value may then be smaller than its error. The part keeps room for an error of up to
-/// 10⁻⁵ of the size. It is an estimate, not derived. A smaller part could make the bound of x′ too small; a larger one
-/// would send more hops to the careful path.
-const RATE_ERROR: f64 = 1e-5;
+/// Largest size · T/Γ of a flight that is accepted, with T the bound on the error of the time of flight and the size
+/// 1 + x + |V| + τ + Γ. With the limit the bounds of [`land`] hold with all terms of second order (docs/theory.md,
+/// Theorem 62). It fails next to a touch (Γ small) and for short flights from x < 10⁻⁶; the general solver computes
+/// them. A larger limit needs larger constants in the bounds; a smaller one sends more hops away, in proportion to its
+/// inverse for touches and to its inverse root for short flights.
+const LARGEST_NONLINEARITY: f64 = 1.0 / 1024.0;
+
+/// Part of the size that is added to |ṡ| and to |x′| in the bounds, for the terms of second order. They are below
+/// 1.5·10⁻³ of the size where size · T/Γ is below [`LARGEST_NONLINEARITY`] (docs/theory.md, Theorem 62).
+const SECOND_ORDER: f64 = 1.0 / 512.0;
+
+/// 2/(1 − q), rounded up, with q < 0.01 from [`LARGEST_NONLINEARITY`]: T is the first-order bound 2 (S² + D) e/Γ on the
+/// error of the time times 1/(1 − q) (docs/theory.md, Theorem 62).
+const TWICE_LINEAR: f64 = 2.0625;
 
 /// The end of a flight.
 #[derive(Debug, Clone, Copy)]
@@ -48,8 +56,7 @@ pub(crate) struct FlightEnd {
     pub(crate) state: GroundState,
     /// Γ².
     pub(crate) closing_speed_squared: f64,
-    /// Bound on the error of Γ² that is propagated from the start of the flight. The rounding error of this flight
-    /// itself is counted at the end of the hop.
+    /// Bound on the error of Γ²: the rounding error of this flight, and the error that is propagated from its start.
     pub(crate) closing_speed_squared_error: f64,
     /// h, half the time.
     pub(crate) half_time: f64,
@@ -118,15 +125,17 @@ pub(crate) fn land(
     let (excess, velocity) = state_after_flight(take_off, h, change_of_h, kappa, closing);
 
     // I4: the errors at the start are propagated through the flight by its linear map (`landing/flight_derivative.rs`),
-    // with every term positive: 1.5 > |cos τ| + |sin τ| and 2.5 > |sin τ| + 1 − cos τ.
+    // with every term positive: 1.5 > |cos τ| + |sin τ| and 2.5 > |sin τ| + 1 − cos τ. Terms of second order are in the
+    // constants (docs/theory.md, Theorem 62).
     let size = y + v.abs() + 2.0 * h + closing;
     let rounding = LANDING_ULPS * f64::EPSILON * size;
-    let before = error + 4.0 * f64::EPSILON * size; // 4: the rounding of the residual acts like an error of V
-    let time_error = 2.0 * (square + d) * before * per_speed;
+    let before = error + BACKWARD_ULPS * f64::EPSILON * size;
+    let time_error = TWICE_LINEAR * (square + d) * before * per_speed;
+    let second_order = SECOND_ORDER * size;
     // |ṡ| = |V cos τ − Y sin τ|.
-    let rate = (v * (1.0 - 2.0 * square) - 2.0 * y * product).abs() + RATE_ERROR * size;
+    let rate = (v * (1.0 - 2.0 * square) - 2.0 * y * product).abs() + second_order;
     let excess_error = rounding + 1.5 * before + rate * time_error;
-    let closing_error = 2.5 * before + excess.abs() * time_error;
+    let closing_error = rounding + 2.5 * before + (excess.abs() + second_order) * time_error;
     let velocity_error = rounding + before + time_error + kappa * closing_error;
     let error = if excess_error > velocity_error { excess_error } else { velocity_error };
 
@@ -139,11 +148,12 @@ pub(crate) fn land(
         & (h < bracket.right)
         & ((bracket.parity_sign == 0.0) | (bracket.parity_sign * u < 0.0))
         & (bracket.certain > 0.0)
+        & (size * time_error <= LARGEST_NONLINEARITY * closing)
         & (excess.abs() > error); // the sign of x′ decides whether the landing is sudden
     FlightEnd {
         state: GroundState { excess, velocity, error },
         closing_speed_squared: closing * closing,
-        closing_speed_squared_error: 2.0 * closing * closing_error,
+        closing_speed_squared_error: (2.0 * closing + closing_error) * closing_error,
         half_time: h + change_of_h,
         accepted,
     }
