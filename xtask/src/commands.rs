@@ -23,7 +23,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 12] = [
+const TASKS: [Task; 13] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
