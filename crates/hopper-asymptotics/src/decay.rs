@@ -1,9 +1,9 @@
 //! The algebraic approach to a fixed point from the right.
 //!
-//! Proof: docs/theory.md, Theorem 37.
+//! Proof: docs/theory.md, Theorem 37 and Theorem 76.
 
 use crate::error::Error;
-use crate::expansion_value::ExpansionValue;
+use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use crate::right_expansion::{RIGHT_RANGE, RightExpansion};
 use passive_hopper::MassRatio;
 
@@ -28,9 +28,9 @@ pub struct Decay {
     pub inverse: f64,
 }
 
-/// Bound on r/((1+λ)³ δ₀^{2/3}) times the neglected terms of a difference of K. The largest measured value for n =
-/// 1…1000, M = 10⁻⁴…10³ is 0.08. Outside that range the error may be larger than stated.
-const NEGLECTED: f64 = 0.1;
+/// Bound on dδ of an error of K, relative to its first order where the slope of rK is 1 (docs/theory.md, Theorem 76): the
+/// slope is at least 0.69, and the error of K changes u by at most 5 %.
+const OFFSET_FACTOR: f64 = 2.0;
 
 /// The smallest λ. The number of hops is about 3u/λ, and u reaches 10¹⁰⁸ for the smallest positive δ, so that the
 /// number is at most 10²⁵⁹ here. For λ under 10⁻²⁰⁰ it could exceed the range of `f64`.
@@ -41,12 +41,31 @@ const SMALLEST_LAMBDA: f64 = 1e-150;
 /// it.
 const NEWTON_STEPS: usize = 60;
 
-/// Larger than ln(u₁/u₀) for any two positive `f64`: u lies between 1 and 10¹⁰⁸, and ln 10¹⁰⁸ = 249.
-const LARGEST_LOGARITHM: f64 = 700.0;
+/// Larger than ln(u₁/u₀) for any two positive `f64`, and than ln(u₀/r): u₀ lies between 1 and 10¹⁰⁸, u₁ between 1 and the
+/// largest `f64`, r above 10⁻¹⁵¹, and ln 1.8·10³⁰⁸ = 709.8.
+const LARGEST_LOGARITHM: f64 = 710.0;
+
+/// Bound on the rounding error of rK in ulps of u + 710 |L| (docs/theory.md, Lemma 79): 27 units 2⁻⁵³ of u, of which 14 are
+/// the error of r, and 18 of |L| ln.
+const SUM_ULPS: f64 = 16.0;
+
+/// Bound on the rounding error of 1/u³ in ulps of it (docs/theory.md, Lemma 79): 6 for the last Newton step, which is at
+/// most two ulps of u, and 2 for its rounding and the three divisions, rounded up.
+const OFFSET_ULPS: f64 = 10.0;
 
 impl Decay {
     /// Exponent of the start's offset δ₀ in the first neglected term of a number of hops.
     pub const NEGLECTED_EXPONENT: f64 = 2.0 / 3.0;
+
+    /// The coefficients of the bound for one hop, |K(u′) − K(u) − 1| ≤ (0.55 + 0.3 λ³) u⁻³, for all n ≥ 1 and all M
+    /// (docs/theory.md, Theorem 76).
+    pub const ONE_HOP: [f64; 2] = [0.55, 0.3];
+
+    /// Bound on r δ₀^{−2/3} Σ u_j⁻³ over an orbit from δ₀ (docs/theory.md, Theorem 76).
+    ///
+    /// So the neglected terms of a number of hops are at most `ORBIT` (0.55 + 0.3 λ³) δ₀^{2/3}/r. The proof gives 0.603; the
+    /// rest of 0.61 covers the rounding of this product.
+    pub const ORBIT: f64 = 0.61;
 
     /// The law at α*_n.
     ///
@@ -70,7 +89,7 @@ impl Decay {
 
     /// The largest offset for which the law has values: 0.1, or 10⁻³ λ⁻³ if that is less.
     ///
-    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error was measured up to it.
+    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error is proved up to it (docs/theory.md, Theorem 76).
     pub fn range(&self) -> f64 {
         let lambda = 3.0 * self.rate;
         RIGHT_RANGE.min(1e-3 / (lambda * lambda * lambda))
@@ -109,14 +128,16 @@ impl Decay {
     /// The offset after `hops` hops from `start`.
     ///
     /// # Errors
-    /// [`Error::OutsideRange`] unless 0 < `start` ≤ [`range`](Self::range) and `hops` is finite and not
-    /// negative.
+    /// [`Error::OutsideRange`] unless 0 < `start` ≤ [`range`](Self::range), `hops` is not negative, and u = λ `hops`/3 is
+    /// finite.
     pub fn offset_after(&self, start: f64, hops: f64) -> Result<ExpansionValue, Error> {
         self.check(start)?;
-        if !(hops >= 0.0 && hops.is_finite()) {
-            return Err(Error::OutsideRange { value: hops, left: 0.0, right: f64::INFINITY });
-        }
         let u0 = 1.0 / pxfm::f_cbrt(start);
+        // From an infinite u the search would return u₀.
+        if !(hops >= 0.0 && (u0 + self.rate * hops).is_finite()) {
+            let right = f64::MAX / self.rate.max(1.0);
+            return Err(Error::OutsideRange { value: hops, left: 0.0, right });
+        }
         // Newton's method on r (K(u) − K(u₀)) = r · hops. The slope of r K is near 1 throughout the range, so that the
         // leading term is a good start. u never decreases, so that no step may fall below u₀.
         let mut u = u0 + self.rate * hops;
@@ -131,10 +152,12 @@ impl Decay {
                 break;
             }
         }
-        let value = 1.0 / (u * u * u);
-        // An error in hops is an error in δ: one hop takes λδ^{4/3} = 3 r δ/u. Eight ulps cover the rounding of u³.
+        // u³ can exceed the largest number where δ is subnormal; the quotients cannot.
+        let value = 1.0 / u / u / u;
+        // An error in hops is an error in δ: one hop takes λδ^{4/3} = 3 r δ/u.
         let hops = self.with_error(hops, start, u);
-        let error = (hops.error * 3.0 * self.rate / u + 8.0 * f64::EPSILON) * value;
+        let relative = OFFSET_FACTOR * hops.error * 3.0 * self.rate / u;
+        let error = (relative + OFFSET_ULPS * f64::EPSILON) * value + UNDERFLOW;
         Ok(ExpansionValue { value, error, neglected_exponent: Self::NEGLECTED_EXPONENT })
     }
 
@@ -165,15 +188,59 @@ impl Decay {
     /// `largest_u`.
     fn with_error(&self, value: f64, start: f64, largest_u: f64) -> ExpansionValue {
         let root = pxfm::f_cbrt(start);
-        let size = 1.0 + 3.0 * self.rate;
-        let neglected = NEGLECTED * size * size * size * root * root / self.rate;
-        // Sixteen ulps of the largest terms, u and L ln u, cover the roots, the logarithm and the sums.
+        let lambda = 3.0 * self.rate;
+        let one_hop = Self::ONE_HOP[0] + Self::ONE_HOP[1] * lambda * lambda * lambda;
+        let neglected = Self::ORBIT * one_hop * root * root / self.rate;
         let largest = largest_u + self.logarithm.abs() * LARGEST_LOGARITHM;
-        let rounding = 16.0 * f64::EPSILON * largest / self.rate;
+        let rounding = SUM_ULPS * f64::EPSILON * largest / self.rate;
         ExpansionValue {
             value,
             error: neglected + rounding,
             neglected_exponent: Self::NEGLECTED_EXPONENT,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// After so many hops δ is about (3/(λk))³, here a subnormal number; u³ would overflow.
+    #[test]
+    fn offsets_below_the_normal_numbers_have_values() {
+        let law = Decay::new(1, MassRatio::ONE).unwrap();
+        for (hops, exponent) in [(1e106, 318), (3e106, 320), (1e107, 321)] {
+            let found = law.offset_after(1e-6, hops).unwrap();
+            let exact = (1.0 / (law.rate * hops * 10f64.powi(-107))).powi(3); // δ 10³²¹
+            let value = found.value * 1e300 * 1e21;
+            assert!(
+                (value - exact).abs() <= found.error * 1e300 * 1e21,
+                "{exponent} {value} {exact}"
+            );
+            assert!(found.value > 0.0 && found.value < f64::MIN_POSITIVE);
+        }
+        // Far below the smallest number.
+        let found = law.offset_after(1e-6, 1e200).unwrap();
+        assert!(found.value == 0.0 && found.error > 0.0);
+    }
+
+    /// The offset cannot be the start again.
+    #[test]
+    fn numbers_of_hops_with_an_infinite_u_are_errors() {
+        let law = Decay::new(1 << 40, MassRatio::ONE).unwrap();
+        let start = law.range();
+        assert!(matches!(law.offset_after(start, 1e308), Err(Error::OutsideRange { .. })));
+        let found = law.offset_after(start, 1e290).unwrap();
+        assert!(found.value < start && found.error < start, "{found:?}");
+    }
+
+    /// A start that is a subnormal number.
+    #[test]
+    fn subnormal_offsets_are_accepted() {
+        let law = Decay::new(1, MassRatio::ONE).unwrap();
+        let start = f64::from_bits(1000);
+        let found = law.offset_after(start, 0.0).unwrap();
+        assert!((found.value - start).abs() <= found.error && found.error < 0.01 * start);
+        assert!(law.hops(start, f64::from_bits(1)).unwrap().value > 1e100);
     }
 }

@@ -13,7 +13,7 @@ pub enum Error {
         /// The given index.
         n: u64,
     },
-    /// An offset, a speed, a number of hops, or λ, outside the range in which the error was measured.
+    /// An offset, a speed, a number of hops, or λ, outside the range in which the bound on the error is proved.
     #[error("{value} is outside the range of the expansion: it holds from {left} to {right}")]
     OutsideRange {
         /// The given value.

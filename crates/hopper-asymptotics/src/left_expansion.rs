@@ -1,10 +1,10 @@
 //! The map on the left of a fixed point, to three orders.
 //!
-//! Proof: docs/theory.md, Theorem 36.
+//! Proof: docs/theory.md, Theorem 36 and Theorem 75.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
-use crate::expansion_value::ExpansionValue;
+use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use crate::local_map::LEFT_FACTOR;
 use passive_hopper::MassRatio;
 
@@ -35,17 +35,22 @@ pub struct LeftExpansion {
     pub coefficients: [f64; 2],
 }
 
-/// The largest |δ| (1 + λ³) for which the error was measured, and for which [`LeftExpansion`] has values. Beyond it
-/// the second flight is no longer short.
+/// The largest |δ| for which the error is proved (docs/theory.md, Theorem 75), and for which [`LeftExpansion`] has values.
+///
+/// A larger range would need a larger [`LeftExpansion::REMAINDER`].
 pub const LEFT_RANGE: f64 = 1e-3;
 
-/// Bound on |c₃ + c₄|δ|^{1/3} + …|/(1 + λ). Chosen by measurement against the exact map for n = 1…100,
-/// M = 10⁻³…10³. Outside that range the error may be larger than stated.
-const NEGLECTED: f64 = 12.0;
+/// Bound on the rounding error of a loss, in ulps of its leading term (docs/theory.md, Lemma 79): 17.2 units 2⁻⁵³ of
+/// the leading term 10λ|δ|^{4/3}, 1.5 of the series, and 2 for the last sum and product.
+const LOSS_ULPS: f64 = 12.0;
 
 impl LeftExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 7.0 / 3.0;
+
+    /// Bound on |c₃ + c₄|δ|^{1/3} + …|, for all n ≥ 1, all M and |δ| ≤ [`LEFT_RANGE`] (docs/theory.md, Theorem 75). The
+    /// proof gives 8.79; the rest of 9 covers the rounding of the bound.
+    pub const REMAINDER: f64 = 9.0;
 
     /// The expansion about α*_n.
     ///
@@ -59,9 +64,9 @@ impl LeftExpansion {
         Ok(LeftExpansion { lambda: local.lambda, coefficients: [c1, c2] })
     }
 
-    /// The largest |δ| with a value: [`LEFT_RANGE`]/(1 + λ³).
+    /// The largest |δ| with a value: [`LEFT_RANGE`], at every fixed point and mass ratio.
     pub fn range(&self) -> f64 {
-        LEFT_RANGE / (1.0 + self.lambda * self.lambda * self.lambda)
+        LEFT_RANGE
     }
 
     /// δ′ for −[`range`](Self::range) ≤ δ ≤ 0.
@@ -70,8 +75,8 @@ impl LeftExpansion {
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let loss = self.loss(delta)?;
-        // One ulp of δ for the rounding of the difference.
-        let error = loss.error + f64::EPSILON * delta.abs();
+        // Half an ulp of δ′ for the rounding of the difference; the other half covers the rounding of the bound.
+        let error = loss.error + f64::EPSILON * (delta - loss.value).abs();
         Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
     }
 
@@ -89,13 +94,46 @@ impl LeftExpansion {
         let leading = LEFT_FACTOR * self.lambda * size * root;
         let [c1, c2] = self.coefficients;
         let series = (c1 + c2 * root) * root;
-        // Eight ulps cover the roundings of λ, the root, the products and the series.
-        let rounding = 8.0 * f64::EPSILON * leading;
-        let neglected = NEGLECTED * (1.0 + self.lambda) * leading * size;
+        let rounding = LOSS_ULPS * f64::EPSILON * leading;
+        let neglected = Self::REMAINDER * leading * size;
         Ok(ExpansionValue {
             value: leading * (1.0 + series),
-            error: neglected + rounding,
+            error: neglected + rounding + UNDERFLOW,
             neglected_exponent: Self::NEGLECTED_EXPONENT,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_bound_holds_where_the_loss_is_subnormal() {
+        let series = LeftExpansion::new(1, MassRatio::ONE).unwrap();
+        let spacing = f64::from_bits(1);
+        for (k, delta) in [(250, 3e-20), (252, 1e-18), (255, 2e-17), (260, 5e-18)] {
+            let large = series.loss(-delta).unwrap().value;
+            let small = series.loss(-delta * 2f64.powi(-3 * k)).unwrap();
+            let exact = large * 2f64.powi(1074 - 4 * k);
+            let off = (small.value / spacing - exact).abs();
+            assert!(off > 0.0 && off <= small.error / spacing, "{k} {delta:e}: {exact} {small:?}");
+        }
+    }
+
+    /// The range does not depend on λ.
+    #[test]
+    fn large_indices_have_values_up_to_the_range() {
+        let ratio = MassRatio::ONE;
+        for n in [100, 10_000] {
+            let series = LeftExpansion::new(n, ratio).unwrap();
+            let map = passive_hopper::LiftOffMap::new(ratio);
+            for part in [1.0, 0.3, 0.01] {
+                let delta = -part * series.range();
+                let exact = map.reference_local_hop(n, delta).unwrap().unwrap().loss.unwrap();
+                let found = series.loss(delta).unwrap();
+                assert!(exact.error_of(found.value) <= found.error, "{n} {delta}: {found:?}");
+            }
+        }
     }
 }

@@ -32,8 +32,8 @@
 //! ```
 //!
 //! # Accuracy
-//! The coefficients are right to a few ulps. Every [`ExpansionValue`] has a bound on its error, whose coefficient was
-//! measured against the exact map. Input outside the range of that measurement is an error. The leading-order map of
+//! The coefficients are right to seven ulps. Every [`ExpansionValue`] has a bound on its error, which is proved in
+//! `docs/theory.md`, section 14, for every fixed point and mass ratio. Input outside the range of that proof is an error. The leading-order map of
 //! [`Coefficients`] has no range; its documentation states the next term.
 //!
 //! # Not here
@@ -59,9 +59,9 @@ pub use coefficients::{Coefficients, Form};
 pub use decay::Decay;
 pub use error::Error;
 pub use expansion_value::ExpansionValue;
-pub use fixed_point_series::fixed_point_series;
+pub use fixed_point_series::{FIXED_POINT_REMAINDER, fixed_point_series};
 pub use left_expansion::{LEFT_RANGE, LeftExpansion};
 pub use local_map::LEFT_FACTOR;
 pub use right_expansion::{RIGHT_RANGE, RightExpansion};
-pub use small_alpha::{SMALL_ALPHA_RANGE, small_hop_loss};
-pub use trap_length_series::{SMALLEST_LAMBDA, trap_length_series};
+pub use small_alpha::{SMALL_ALPHA_RANGE, SMALL_HOP_REMAINDER, small_hop_loss};
+pub use trap_length_series::{SMALLEST_LAMBDA, TRAP_LENGTH_REMAINDER, trap_length_series};

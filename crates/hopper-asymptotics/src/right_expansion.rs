@@ -1,10 +1,10 @@
 //! The map on the right of a fixed point, to five orders.
 //!
-//! Proof: docs/theory.md, Theorem 35.
+//! Proof: docs/theory.md, Theorem 35 and Theorem 74.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
-use crate::expansion_value::ExpansionValue;
+use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use passive_hopper::MassRatio;
 
 /// δ′ = δ − λδ^{4/3} [1 + ℓ₅δ^{1/3} + ℓ₆δ^{2/3} + ℓ₇δ + ℓ₈δ^{4/3}] + O(δ³), δ > 0.
@@ -32,16 +32,22 @@ pub struct RightExpansion {
     pub coefficients: [f64; 4],
 }
 
-/// The largest δ for which the error was measured, and for which [`RightExpansion`] has values.
+/// The largest δ for which the error is proved (docs/theory.md, Theorem 74), and for which [`RightExpansion`] has values.
+///
+/// A larger range would need a larger [`RightExpansion::REMAINDER`].
 pub const RIGHT_RANGE: f64 = 0.1;
 
-/// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|. The largest measured value, against the exact map for n = 1…100, M = 10⁻³…10³, δ up
-/// to [`RIGHT_RANGE`], is 0.44. Outside that range the error may be larger than stated.
-const NEGLECTED: f64 = 0.5;
+/// Bound on the rounding error of a loss, in ulps of its leading term (docs/theory.md, Lemma 79): 16.2 units 2⁻⁵³ of
+/// the leading term λδ^{4/3}, 5 of the series, and 2 for the last sum and product, times the largest series, 1.15.
+const LOSS_ULPS: f64 = 14.0;
 
 impl RightExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 3.0;
+
+    /// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|, for all n ≥ 1, all M and 0 ≤ δ ≤ [`RIGHT_RANGE`] (docs/theory.md, Theorem 74). The
+    /// proof gives 0.445; the rest of 0.5 covers the rounding of the bound.
+    pub const REMAINDER: f64 = 0.5;
 
     /// The expansion about α*_n.
     ///
@@ -68,8 +74,8 @@ impl RightExpansion {
     /// [`Error::OutsideRange`] elsewhere.
     pub fn displacement(&self, delta: f64) -> Result<ExpansionValue, Error> {
         let loss = self.loss(delta)?;
-        // One ulp of δ for the rounding of the difference.
-        let error = loss.error + f64::EPSILON * delta;
+        // Half an ulp of δ′ for the rounding of the difference; the other half covers the rounding of the bound.
+        let error = loss.error + f64::EPSILON * (delta - loss.value).abs();
         Ok(ExpansionValue { value: delta - loss.value, error, ..loss })
     }
 
@@ -85,10 +91,39 @@ impl RightExpansion {
         let leading = self.lambda * delta * root;
         // Horner: ((ℓ₈ v + ℓ₇) v + …) v with v = δ^{1/3}.
         let series = self.coefficients.iter().rev().fold(0.0, |sum, l| (sum + l) * root);
-        // Eight ulps cover the roundings of λ, the root, the products and the series.
-        let rounding = 8.0 * f64::EPSILON * leading;
-        let error = NEGLECTED * self.lambda * delta * delta * delta + rounding;
+        let rounding = LOSS_ULPS * f64::EPSILON * leading;
+        let error = Self::REMAINDER * self.lambda * delta * delta * delta + rounding + UNDERFLOW;
         let neglected_exponent = Self::NEGLECTED_EXPONENT;
         Ok(ExpansionValue { value: leading * (1.0 + series), error, neglected_exponent })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At δ·8^{−k} the loss is 16^{−k} of that at δ, to 10⁻²⁰. So its exact value is known where it is subnormal.
+    #[test]
+    fn the_bound_holds_where_the_loss_is_subnormal() {
+        let series = RightExpansion::new(1, MassRatio::ONE).unwrap();
+        let spacing = f64::from_bits(1);
+        for (k, delta) in [(250, 3e-20), (252, 1e-18), (255, 2e-17), (258, 1e-18), (260, 5e-18)] {
+            let large = series.loss(delta).unwrap().value;
+            let small = series.loss(delta * 2f64.powi(-3 * k)).unwrap();
+            assert!(small.value < f64::MIN_POSITIVE && small.error > 0.0, "{small:?}");
+            // Both in spacings of the subnormal numbers, where the exact loss has all its digits.
+            let exact = large * 2f64.powi(1074 - 4 * k);
+            let off = (small.value / spacing - exact).abs();
+            assert!(off <= small.error / spacing, "{k} {delta:e}: {exact} {small:?}");
+            assert!(off > 0.0, "{k} {delta:e}");
+        }
+    }
+
+    /// With a large λ the loss is far larger than δ, and the rounding of δ′ is that of the loss.
+    #[test]
+    fn the_bound_of_the_displacement_counts_the_rounding_of_large_losses() {
+        let series = RightExpansion::new(1 << 40, MassRatio::ONE).unwrap();
+        let found = series.displacement(0.1).unwrap();
+        assert!(found.value.abs() > 1e9 && found.error > f64::EPSILON * found.value.abs());
     }
 }

@@ -1,17 +1,22 @@
 //! Small hops: the map about α*_0 = 0.
 //!
-//! Proof: docs/theory.md, Lemma 39.
+//! Proof: docs/theory.md, Lemma 39 and Theorem 78.
 
 use crate::error::Error;
-use crate::expansion_value::ExpansionValue;
+use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use passive_hopper::MassRatio;
 
-/// The largest α for which the error was measured, and for which [`small_hop_loss`] has a value.
+/// The largest α for which the error is proved (docs/theory.md, Theorem 78), and for which [`small_hop_loss`] has a value.
 pub const SMALL_ALPHA_RANGE: f64 = 0.3;
 
-/// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + …. The largest measured value, against the exact map for
-/// all μ (at most ¼) and α up to [`SMALL_ALPHA_RANGE`], is 4.3.
-const NEGLECTED: f64 = 5.0;
+/// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + … of [`small_hop_loss`], for all M and 0 ≤ α ≤
+/// [`SMALL_ALPHA_RANGE`] (docs/theory.md, Theorem 78). The proof gives 2.365; the rest of 2.4 covers the rounding of the
+/// bound.
+pub const SMALL_HOP_REMAINDER: f64 = 2.4;
+
+/// Bound on the rounding error in ulps of the leading term (docs/theory.md, Lemma 79): 11 units 2⁻⁵³ of the leading
+/// term, and 2.5 of the factor and the product.
+const LOSS_ULPS: f64 = 7.0;
 
 /// The loss α − f(α) = (32/9) μ α⁵ [1 − (8/5) α²] + O(α⁹) of a small hop.
 ///
@@ -40,7 +45,48 @@ pub fn small_hop_loss(mass_ratio: MassRatio, alpha: f64) -> Result<ExpansionValu
     }
     let square = alpha * alpha;
     let leading = 32.0 / 9.0 * mass_ratio.mu() * alpha * square * square;
-    // Sixteen ulps cover the roundings of μ, of the five factors α and of the series.
-    let error = leading * (NEGLECTED * square * square + 16.0 * f64::EPSILON);
+    let relative = SMALL_HOP_REMAINDER * square * square + LOSS_ULPS * f64::EPSILON;
+    let error = leading * relative + UNDERFLOW;
     Ok(ExpansionValue { value: leading * (1.0 - 1.6 * square), error, neglected_exponent: 9.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// M, α and the loss (mpmath with 60 digits, from the equation of the landing), two of them where rounding dominates.
+    #[test]
+    fn losses_of_long_arithmetic_lie_within_the_bound() {
+        for (m, alpha, exact) in [
+            (0.001, 9.218369266853271e-8, 2.362_162_761_943_947_7e-38),
+            (0.001, 0.3, 7.503_249_106_751_792_7e-6),
+            (0.001, 0.01, 3.547_887_412_276_995_9e-13),
+            (1.0, 1.0806509538366222e-5, 1.310_010_217_954_534_5e-25),
+            (1.0, 0.3, 1.885_467_250_222_641_3e-3),
+            (1.0, 0.1, 8.748_737_637_557_537e-6),
+            (1.0, 0.01, 8.887_466_876_808_28e-11),
+        ] {
+            let found = small_hop_loss(MassRatio::new(m).unwrap(), alpha).unwrap();
+            let off = (found.value - exact).abs();
+            // The digits of `exact` are rounded to half an ulp.
+            assert!(off <= found.error && found.error < 1e-2 * exact, "{m} {alpha}: {found:?}");
+            if (m, alpha) == (1.0, 0.01) {
+                assert!(off > 0.95 * found.error, "{off:e} {found:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_bound_holds_where_the_loss_underflows() {
+        for alpha in [1e-62, 1e-63, 1e-64, 3e-65, 1e-65, 1e-70, 1e-200, 5e-324] {
+            let found = small_hop_loss(MassRatio::ONE, alpha).unwrap();
+            // (8/9) α⁵ in spacings of the subnormal numbers, to a relative 10⁻¹⁵.
+            let fifth_root_of_spacing = pxfm::f_exp2(-1074.0 / 5.0);
+            let exact = 8.0 / 9.0 * (alpha / fifth_root_of_spacing).powi(5);
+            let spacing = f64::from_bits(1);
+            let off = (found.value / spacing - exact).abs();
+            assert!(off <= found.error / spacing + 1e-13 * exact, "{alpha:e}: {exact} {found:?}");
+            assert!(found.error > 0.0);
+        }
+    }
 }

@@ -17,6 +17,10 @@ const REFERENCE: &str = include_str!("data/local_basin.json");
 /// Nine ulps: the roundings of the cube root, of μ and of some five products and quotients.
 const ROUNDING: f64 = 2e-15;
 
+/// Relative error of `Hop::loss` for small hops, measured (docs/accuracy.md). The unit tests of `small_alpha.rs` compare
+/// with forty digits.
+const HOP_LOSS: f64 = 2e-15;
+
 #[test]
 fn coefficients_agree_with_forty_digits() {
     let rows: Vec<Row> = rows(REFERENCE).collect();
@@ -152,7 +156,7 @@ fn trap_lengths_fixed_points_and_small_hops_lie_within_their_errors() {
             let loss = small_hop_loss(map.mass_ratio(), alpha).unwrap();
             let exact = map.hop(alpha).unwrap().loss.unwrap();
             assert!(
-                (loss.value - exact).abs() <= loss.error,
+                (loss.value - exact).abs() <= loss.error + HOP_LOSS * exact,
                 "M={m} α={alpha}: {loss:?} {exact:e}"
             );
         }

@@ -22,7 +22,7 @@ pub(crate) enum Line {
 /// The edge of a trap, and how certain the reference is of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Edge {
-    /// On the contact part of the hump; proved.
+    /// On the contact part of the hump, where q has one minimum (docs/theory.md, Theorem 29).
     Contact,
     /// In the sudden window; found on scans.
     Sudden,

@@ -47,6 +47,9 @@
 //! α′ is at most 4 (1 + sudden lift-offs) units of ε (|α′| + |∂α′/∂α| α + |∂α′/∂M| M + α²/|α′|), ε = 2⁻⁵³
 //! (`cargo xtask check-reference`).
 //!
+//! [`LiftOffMap::bounded_hop`] gives bounds on the errors of a hop. `cargo xtask check-bounds` compares them with the actual
+//! errors on ten million hops and fails if one exceeds its bound (docs/accuracy.md has the ratios).
+//!
 //! A *decision* of a hop (sudden or not, on which branch, grounded or not) is the sign of a computed number. If 53 bits
 //! do not suffice for it, 106 and then up to 1024 bits are used. [`Hop::certain`] is false for a hop that needs more.
 //!
@@ -81,6 +84,7 @@ pub use evidence::bounded_hop::{BoundedHop, BoundedLanding, StateError};
 pub use evidence::compared::Compared;
 pub use evidence::function_errors::{SineErrors, sine_errors};
 pub use evidence::reference_hop::{FirstFlightErrors, HopErrors, LandingErrors, ReferenceHop};
+pub use evidence::reference_local_hop::{ReferenceLocalHop, ReferenceNumber};
 pub use evidence::solver::Solver;
 pub use hopper::{Hopper, HopperSurface, Phase};
 pub use landing::error_bound::MaximumTest;

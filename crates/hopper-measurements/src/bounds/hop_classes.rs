@@ -26,11 +26,12 @@ impl HopClass {
 }
 
 /// All classes. The shares add up to 100 %: many hops where a hop is cheap, few where it takes milliseconds.
-pub(super) const CLASSES: [HopClass; 11] = [
+pub(super) const CLASSES: [HopClass; 12] = [
     HopClass { name: "paper's window", percent: 28, start: window },
     HopClass { name: "random", percent: 20, start: random_hop },
     HopClass { name: "small M", percent: 6, start: small_mass_ratio },
-    HopClass { name: "large M", percent: 2, start: large_mass_ratio },
+    HopClass { name: "large M", percent: 1, start: large_mass_ratio },
+    HopClass { name: "chains", percent: 1, start: chain },
     HopClass { name: "small α", percent: 5, start: small_speed },
     HopClass { name: "large α", percent: 8, start: large_speed },
     HopClass { name: "next to α*_n", percent: 9, start: near_fixed_point },
@@ -63,14 +64,21 @@ fn small_mass_ratio(random: &SplitMix64, k: u64) -> (f64, f64) {
     (log_uniform(1e-18, 0.01, random.uniform(k)), 0.01 + 110.0 * random.uniform(k + 1))
 }
 
-/// Chains of sudden lift-offs: M is large, and half of the speeds are just above nπ, where a flight lands nearly in the
-/// state of its start.
+/// Half of the speeds are just above nπ, where x′ of the first landing is small.
 fn large_mass_ratio(random: &SplitMix64, k: u64) -> (f64, f64) {
     let mass_ratio = log_uniform(3.0, 1e4, random.uniform(k));
     let n = 1.0 + (12.0 * random.uniform(k + 1)).floor();
     let near =
         if random.uniform(k + 2) < 0.5 { 1.0 } else { pxfm::f_exp10(-6.0 * random.uniform(k + 3)) };
     (mass_ratio, n * PI + near * random.uniform(k + 4) * (alpha_star(n as u64) - n * PI))
+}
+
+/// Chains of sudden lift-offs. At large M a flight from V near mπ lands nearly in the state of its start, and this state
+/// attracts others for x < 1. A chain in the first window has up to M/10 flights, one in window n up to M/(nπ)².
+fn chain(random: &SplitMix64, k: u64) -> (f64, f64) {
+    let n = if random.uniform(k) < 0.7 { 1.0 } else { 2.0 };
+    let width = alpha_star(n as u64) - n * PI;
+    (log_uniform(50.0, 1e4, random.uniform(k + 1)), n * PI + width * random.uniform(k + 2))
 }
 
 fn small_speed(random: &SplitMix64, k: u64) -> (f64, f64) {
@@ -130,7 +138,7 @@ mod tests {
         }
     }
 
-    /// Large M gives chains; next to a change of branch most hops leave the kernel.
+    /// Chains are long; next to a change of branch most hops leave the kernel.
     #[test]
     fn classes_contain_what_their_names_say() {
         let sudden = |name: &str, index| {
@@ -138,7 +146,9 @@ mod tests {
             let (m, alpha) = class.start(3, index);
             LiftOffMap::new(MassRatio::new(m).unwrap()).hop(alpha).unwrap().sudden
         };
-        assert!((0..100).filter(|&k| sudden("large M", k) > 10).count() > 10);
+        let mut lengths: Vec<usize> = (0..100).map(|k| sudden("chains", k)).collect();
+        lengths.sort_unstable();
+        assert!(lengths[80] > 10 && lengths[99] > 100, "{lengths:?}");
         assert!((0..100).filter(|&k| sudden("next to x′ = 0", k) > 0).count() > 50);
         assert!((0..100).all(|k| sudden("small α", k) == 0));
     }

@@ -2,7 +2,7 @@
 //!
 //! Each hop is computed in 106 bits, and every shorter way that decides it is compared, landing by landing. The bound
 //! of the 106 bits themselves is added to the error. Where the ratio then passes ½, and on one hop in a hundred, the
-//! comparison is made with 256 bits, and the 106 bits are compared as well.
+//! comparison is made with 256 or 512 bits, and the 106 bits are compared as well.
 
 use super::hop_classes::CLASSES;
 use super::measured::Measured;
@@ -54,7 +54,8 @@ const EVERY_256: u64 = 100;
 /// One hop in so many is compared with 512 bits, and 256 bits with them. 512 bits take five times as long as 256.
 const EVERY_512: u64 = 2000;
 
-/// From this ratio on a comparison with 106 bits is repeated with 256.
+/// Above this ratio a comparison is repeated with a longer arithmetic, up to 512 bits: the bound of the reference may be a
+/// large part of the ratio.
 const LARGE_RATIO: f64 = 0.5;
 
 /// Hops that one thread takes at a time: enough for the progress bar, few enough that all threads end together.
@@ -200,8 +201,8 @@ fn compare(map: &LiftOffMap, alpha: f64, arithmetic: Solver) -> Option<Found> {
             found.of_ways.push((way, errors));
         }
     }
-    let is_short = largest > LARGE_RATIO && arithmetic == Solver::Bits106;
-    // Above 1 the longest arithmetic is asked: the bound of the reference may be the reason.
+    let is_short = largest > LARGE_RATIO && arithmetic < Solver::Bits512;
+    // Above 1 the longest arithmetic is asked as well.
     if is_short || largest > 1.0 {
         let again = arithmetic.longer().and_then(|longer| compare(map, alpha, longer));
         return again.or(Some(found));

@@ -15,7 +15,7 @@
 //!
 //! No term cancels another, however small t is. Hence every function keeps its relative accuracy.
 //!
-//! Proof: docs/theory.md, Lemma 34.
+//! Proof: docs/theory.md, Lemma 34. Lemma 80 bounds the rounding errors.
 
 use crate::landing::extended_landing::ExtendedLanding;
 use crate::model::fixed_points::alpha_star;
@@ -74,6 +74,10 @@ impl<R: Real> NearFixedPoint<R> {
 /// give 15, and a fifth one sees that. 12 is a margin. A number below 4 would lose digits.
 const NEWTON_STEPS: usize = 12;
 
+/// A Newton step below this part of t is rounding error, four and a half ulps. The next step would be about its square
+/// (docs/theory.md, Lemma 80). A smaller value would let the search go on until the guard.
+const LAST_STEP: f64 = 1e-15;
+
 impl NearFixedPoint<f64> {
     /// t(δ), by Newton's method from its expansion in δ^{1/3} (`fixed_point_interval.rs` has more terms of this
     /// expansion).
@@ -91,8 +95,7 @@ impl NearFixedPoint<f64> {
                 break; // δ = 0, where the slope is 0
             }
             t -= step;
-            // 10⁻¹⁵ is four and a half ulps: a step of this size is rounding error.
-            if step.abs() <= 1e-15 * t.abs() {
+            if step.abs() <= LAST_STEP * t.abs() {
                 break;
             }
         }

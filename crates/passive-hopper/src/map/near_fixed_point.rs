@@ -14,9 +14,21 @@ use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::model::fixed_points::{alpha_star, exact_alpha_star, n_pi};
 use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 
-/// Up to this ratio of the loss to |δ| the plain result is used: the rounding error of the loss, some ulps of it, is
-/// then below an ulp of δ′. Hops with a larger loss are computed in extended arithmetic. Chosen, not derived.
+/// Up to this ratio of the loss to |δ| the plain result is used.
+///
+/// The plain loss has a relative error of up to 111 ulps, and δ′ = δ − loss must be right to 8 ulps: 1/16 is the largest
+/// power of two that ensures this (docs/theory.md, Theorem 81). Hops with a larger loss are computed in extended
+/// arithmetic. A smaller value would send more hops there.
 const SMALL_LOSS: f64 = 1.0 / 16.0;
+
+/// Smallest |δ| other than 0. Here t³ ∝ δ, the smallest term of δ(t), is 10⁸ times the smallest normal number, so that no
+/// factor of the local functions underflows (docs/theory.md, Lemma 80). Further down the terms would lose digits.
+const SMALLEST_OFFSET: f64 = 1e-300;
+
+/// A second flight that is shorter than this is not followed by a sudden lift-off, whatever the rounding of its landing
+/// (docs/theory.md, Lemma 82). The lemma needs τ < α*_1 = 4.49. The error of δ′ is derived for flights shorter than 1
+/// (Theorem 81); the landings of longer ones are decided with their error bound.
+const SHORT_FLIGHT: f64 = 1.0;
 
 /// A hop near a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +36,9 @@ pub struct LocalHop {
     /// δ′ = α′ − α*_n; `None` if the hopper is grounded.
     pub next: Option<f64>,
     /// δ − δ′, without cancellation; `None` if the hopper is grounded.
+    ///
+    /// The loss is about λ|δ|^{4/3}, ten times as much on the left. For |δ| below some 10⁻²³¹ (with λ = 1) it is a subnormal
+    /// number and has fewer digits, and below 10⁻²⁴³ it rounds to 0. δ′ then is δ: the loss is far below its last digit.
     pub loss: Option<f64>,
     /// Number of sudden lift-offs.
     pub sudden: usize,
@@ -34,7 +49,7 @@ pub struct LocalHop {
 impl LiftOffMap {
     /// The hop from α = α*_n + `delta`, in the coordinate δ.
     ///
-    /// δ′ is right to a few ulps of itself, from |δ| = 10⁻³⁰⁰ to the ends of (nπ, (n+1)π). An orbit in δ therefore
+    /// δ′ is right to 8 ulps of itself, from |δ| = 10⁻³⁰⁰ to the ends of (nπ, (n+1)π). An orbit in δ therefore
     /// follows the algebraic approach to α*_n without end. An orbit in α stops at |δ| ≈ 10⁻¹².
     ///
     /// ```
@@ -52,16 +67,8 @@ impl LiftOffMap {
     /// [`Error::SuddenLiftOffBudget`] as for [`hop`](Self::hop); [`Error::Undecided`] if 1024 bits, or the budget of
     /// sudden lift-offs in them, do not suffice for the decisions and the digits of δ′.
     pub fn hop_near_fixed_point(&self, n: u64, delta: f64) -> Result<LocalHop, Error> {
+        self.check_offset(n, delta)?;
         let star = exact_alpha_star(n);
-        // The interval (nπ, (n+1)π) in δ, to 100 bits.
-        // The largest n has no successor; it is refused below, since its speed is too large.
-        let (left, right) = (n_pi(n) - star, n_pi(n.saturating_add(1)) - star);
-        let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
-        // Below 10⁻³⁰⁰ the terms of δ(t), of size t³ ∝ δ, come near the smallest normal number and lose digits.
-        let resolved = delta == 0.0 || delta.abs() >= 1e-300;
-        if n == 0 || star.high > LARGEST_LIFT_OFF_SPEED || !inside || !resolved {
-            return Err(Error::Offset { n, delta, left: left.high, right: right.high });
-        }
         if delta == 0.0 {
             return Ok(LocalHop { next: Some(0.0), loss: Some(0.0), sudden: 0, time_shift: 0.0 });
         }
@@ -71,6 +78,20 @@ impl LiftOffMap {
             .then(|| self.plain_hop_near(&local, delta, t))
             .flatten();
         plain.map_or_else(|| self.extended_hop_near(n, delta, t), Ok)
+    }
+
+    /// The error of an offset for which the hop has no value.
+    pub(crate) fn check_offset(&self, n: u64, delta: f64) -> Result<(), Error> {
+        let star = exact_alpha_star(n);
+        // The interval (nπ, (n+1)π) in δ, to 100 bits.
+        // The largest n has no successor; it is refused below, since its speed is too large.
+        let (left, right) = (n_pi(n) - star, n_pi(n.saturating_add(1)) - star);
+        let inside = left.compare(delta).is_gt() && right.compare(delta).is_lt();
+        let resolved = delta == 0.0 || delta.abs() >= SMALLEST_OFFSET;
+        if n == 0 || star.high > LARGEST_LIFT_OFF_SPEED || !inside || !resolved {
+            return Err(Error::Offset { n, delta, left: left.high, right: right.high });
+        }
+        Ok(())
     }
 
     /// The hop in plain `f64`; `None` if the loss is not small compared with δ, or a decision is inconclusive.
@@ -84,10 +105,8 @@ impl LiftOffMap {
             let start = TakeOff { excess, velocity };
             let next = next_landing(start, kappa);
             // A second sudden landing would make the loss large. The decision that the second landing is not sudden
-            // must be larger than its error. After a short flight that error is some ulps of the excess before the
-            // flight, and 10⁻¹⁰ of this excess is far more (chosen, not derived). After a long flight the error bound
-            // of `is_conclusive` is used.
-            let short = next.time < 1.0 && next.excess < -1e-10 * excess;
+            // must be larger than its error.
+            let short = next.time < SHORT_FLIGHT;
             if next.sudden
                 || !(short || Self::is_conclusive(local, start, t, closing_speed, &next, kappa))
             {
