@@ -1,5 +1,6 @@
 //! The commands: one table of names, and the programs that run them.
 
+use crate::check_builds;
 use crate::error::Error;
 use crate::process::become_program;
 use crate::regenerate;
@@ -22,7 +23,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 12] = [
+const TASKS: [Task; 13] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -78,6 +79,11 @@ const TASKS: [Task; 12] = [
         about: "Make the committed reference values and constants again and compare: needs Python and its package index",
         package: None,
     },
+    Task {
+        name: "check-builds",
+        about: "Build each crate alone, the fuzz target, and all with the oldest Rust promised",
+        package: None,
+    },
     Task { name: "tidy", about: "Check the repository's rules", package: None },
 ];
 
@@ -114,6 +120,7 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
         return regenerate::run(arguments);
     }
     match arguments.first().map(|argument| argument.to_string_lossy()) {
+        None if task.name == "check-builds" => check_builds::run(),
         None => tidy::run(),
         Some(option) if option == "--help" || option == "-h" => print(&format!(
             "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",

@@ -19,6 +19,10 @@ pub(crate) enum Error {
     File { path: PathBuf, source: std::io::Error },
     /// Python, its virtual environment or its packages are missing.
     Python { program: PathBuf, reason: String },
+    /// Builds failed; each has been printed with the compiler's messages.
+    Builds(usize),
+    /// The workspace's manifest promises no oldest Rust.
+    NoRustVersion,
     /// Rules of the repository are broken; each breach has been printed.
     Breaches(usize),
 }
@@ -43,6 +47,10 @@ impl fmt::Display for Error {
                  index, or name another interpreter with PYTHON=/path/to/python3",
                 program.display()
             ),
+            Error::Builds(count) => write!(f, "{count} builds failed"),
+            Error::NoRustVersion => {
+                write!(f, "Cargo.toml has no rust-version; write the oldest Rust that is supported")
+            }
             Error::Breaches(count) => write!(f, "{count} breaches of the repository's rules"),
         }
     }

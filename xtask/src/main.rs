@@ -3,6 +3,7 @@
 //! This program has no dependencies, so that `cargo xtask tidy` builds in seconds. A command that computes
 //! is part of a program in `crates/`; `cargo xtask` builds that program and becomes it.
 
+mod check_builds;
 mod commands;
 mod error;
 mod process;

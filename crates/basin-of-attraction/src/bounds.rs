@@ -1,6 +1,8 @@
-//! Certain bounds on a number.
+//! Bounds on a number, which hold under stated conditions.
 
-/// An interval that certainly contains a number, under the conditions that its source states.
+/// An interval that contains a number, under the conditions that its source states.
+///
+/// The ends are computed in `f64` and rounded to nearest, not outwards: they are right to some ulps.
 ///
 /// For an interval that contains the number with 95 % probability see
 /// [`ConfidenceInterval`](crate::ConfidenceInterval).

@@ -39,14 +39,18 @@ impl BoxCount {
 /// The number of boxes [left + k size, left + (k+1) size) that contain at least one of the points.
 ///
 /// # Errors
-/// [`Error::BadBoxSize`] unless `size` is finite, positive, and larger than an ulp of the farthest point's distance
-/// from `left`.
+/// [`Error::BadPoints`] if the distance of a point from `left` is infinite or NaN; [`Error::BadBoxSize`] unless `size` is
+/// finite, positive, and larger than an ulp of the farthest point's distance from `left`.
 pub fn occupied_boxes(points: &[f64], left: f64, size: f64) -> Result<u64, Error> {
+    let bad = points.iter().filter(|x| !(*x - left).is_finite()).count();
+    if bad > 0 {
+        return Err(Error::BadPoints { bad, points: points.len(), left });
+    }
     let farthest = points.iter().fold(0.0f64, |farthest, x| farthest.max((x - left).abs()));
     // The index of a box is (x − left)/size rounded down. Beyond 2⁵² an f64 index has no fraction, and neighbouring
     // boxes could not be distinguished.
     let above = f64::EPSILON * farthest;
-    if !(size > above && size.is_finite() && farthest.is_finite()) {
+    if !(size > above && size.is_finite()) {
         return Err(Error::BadBoxSize { size, above, largest: f64::INFINITY });
     }
     let mut boxes: Vec<f64> = points.iter().map(|x| ((x - left) / size).floor()).collect();
@@ -172,5 +176,22 @@ impl LabelImage {
             }
         }
         Ok(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_that_are_no_numbers_are_an_error_with_their_number() {
+        let count = |points: &[f64], left| occupied_boxes(points, left, 0.5);
+        assert_eq!(count(&[0.1, 0.2, 0.6], 0.0), Ok(2));
+        let points = [0.1, f64::NAN, 0.6, f64::INFINITY, f64::NAN];
+        assert_eq!(count(&points, 0.0), Err(Error::BadPoints { bad: 3, points: 5, left: 0.0 }));
+        let error = count(&points, 0.0).unwrap_err().to_string();
+        assert!(error.starts_with("3 of 5 points"), "{error}");
+        assert!(matches!(count(&[0.1], f64::NAN), Err(Error::BadPoints { bad: 1, .. })));
+        assert!(matches!(count(&[f64::MAX], f64::MIN), Err(Error::BadPoints { bad: 1, .. })));
     }
 }

@@ -227,7 +227,9 @@ pub fn monotone_branches(
                     last = None;
                     continue;
                 }
-                if let Some((from, before)) = last.filter(|(_, before)| before * (b - a) < 0.0) {
+                // The signs are compared, not the product of the steps: it underflows for steps below 10⁻¹⁶².
+                let turns = |before: f64| (before > 0.0 && b < a) || (before < 0.0 && b > a);
+                if let Some((from, before)) = last.filter(|(_, before)| turns(*before)) {
                     let up = before.signum();
                     let extremum = highest_point(|x| value(x).map(|v| up * v), at(from), at(k + 1));
                     cuts.push((extremum, value(extremum)));
@@ -291,6 +293,16 @@ mod tests {
             assert_eq!(found.len(), 2, "{samples}: {found:?}");
             assert!(!found[0].increases() && found[1].increases());
             assert!(found[0].domain.right.abs() < 1e-7);
+        }
+    }
+
+    /// The product of two steps of this map is 0 in `f64`.
+    #[test]
+    fn an_extremum_of_a_tiny_map_is_found() {
+        for size in [1e-170, 1e-300, f64::MIN_POSITIVE] {
+            let found = branches(|x| Some(size * (x * x)), -3.0, 3.0, 8);
+            assert_eq!(found.len(), 2, "{size:e}: {found:?}");
+            assert!(!found[0].increases() && found[1].increases());
         }
     }
 

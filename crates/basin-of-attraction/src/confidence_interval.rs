@@ -2,9 +2,12 @@
 
 use crate::error::Error;
 
-/// An estimate from a random sample, with an interval that contains the true number in 95 of 100 samples.
+/// An estimate from a random sample, with an interval that is meant to contain the true number in 95 of 100 samples.
 ///
-/// For an interval that contains the number with certainty see [`Bounds`](crate::Bounds).
+/// The constructor states the assumptions. Wilson's interval contains the number in about 95 % of the samples: the share
+/// varies with the proportion, because counts are whole numbers. Student's interval does so for normal replicates.
+///
+/// For bounds that need no probability see [`Bounds`](crate::Bounds).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConfidenceInterval {
     /// The estimate. It need not be the middle of the interval.
@@ -60,6 +63,9 @@ pub fn wilson_interval(successes: usize, trials: usize) -> Result<ConfidenceInte
 }
 
 /// The mean of independent replicates, with Student's interval.
+///
+/// If the replicates are normal, the interval contains their mean in 95 % of the samples. Otherwise this holds for many
+/// replicates only.
 ///
 /// # Errors
 /// [`Error::TooFewReplicates`] for fewer than two.

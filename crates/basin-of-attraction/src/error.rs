@@ -90,11 +90,23 @@ pub enum Error {
     BadBoxSize {
         /// The size given.
         size: f64,
-        /// The size must be larger than this: neighbouring boxes of this size could not be distinguished. Infinite if a
-        /// point is infinite.
+        /// The size must be larger than this: neighbouring boxes of this size could not be distinguished.
         above: f64,
         /// The largest size accepted; infinite if every finite size is.
         largest: f64,
+    },
+    /// Points that lie in no box.
+    #[error(
+        "{bad} of {points} points, counted from {left}, lie in no box, because their distance is no finite number: leave \
+         these points out, and count them apart"
+    )]
+    BadPoints {
+        /// Points without a finite distance from `left`.
+        bad: usize,
+        /// Points in all.
+        points: usize,
+        /// The left end of the first box.
+        left: f64,
     },
     /// A perturbation ε of a start that is not positive and finite.
     #[error("a perturbation ε of {epsilon}: it must be positive and finite")]

@@ -17,7 +17,7 @@
 //! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; whether a Cantor set or a countable set remains |
 //! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | basin fractions from sample points, each with its uncertainty |
 //! | [`ConfidenceInterval`], [`wilson_interval`], [`student_interval`] | an estimate with a 95 % confidence interval |
-//! | [`Bounds`] | certain bounds on a number |
+//! | [`Bounds`] | bounds on a number, which hold under stated conditions |
 //! | [`SplitMix64`] | random numbers from a seed, the same with any number of threads |
 //! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, dimensions with local slopes and warnings |
 //! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, from perturbed starts or from intervals |

@@ -2,13 +2,13 @@
 
 use crate::confidence_interval::{ConfidenceInterval, student_quantile};
 use crate::error::Error;
-use crate::least_squares::fit_line;
+use crate::least_squares::{fit_curvature, fit_line};
 
 /// A fit of value ∝ scale^exponent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PowerLaw {
-    /// The exponent, with the 95 % interval of its least-squares fit. The interval assumes that the law holds:
-    /// see `warning` and `local`.
+    /// The exponent, with the 95 % interval of its least-squares fit. The interval assumes that the law holds and that the
+    /// errors of ln value are independent and normal, with one variance: see `warning` and `local`.
     pub exponent: ConfidenceInterval,
     /// The smallest and the largest scale.
     pub range: (f64, f64),
@@ -31,7 +31,8 @@ pub enum Warning {
         /// The number of decades.
         decades: f64,
     },
-    /// The local slopes of the finest third of the scales and of the coarsest third differ by more than their scatter.
+    /// The slope changes over the range: a parabola fits better than a line, by a test that noise alone fails in 5 % of
+    /// the fits, and the mean slopes of the finest third and of the coarsest third differ by more than 0.05.
     Drifts {
         /// Mean slope of the finest third.
         fine: f64,
@@ -73,7 +74,7 @@ pub fn power_law(points: &[(f64, f64)]) -> Result<PowerLaw, Error> {
     let range = (sorted[0].0, sorted[sorted.len() - 1].0);
     let (lower, upper) = (fit.slope - half, fit.slope + half);
     let exponent = ConfidenceInterval { value: fit.slope, lower, upper };
-    let warning = warning(&sorted, &local);
+    let warning = warning(&logarithms, &local);
     Ok(PowerLaw { exponent, range, local, warning })
 }
 
@@ -82,9 +83,8 @@ pub fn power_law(points: &[(f64, f64)]) -> Result<PowerLaw, Error> {
 /// is uncertain in its second decimal only. A larger limit would miss larger drifts.
 const STEADY: f64 = 0.05;
 
-/// A fit over fewer scales gives a warning. With three scales one degree of freedom is left, and the interval of the
-/// exponent is 12.7 standard errors to each side; with four it is 4.3. With four scales no drift can exceed the limit
-/// of [`STANDARD_ERRORS`]; from five on it can.
+/// A fit over fewer scales gives a warning. With three scales a parabola fits exactly: a drift could not be told from
+/// noise. With four, one degree of freedom is left, and only a curvature of more than 12.7 standard errors is a drift.
 const FEWEST_SCALES: usize = 4;
 
 /// A fit over fewer decades gives a warning. Over 1.5 decades a factor of 1.4 between the errors of the values at the
@@ -92,34 +92,32 @@ const FEWEST_SCALES: usize = 4;
 /// about more measurements.
 const FEWEST_DECADES: f64 = 1.5;
 
-/// A drift is a difference of more than this number of standard errors of a third's mean. The difference of
-/// two such means has √2 standard errors. For independent normal slopes noise alone exceeds it in 3 % of the fits. A
-/// smaller number would warn about noise more often, a larger one would miss slow drifts.
-const STANDARD_ERRORS: f64 = 3.0;
-
-fn warning(points: &[(f64, f64)], local: &[f64]) -> Option<Warning> {
-    let scales = points.len();
+/// The warning of a fit to (ln scale, ln value), from fine to coarse.
+///
+/// Under a power law with independent normal errors of ln value, all of one variance, the curvature of a fitted parabola
+/// over its standard error has Student's distribution with n − 3 degrees of freedom. Its 95 % quantile is exceeded by
+/// noise in 5 % of the fits, for every number of scales from four on.
+fn warning(logarithms: &[(f64, f64)], local: &[f64]) -> Option<Warning> {
+    let scales = logarithms.len();
     if scales < FEWEST_SCALES {
         return Some(Warning::FewScales { scales });
     }
-    let decades = pxfm::f_log10(points[scales - 1].0 / points[0].0);
+    let decades = (logarithms[scales - 1].0 - logarithms[0].0) / std::f64::consts::LN_10;
     if decades < FEWEST_DECADES {
         return Some(Warning::ShortRange { decades });
     }
     let third = (local.len() / 3).max(1);
     let mean = |slopes: &[f64]| slopes.iter().sum::<f64>() / slopes.len() as f64;
     let (fine, coarse) = (mean(&local[..third]), mean(&local[local.len() - third..]));
-    // The standard deviation about a smooth trend: neighbouring slopes differ by twice its square in the mean.
-    let jumps: Vec<f64> = local.windows(2).map(|p| (p[1] - p[0]) * (p[1] - p[0])).collect();
-    let scatter = (0.5 * mean(&jumps)).sqrt();
-    let drifts =
-        (fine - coarse).abs() > STEADY.max(STANDARD_ERRORS * scatter / (third as f64).sqrt());
-    drifts.then_some(Warning::Drifts { fine, coarse })
+    let fit = fit_curvature(logarithms);
+    let curved = fit.curvature.abs() > student_quantile(scales - 3) * fit.standard_error;
+    (curved && (fine - coarse).abs() > STEADY).then_some(Warning::Drifts { fine, coarse })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::split_mix::SplitMix64;
 
     #[test]
     fn poor_fits_have_warnings() {
@@ -135,6 +133,50 @@ mod tests {
         assert!(fine < 1.1 && coarse > 1.9);
         assert!(power_law(&[(1.0, 1.0), (1.0, 2.0), (2.0, 2.0)]).is_err());
         assert!(power_law(&[(1.0, 1.0), (2.0, 0.0), (3.0, 2.0)]).is_err());
+    }
+
+    /// Points of these local slopes, one scale a decade.
+    fn with_slopes(slopes: &[f64]) -> Vec<(f64, f64)> {
+        let mut exponent = 0.0;
+        let value = |slope: &f64| {
+            exponent += slope;
+            exponent
+        };
+        let exponents: Vec<f64> = std::iter::once(0.0).chain(slopes.iter().map(value)).collect();
+        (0..).zip(exponents).map(|(k, e)| (pxfm::f_exp10(f64::from(k)), pxfm::f_exp10(e))).collect()
+    }
+
+    #[test]
+    fn four_scales_are_enough_to_see_a_drift() {
+        let law = power_law(&with_slopes(&[1.0, 1.5, 2.0])).unwrap();
+        assert!(matches!(law.warning, Some(Warning::Drifts { .. })), "{law:?}");
+        // One degree of freedom does not tell this from noise.
+        assert_eq!(power_law(&with_slopes(&[1.0, 1.0, 2.0])).unwrap().warning, None);
+        // Below 0.05 a drift is no warning, however regular it is.
+        assert_eq!(power_law(&with_slopes(&[1.0, 1.02, 1.04])).unwrap().warning, None);
+    }
+
+    /// 5 % of 4000 fits are 200, with a standard deviation of 14.
+    #[test]
+    fn noise_alone_gives_the_stated_number_of_warnings() {
+        const FITS: u64 = 4000;
+        /// Standard deviation of ln value: with it, chance alone makes nearly every drift exceed 0.05.
+        const NOISE: f64 = 1.0;
+        for scales in [4, 5, 8, 13] {
+            let fit = |seed: u64| {
+                let random = SplitMix64::from_seed(seed);
+                // Twelve uniform numbers have a sum of variance 1, nearly normal.
+                let normal =
+                    |k: u64| (0..12).map(|i| random.uniform(12 * k + i)).sum::<f64>() - 6.0;
+                let point = |k: u64| {
+                    let x = k as f64 * std::f64::consts::LN_10;
+                    (pxfm::f_exp(x), pxfm::f_exp(2.0 * x + NOISE * normal(k)))
+                };
+                power_law(&(0..scales).map(point).collect::<Vec<_>>()).unwrap()
+            };
+            let warned = (0..FITS).filter(|seed| fit(*seed).warning.is_some()).count();
+            assert!((150..=250).contains(&warned), "{scales} scales: {warned}");
+        }
     }
 
     #[test]

@@ -134,7 +134,8 @@ impl PreimageTree {
         self.starts.len() - 1
     }
 
-    /// The number of levels that are certainly complete. Later levels are preimages of intervals a few ulps wide.
+    /// The number of levels that are complete, if the branches are: no preimage of their intervals is missing. Later levels
+    /// are preimages of intervals a few ulps wide.
     pub fn complete_levels(&self) -> usize {
         self.incomplete.map_or(self.levels(), |level| level.min(self.levels()))
     }

@@ -68,7 +68,22 @@ pub enum Error {
         /// The message of the library.
         reason: String,
     },
+    /// A figure's file is not what its name says, so that it cannot be compared with the committed one.
+    #[error("{name} cannot be compared: {reason}")]
+    Unreadable {
+        /// Name of the file.
+        name: String,
+        /// The reason.
+        reason: String,
+    },
     /// A claim or a comparison does not hold, or an option makes no sense; the text states which.
     #[error("{0}")]
     CheckFailed(String),
+}
+
+impl Error {
+    /// The error for a file that cannot be read as what its name says.
+    pub(crate) fn unreadable(name: &str, reason: impl std::fmt::Display) -> Self {
+        Error::Unreadable { name: name.to_owned(), reason: reason.to_string() }
+    }
 }

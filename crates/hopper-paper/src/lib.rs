@@ -17,6 +17,7 @@ mod choice;
 pub mod claims;
 pub mod cli;
 pub mod commands;
+mod comparison;
 mod error;
 mod fate_colors;
 mod figure;

@@ -31,7 +31,8 @@
 //! # Accuracy
 //!
 //! Coordinates in the SVG have three decimals of a point, 0.4 µm on paper. The same drawing gives the same
-//! bytes on every machine: the font is part of the crate, and logarithms come from `pxfm`.
+//! SVG on every machine: the font is part of the crate, and logarithms come from `pxfm`. The bytes of a PNG depend on
+//! the version of the compressor too.
 //!
 //! # Not here
 //!

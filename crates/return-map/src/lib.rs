@@ -55,7 +55,7 @@
 //! ```
 //!
 //! # Accuracy
-//! A return is as exact as the crossings that the system computes. Its derivative is as exact as the derivatives of the
+//! A return is as accurate as the crossings that the system computes. Its derivative is as accurate as the derivatives of the
 //! system. [`fixed_points`] finds only fixed points that its samples reveal.
 //!
 //! # Poincaré sections of plain flows

@@ -62,7 +62,7 @@ pub fn periodic_point<const K: usize>(
 }
 
 /// A point of period `period`, for a map that gives its derivative together with the image, as
-/// [`next_with_derivative`](crate::ReturnMap::next_with_derivative) does. The multipliers are as exact as the
+/// [`next_with_derivative`](crate::ReturnMap::next_with_derivative) does. The multipliers are as accurate as the
 /// derivative.
 ///
 /// # Errors

@@ -120,11 +120,15 @@ where
         Err(Error::NoReturn { stop, time, events })
     }
 
-    /// The image of a point of a one-dimensional section; `None` if the execution certainly never returns.
+    /// The image of a point of a one-dimensional section; `None` if the execution ends without a return.
+    ///
+    /// An execution ends in a mode without a further event, in a terminal mode, or at a Zeno limit after which the system
+    /// does not go on. That there is no further event is as certain as the search of the mode's guards
+    /// ([`hybrid_system::Certainty`]).
     ///
     /// # Errors
-    /// As [`next`](Self::next), except that an execution that certainly never returns gives `None`. An execution that
-    /// reaches a limit may still return later, and is an error.
+    /// As [`next`](Self::next), except that an execution that ends gives `None`. An execution that reaches a limit may still
+    /// return later, and is an error.
     pub fn image(&self, coordinate: f64) -> Result<Option<f64>, Error>
     where
         C: Section<T, N, 1>,

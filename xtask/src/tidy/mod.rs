@@ -9,16 +9,21 @@
 //! | no imports through `lib.rs` | `lib_imports.rs` |
 //! | the root of the repository holds known names only | `root_folder.rs` |
 //! | citations of `docs/theory.md` name statements that exist | `theory_citations.rs` |
+//! | sources cited by name and year are in the bibliography | `bibliography.rs` |
+//! | links lead to files and headings that exist | `links.rs` |
 //! | the files and tests that the documentation names exist | `names_in_pages.rs` |
 
+mod bibliography;
 mod breach;
 mod crate_classes;
 mod import_cycles;
 mod imports;
 mod lib_imports;
 mod line_rules;
+mod links;
 mod module_tree;
 mod names_in_pages;
+mod one_line;
 mod root_folder;
 mod sources;
 mod theory_citations;
@@ -62,6 +67,9 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     root_folder::check(root, &mut breaches)?;
     let documents = sources::documents(root)?;
     theory_citations::check(&sources, &documents, &mut breaches);
+    let bibliography = sources::read(root, bibliography::BIBLIOGRAPHY)?;
+    bibliography::check(&bibliography, &sources, &documents, &mut breaches);
+    links::check(root, &documents, &mut breaches);
     let pages: Vec<_> = documents.into_iter().filter(sources::is_page).collect();
     names_in_pages::check(&pages, &sources, &mut breaches);
     Ok(breaches)

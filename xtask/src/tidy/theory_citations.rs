@@ -4,6 +4,7 @@
 //! the lines of a comment. A statement begins a line with `**Lemma 5`.
 
 use super::breach::Breach;
+use super::one_line::OneLine;
 use super::sources::Source;
 
 /// The file with the statements.
@@ -87,32 +88,6 @@ fn old_citations(text: &str) -> Vec<usize> {
     let pattern = "theory: ";
     let found = text.match_indices(pattern);
     found.filter(|(at, _)| is_section(&text[at + pattern.len()..])).map(|(at, _)| at).collect()
-}
-
-/// A text whose lines are joined by spaces, without the marks of comments.
-struct OneLine {
-    text: String,
-    /// Where each line begins in `text`.
-    starts: Vec<usize>,
-}
-
-impl OneLine {
-    fn new(text: &str) -> Self {
-        let (mut joined, mut starts) = (String::new(), Vec::new());
-        for line in text.lines() {
-            starts.push(joined.len());
-            let line = line.trim();
-            let comment = ["///", "//!", "//"].iter().find_map(|mark| line.strip_prefix(mark));
-            joined.push_str(comment.unwrap_or(line).trim());
-            joined.push(' ');
-        }
-        OneLine { text: joined, starts }
-    }
-
-    /// The line, from one, of a place in the joined text.
-    fn line_of(&self, at: usize) -> usize {
-        self.starts.partition_point(|start| *start <= at)
-    }
 }
 
 #[cfg(test)]
