@@ -114,8 +114,9 @@ const SCALES: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
 /// Fewest points of a cluster. An isolated boundary point is seen as two, the ends of the gap around it; two isolated
 /// points may be near each other by chance.
 const FEWEST: usize = 5;
-/// Generations of preimages of α*_2 on hump 2. Later ones are nearer to α*_3 than the largest scale.
-const GENERATIONS: usize = 12;
+/// Generations of preimages of α*_2 on hump 2. Generation k is (3/(10λk))³ left of α*_3: 7·10⁻⁹ for the last one, which
+/// is far below the finest scale.
+const GENERATIONS: usize = 30;
 
 /// The clusters of points at a scale: first and last point.
 fn clusters(points: &[f64], scale: f64) -> Vec<(f64, f64)> {

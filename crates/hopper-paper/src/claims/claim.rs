@@ -20,7 +20,7 @@ pub enum Verdict {
 
 /// On what the verdict rests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+#[serde(untagged)]
 pub enum Ground {
     /// A test by something that does not contain the claim. If docs/theory.md proves the claim, `proof` names the
     /// statement there.

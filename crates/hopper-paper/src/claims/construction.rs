@@ -106,7 +106,7 @@ pub(super) fn two_preimages(levels: &[IntervalSet], map: &impl Map) -> Result<Ev
     });
     let worst = largest(distances);
     Ok(Evidence::about("two distinct intervals $A$_{1} and $A$_{2} of the next hump map into the local basin $A$")
-        .ours(format!("{count} on hump 2 at $M$ = {M}; on hump 1 {rising} more on its rising part and {falling} on its falling part"))
+        .ours(format!("{count} on hump 2 at $M$ = {M}; beside them hump 1 has {rising} on its rising part and {falling} on its falling part"))
         .error(format!(
             "{} intervals of level 1 below $α$^{{∗}}_{{3}}, {} found by the scan; their ends differ by at most {worst:.1e}",
             claimed.len(),

@@ -189,7 +189,6 @@ claims! {
         [
             invariance(&with_mass, &integrated, PAIRS)?,
             invariance(&printed, &integrated_with_mass, PAIRS)?,
-            // The pairs of the windows: the hops there have sudden lift-offs.
             invariance(&with_kappa, &integrated, PAIRS)?
         ];
     no_invariance_fails_for_an_invariant_map: "no invariance with sudden lift-offs",

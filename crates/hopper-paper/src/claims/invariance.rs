@@ -204,7 +204,7 @@ pub(super) fn no_invariance(
             "largest difference of $α$′^{{2}}: {:.2} $α$^{{2}} and {:.2} $α$^{{2}}",
             printed.largest, integrated.largest
         ))
-        .how("the test above on the sudden windows; here it fails, so it is able to fail")
+        .how("the test of the row above on the sudden windows. Here it fails, which shows that it can fail")
         .holds(differ(&printed) && differ(&integrated)))
 }
 

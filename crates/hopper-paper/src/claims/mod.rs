@@ -21,7 +21,9 @@ pub use claim::{Claim, Ground, Verdict};
 
 use crate::error::Error;
 use claim::Check;
+use rayon::prelude::*;
 use repository_tools::Progress;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// All claims, group by group.
 fn checks() -> impl Iterator<Item = &'static Check> {
@@ -42,13 +44,15 @@ fn checks() -> impl Iterator<Item = &'static Check> {
 
 fn checked(checks: &[&Check], progress: &Progress) -> Result<Vec<Claim>, Error> {
     let bar = progress.bar("claims", checks.len() as u64);
-    let mut claims = Vec::new();
-    for (check, done) in checks.iter().zip(1..) {
-        claims.push(check.claim()?);
-        bar.set(done);
-    }
+    let done = AtomicU64::new(0);
+    let check = |check: &&Check| {
+        let claim = check.claim();
+        bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
+        claim
+    };
+    let claims = checks.par_iter().map(check).collect();
     bar.finish();
-    Ok(claims)
+    claims
 }
 
 /// All claims, checked.

@@ -112,9 +112,10 @@ pub(super) fn sudden_windows(
     let kinds = rows.iter().flatten().all(|part| part.0);
     Ok(Evidence::about("left of a fixed point $y$_{1} > 1 at impact, right of it $y$_{1} < 1")
         .ours(format!(
-            "$y$_{{1}} − 1 at impact changes its sign at {} speeds for five $M$; expected are {}, at the ends of \
-             ($nπ$, $α$^{{∗}}_{{n}}), $n$ ≤ {}",
+            "$y$_{{1}} − 1 at impact changes its sign at {} speeds for {} mass ratios together; expected are {}, at \
+             the ends of ($nπ$, $α$^{{∗}}_{{n}}), $n$ ≤ {}",
             number(0),
+            RATIOS.len(),
             RATIOS.len() as u64 * 2 * count.printed,
             count.printed
         ))

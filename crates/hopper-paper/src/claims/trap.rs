@@ -268,7 +268,7 @@ pub(super) fn symmetric(
             INTEGRATED_RATIOS.len()
         ))
         .error(format!(
-            "{:.0} % of the rounding bound; {:.1} % of the bound from the integration's tolerance",
+            "{:.0} % of the rounding bound; {:.2} % of the bound from the integration's tolerance",
             100.0 * printed.of_bound,
             100.0 * integrated.of_bound
         ))

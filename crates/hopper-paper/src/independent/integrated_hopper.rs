@@ -113,9 +113,10 @@ pub(crate) fn integrated(alpha: f64, mass_ratio: MassRatio) -> Result<Option<f64
 ///
 /// A hop lasts up to T = 2α + π + 2π/ν and has about T steps. Each step is wrong by the tolerance times 1 + |x| in each
 /// component, where |y| ≤ 1 + α²/2 and |ẏ| ≤ 1 + 3α. An error of a velocity grows in the position like T. So at the
-/// end e = ẏ₁² + (y₁−1)(2 + κ(y₁−1)) is wrong by at most the tolerance times T α² (8 + 4 (α + T)): the first term is
-/// that of ẏ₁, the second that of y₁. The bound counts every step with its largest error and the same sign.
+/// end e = ẏ₁² + (y₁−1)(2 + κ(y₁−1)) is wrong by at most the tolerance times T (1 + α²)(8 + 4 (α + T)): the first term
+/// is that of ẏ₁, the second that of y₁. The bound counts every step with its largest error and the same sign. It is an
+/// estimate of the number of steps and no proof; the largest error seen is a part of it that the claims show.
 pub(crate) fn integrated_error(alpha: f64, mass_ratio: MassRatio) -> f64 {
     let time = 2.0 * alpha + 0.5 * TAU + TAU / mass_ratio.contact_frequency();
-    TOLERANCE * time * (8.0 + 4.0 * (alpha + time))
+    TOLERANCE * time * (8.0 + 4.0 * (alpha + time)) * (1.0 + 1.0 / (alpha * alpha))
 }
