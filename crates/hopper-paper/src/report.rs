@@ -125,8 +125,8 @@ fn summary(out: &mut String, claims: &[Claim]) {
          <p>A claim is <span class=\"confirmed\">confirmed</span> if a test that does not contain it agrees with it. The paper \
          is <span class=\"corrected\">corrected</span> where the claim is wrong or incomplete and such a test confirms \
          the correction. A claim holds <span class=\"theorem\">by construction</span> if it is a theorem in this form: \
-         the code uses the theorem's formula, so that a computation can show only that the code agrees with it. The column \
-         <i>Ground</i> names the test, and the statement of docs/theory.md where the claim is proved.</p>",
+         the code uses the theorem's formula, so that a computation can show only that the code agrees with it. Each \
+         row names its test, and the statement of docs/theory.md if the claim is proved there.</p>",
         claims.len(),
         count(Verdict::Confirmed),
         count(Verdict::Corrected),
@@ -136,12 +136,12 @@ fn summary(out: &mut String, claims: &[Claim]) {
 }
 
 fn table(out: &mut String, claims: &[Claim]) {
-    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>How computed</th><th>Ground</th><th>Verdict</th></tr>");
+    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>How computed, test and proof</th><th>Verdict</th></tr>");
     for claim in claims {
         let (class, text) = word(claim.verdict);
         let _ = write!(
             out,
-            "<tr><td><b>{}</b><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td><small>{}</small></td><td><small>{}</small></td><td class=\"{class}\">{text}</td></tr>",
+            "<tr><td><b>{}</b><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td><small>{}.<br>{}</small></td><td class=\"{class}\">{text}</td></tr>",
             html(claim.name),
             html(claim.place),
             html(&claim.paper),
@@ -156,8 +156,9 @@ fn table(out: &mut String, claims: &[Claim]) {
 
 /// The test of a claim and the statement that proves it.
 fn ground(ground: &Ground) -> String {
-    let test = ground.test().map(|test| format!("Tested by {}.", html(test)));
-    let proof = ground.proof().map(|proof| format!("Proved: {}.", html(proof)));
+    let test = ground.test().map(|test| format!("<b>Test:</b> {}.", html(test)));
+    let proof =
+        ground.proof().map(|proof| format!("<b>Proof:</b> docs/theory.md, {}.", html(proof)));
     test.into_iter().chain(proof).collect::<Vec<_>>().join("<br>")
 }
 
@@ -173,4 +174,41 @@ fn erratum(out: &mut String, claims: &[Claim]) {
         html(&claim.ours),
         html(&claim.error)
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(verdict: Verdict, ground: Ground) -> Claim {
+        Claim {
+            name: "a claim",
+            place: "Sec. I",
+            paper: String::new(),
+            ours: String::new(),
+            error: String::new(),
+            how: String::new(),
+            ground,
+            verdict,
+        }
+    }
+
+    #[test]
+    fn a_row_names_its_test_and_its_proof() {
+        let tested = Ground::Test { test: "the printed map", proof: Some("Lemma 6") };
+        let theorem = Ground::Theorem { proof: "Corollary 10" };
+        let claims = [claim(Verdict::Confirmed, tested), claim(Verdict::ByConstruction, theorem)];
+        let page = page(&[], Some(&claims), 0.0);
+        let row = |part: &str| page.matches(part).count();
+        assert_eq!(
+            row("<b>Test:</b> the printed map.<br><b>Proof:</b> docs/theory.md, Lemma 6."),
+            1
+        );
+        assert_eq!(row("<b>Proof:</b> docs/theory.md, Corollary 10."), 1);
+        assert_eq!(row("<td class=\"theorem\">by construction</td>"), 1);
+        assert_eq!(
+            row("2 claims: 1 confirmed, 0 corrected with evidence, 1 by construction, 0 failed"),
+            1
+        );
+    }
 }

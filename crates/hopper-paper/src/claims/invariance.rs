@@ -96,7 +96,7 @@ const RANDOM: SplitMix64 = SplitMix64::from_state(0x243f_6a88_85a3_08d3);
 /// The map at M against the map at 1/M.
 struct Comparison {
     pairs: usize,
-    /// The largest difference of α′², relative to α².
+    /// The largest difference of α′², relative to 1 + α²: the terms of Eq. 7 are of order 1 for small α, too.
     largest: f64,
     /// The largest difference of α′², relative to its bound.
     of_bound: f64,
@@ -129,7 +129,7 @@ fn pair(k: u64, part: Part, range: &Range) -> Result<(MassRatio, f64), Error> {
 
 /// Compares the map at random M with the map at 1/M.
 fn compare(map: &impl Map, part: Part, range: &Range, pairs: u64) -> Result<Comparison, Error> {
-    // The difference of α′² relative to α², and that relative to the bound.
+    // The difference of α′² relative to 1 + α², and that relative to the bound.
     let difference = |k: u64| -> Result<(f64, f64), Error> {
         let (mass_ratio, alpha) = pair(k, part, range)?;
         let square = alpha * alpha;
@@ -140,7 +140,7 @@ fn compare(map: &impl Map, part: Part, range: &Range, pairs: u64) -> Result<Comp
             // α′² is at most 0 on one side.
             (Some(next), None) | (None, Some(next)) => next * next / square,
         };
-        Ok((difference, difference / bound))
+        Ok((difference * square / (1.0 + square), difference / bound))
     };
     let found: Vec<(f64, f64)> =
         (0..pairs).into_par_iter().map(difference).collect::<Result<_, _>>()?;
@@ -167,8 +167,8 @@ pub(super) fn invariance(
             printed.differing, printed.pairs, integrated.differing, integrated.pairs
         ))
         .error(format!(
-            "largest difference of $α$′^{{2}}: printed {:.1e} $α$^{{2}}, {:.0} % of the rounding bound; integrated \
-             {:.1e} $α$^{{2}}, {:.1} % of the bound from the tolerance",
+            "largest difference of $α$′^{{2}}: printed {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding bound; integrated \
+             {:.1e} (1 + $α$^{{2}}), {:.1} % of the bound from the tolerance",
             printed.largest,
             100.0 * printed.of_bound,
             integrated.largest,
@@ -201,7 +201,7 @@ pub(super) fn no_invariance(
             integrated.pairs
         ))
         .error(format!(
-            "largest difference of $α$′^{{2}}: {:.2} $α$^{{2}} and {:.2} $α$^{{2}}",
+            "largest differences of $α$′^{{2}}: {:.2} (1 + $α$^{{2}}) and {:.2} (1 + $α$^{{2}})",
             printed.largest, integrated.largest
         ))
         .how("the test of the row above on the sudden windows. Here it fails, which shows that it can fail")
@@ -217,7 +217,7 @@ pub(super) fn stable_form(map: &impl Map, pairs: u64) -> Result<Evidence, Error>
              $μ$($M$) = $μ$(1/$M$)",
         )
         .error(format!(
-            "largest difference of $α$′^{{2}} in {} pairs: {:.1e} $α$^{{2}}, {:.0} % of the rounding of 1/$M$, of \
+            "largest difference of $α$′^{{2}} in {} pairs: {:.1e} (1 + $α$^{{2}}), {:.0} % of the rounding of 1/$M$, of \
              both $μ$ and of both $α$′^{{2}}",
             found.pairs,
             found.largest,

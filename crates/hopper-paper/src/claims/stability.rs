@@ -226,7 +226,7 @@ pub(super) fn lambda(
     let ours = corrected(1, MassRatio::ONE)?;
     let measured = coefficient(map, 1, MassRatio::ONE, Side::Right)?;
     Ok(Evidence::about(format!("$λ$ = $βμ$(2$α$^{{∗}} − sin 2$α$^{{∗}}); {printed:.6} for $n$ = $M$ = 1"))
-        .ours(format!("{:.4} of that: {ours:.9}; measured {measured:.9}", ours / printed))
+        .ours(format!("{:.4} of the printed $λ$: {ours:.9}; measured {measured:.9}", ours / printed))
         .error(format!("measured/printed = 0.75 ± {worst_printed:.1e}; measured/corrected = 1 ± {worst_corrected:.1e}"))
         .how("($δ$ − $δ$′)/$δ$^{4/3} at $δ$ = min(0.3 $λ$^{−3}, 10^{−4}), /8, /64, extrapolated; $n$ = 1, 2, 3, 7, 10, $M$ = 0.1, 0.2, 0.5, 1, 10")
         .corrected(worst_corrected < LAMBDA_ERROR))
