@@ -45,7 +45,6 @@ const SAMPLES: usize = 4001;
 
 /// The monotone branches that a scan of hump n shows.
 pub(super) fn scanned(map: &impl Map, mass_ratio: MassRatio, n: u64) -> Result<Vec<Branch>, Error> {
-    // The fixed points are left out: the rounding of the map there is larger than its distance from the diagonal.
     let hump = Interval::new(alpha_star(n), alpha_star(n + 1))?;
     let image = |alpha: f64| map(alpha, mass_ratio).ok().flatten();
     Ok(monotone_branches(&image, hump, SAMPLES)?)
@@ -81,11 +80,8 @@ fn lowest(map: &impl Map, mass_ratio: f64) -> Result<f64, Error> {
     let mut least = f64::INFINITY;
     for n in 1..=5 {
         let branches = scanned(map, mass_ratio, n)?;
-        let mut ends: Vec<f64> = branches.iter().flat_map(|b| [b.at_left, b.at_right]).collect();
-        if n == 1 {
-            ends.remove(0);
-        }
-        least = ends.into_iter().fold(least, f64::min);
+        let ends = branches.iter().flat_map(|b| [b.at_left, b.at_right]);
+        least = ends.skip(usize::from(n == 1)).fold(least, f64::min);
     }
     Ok(least - alpha_star(1))
 }
