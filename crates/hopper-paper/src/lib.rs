@@ -22,6 +22,7 @@ mod error;
 mod fate_colors;
 mod figure;
 pub mod figures;
+mod independent;
 pub mod job;
 pub mod models;
 pub mod report;

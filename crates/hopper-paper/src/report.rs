@@ -1,7 +1,7 @@
 //! `report.html`: one file with its images inside, for any browser.
 
 use crate::beyond::Finding;
-use crate::claims::{Claim, Verdict};
+use crate::claims::{Claim, Ground, Verdict};
 use crate::figure::Figure;
 use journal_figures::{Rendered, base64, html};
 use std::fmt::Write;
@@ -10,7 +10,7 @@ const STYLE: &str = "body{font:17px/1.5 'STIX Two Text','Times New Roman',serif;
 h1{font-size:1.7em;line-height:1.2}h2{margin-top:2em;border-bottom:1px solid #999}figure{margin:2em 0}figure img{max-width:100%;display:block;margin:auto}\
 figcaption{font-size:.93em}.paper{border-left:3px solid #bbb;padding-left:.8em;color:#333}table{border-collapse:collapse;font-size:.86em;width:100%}\
 th,td{border-bottom:1px solid #ccc;padding:.35em .5em;text-align:left;vertical-align:top}th{border-bottom:2px solid #333}\
-.confirmed{color:#0b6b3a;font-weight:bold}.corrected{color:#9a5b00;font-weight:bold}.fails{color:#b00020;font-weight:bold}small{color:#444}";
+.confirmed{color:#0b6b3a;font-weight:bold}.corrected{color:#9a5b00;font-weight:bold}.theorem{color:#1f4e96;font-weight:bold}.fails{color:#b00020;font-weight:bold}small{color:#444}";
 
 /// Details that are illegible in our copy of the paper, and the choice made for each.
 const ILLEGIBLE: &[&str] = &[
@@ -112,6 +112,7 @@ fn word(verdict: Verdict) -> (&'static str, &'static str) {
     match verdict {
         Verdict::Confirmed => ("confirmed", "confirmed"),
         Verdict::Corrected => ("corrected", "the paper is corrected"),
+        Verdict::ByConstruction => ("theorem", "by construction"),
         Verdict::Fails => ("fails", "FAILS"),
     }
 }
@@ -120,30 +121,45 @@ fn summary(out: &mut String, claims: &[Claim]) {
     let count = |verdict| claims.iter().filter(|claim| claim.verdict == verdict).count();
     let _ = write!(
         out,
-        "<p><b>{} claims: {} confirmed, {} corrected with evidence, {} failed.</b></p>",
+        "<p><b>{} claims: {} confirmed, {} corrected with evidence, {} by construction, {} failed.</b></p>\
+         <p>A claim is <span class=\"confirmed\">confirmed</span> if a test that does not contain it agrees with it. The paper \
+         is <span class=\"corrected\">corrected</span> where the claim is wrong or incomplete and such a test confirms \
+         the correction. A claim holds <span class=\"theorem\">by construction</span> if it is a theorem in this form: \
+         the code uses the theorem's formula, so that a computation can show only that the code agrees with it. Each \
+         row names its test, and the statement of docs/theory.md if the claim is proved there.</p>",
         claims.len(),
         count(Verdict::Confirmed),
         count(Verdict::Corrected),
+        count(Verdict::ByConstruction),
         count(Verdict::Fails)
     );
 }
 
 fn table(out: &mut String, claims: &[Claim]) {
-    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>How computed</th><th>Verdict</th></tr>");
+    out.push_str("<h2>Claims</h2><table><tr><th>Claim</th><th>The paper</th><th>Ours</th><th>Error</th><th>How computed, test and proof</th><th>Verdict</th></tr>");
     for claim in claims {
         let (class, text) = word(claim.verdict);
         let _ = write!(
             out,
-            "<tr><td><b>{}</b><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td><small>{}</small></td><td class=\"{class}\">{text}</td></tr>",
-            html(&claim.name),
+            "<tr><td><b>{}</b><br><small>{}</small></td><td>{}</td><td>{}</td><td>{}</td><td><small>{}.<br>{}</small></td><td class=\"{class}\">{text}</td></tr>",
+            html(claim.name),
             html(claim.place),
             html(&claim.paper),
             html(&claim.ours),
             html(&claim.error),
-            html(&claim.how)
+            html(&claim.how),
+            ground(&claim.ground)
         );
     }
     out.push_str("</table>");
+}
+
+/// The test of a claim and the statement that proves it.
+fn ground(ground: &Ground) -> String {
+    let test = ground.test().map(|test| format!("<b>Test:</b> {}.", html(test)));
+    let proof =
+        ground.proof().map(|proof| format!("<b>Proof:</b> docs/theory.md, {}.", html(proof)));
+    test.into_iter().chain(proof).collect::<Vec<_>>().join("<br>")
 }
 
 fn erratum(out: &mut String, claims: &[Claim]) {
@@ -158,4 +174,41 @@ fn erratum(out: &mut String, claims: &[Claim]) {
         html(&claim.ours),
         html(&claim.error)
     );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(verdict: Verdict, ground: Ground) -> Claim {
+        Claim {
+            name: "a claim",
+            place: "Sec. I",
+            paper: String::new(),
+            ours: String::new(),
+            error: String::new(),
+            how: String::new(),
+            ground,
+            verdict,
+        }
+    }
+
+    #[test]
+    fn a_row_names_its_test_and_its_proof() {
+        let tested = Ground::Test { test: "the printed map", proof: Some("Lemma 6") };
+        let theorem = Ground::Theorem { proof: "Corollary 10" };
+        let claims = [claim(Verdict::Confirmed, tested), claim(Verdict::ByConstruction, theorem)];
+        let page = page(&[], Some(&claims), 0.0);
+        let row = |part: &str| page.matches(part).count();
+        assert_eq!(
+            row("<b>Test:</b> the printed map.<br><b>Proof:</b> docs/theory.md, Lemma 6."),
+            1
+        );
+        assert_eq!(row("<b>Proof:</b> docs/theory.md, Corollary 10."), 1);
+        assert_eq!(row("<td class=\"theorem\">by construction</td>"), 1);
+        assert_eq!(
+            row("2 claims: 1 confirmed, 0 corrected with evidence, 1 by construction, 0 failed"),
+            1
+        );
+    }
 }

@@ -1,182 +1,151 @@
-//! Claims about the fixed points: their values and their one-sided stability.
+//! Claims about the fixed points: their values, and that the map touches the diagonal there.
 
-use super::claim::{Claim, largest};
+use super::claim::{Check, Evidence, Ground, largest};
 use crate::error::Error;
-use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
-use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, alpha_star};
-use repository_tools::Progress;
-use return_map::{
-    Intersection, OneSidedStability, Side, Stability, fixed_points, one_sided_stability,
-};
+use crate::independent::map::{Map, printed, printed_rounding};
+use hopper_asymptotics::{Coefficients, Form};
+use passive_hopper::{MassRatio, alpha_star};
+use return_map::{Intersection, fixed_points};
+
+pub(super) const CHECKS: &[Check] = &[
+    Check {
+        name: "fixed points",
+        place: "Sec. II, Eq. 3",
+        ground: Ground::Test {
+            test: "the sign of sin $α$ − $α$ cos $α$ on either side of each value; the paper's digits",
+            proof: Some("Lemma 6"),
+        },
+        evidence: || Ok(digits(&alpha_star)),
+    },
+    Check {
+        name: "incessant hopping is possible",
+        place: "Sec. II",
+        ground: Ground::Test { test: "the printed Eqs. 6–8", proof: Some("Corollary 9") },
+        evidence: || all_are_fixed(&printed, &alpha_star, 30),
+    },
+    Check {
+        name: "the fixed points are touches",
+        place: "Sec. III, Fig. 2",
+        ground: Ground::Test {
+            test: "a search on the printed map, which does not know the fixed points",
+            proof: Some("Corollary 9"),
+        },
+        evidence: || touches(&printed, &alpha_star),
+    },
+];
 
 /// Mass ratios of the checks: 1, and three pairs of inverses.
-const RATIOS: [f64; 7] = [0.02, 0.1, 0.5, 1.0, 2.0, 10.0, 50.0];
-/// Indices n of the checked fixed points.
-const INDICES: [u64; 4] = [1, 2, 3, 10];
+pub(super) const RATIOS: [f64; 7] = [0.02, 0.1, 0.5, 1.0, 2.0, 10.0, 50.0];
 
-/// Largest relative error of f(α*) = α*. The exact loss at the double nearest to α*_n, n ≤ 30, is under a hundredth of
-/// an ulp. The roundings of α², of α′² and of its root add up to at most ε = `f64::EPSILON` of α′; the bound is twice
-/// that.
-const FIXED: f64 = 2.0 * f64::EPSILON;
-/// Largest distance between α*_n and the fixed point found from the map alone. Where λ|δ|^{4/3} is under an ulp of α,
-/// at |δ| of some 10⁻¹², f − α is only rounding, and the search cannot see more. The bound has a factor of 30 of room.
-const FOUND: f64 = 1e-10;
+/// A value of α*_n.
+pub(super) trait Star: Fn(u64) -> f64 + Sync {}
 
-/// The largest distance at which stability is probed, as a part of λ⁻³, the leading order of Δ. Beyond the end of the
-/// trap images lie on the other side of α*_n; the exact Δ is at least 0.75 λ⁻³ wherever this part is used.
-const PART_OF_TRAP: f64 = 0.3;
-/// The largest distance at which stability is probed, where 0.3 λ⁻³ is larger. Nearer than this the leading power
-/// decides.
-const FARTHEST: f64 = 1e-3;
+impl<F: Fn(u64) -> f64 + Sync> Star for F {}
 
-/// The largest of the four distances δ, δ/2, δ/4, δ/8 of the exponent. The last two give it. Nearer distances would
-/// have a smaller remainder, and a loss with a larger relative error from the rounding of α.
-const EXPONENT_DISTANCE: f64 = 1e-7;
-/// Largest error of the exponent 4/3. The loss is c|δ|^{4/3} (1 + ℓ₅|δ|^{1/3} + …) with ℓ₅ = β/α* ≤ 0.5: at the two
-/// distances used, |δ|^{1/3} ≤ 0.003, and the second term shifts the exponent by ℓ₅|δ|^{1/3}/3 ≤ 5·10⁻⁴. The bound is
-/// four times that.
-const EXPONENT: f64 = 2e-3;
-/// Largest relative error of the factor 10. The extrapolation leaves a term of order |δ| = 10⁻⁶; the bound leaves room
-/// for its coefficient, and still tells 10 from 9.9 and 10.1.
-const FACTOR: f64 = 1e-3;
-/// The largest of the three distances δ, δ/8, δ/64 from which the factor of |δ|^{4/3} is extrapolated. The smallest,
-/// 1.6·10⁻⁸, is 10⁶ ulps of α*_10 and more, so that the rounding of α shifts the factor by less than 10⁻⁶.
-const FACTOR_DISTANCE: f64 = 1e-6;
+/// Relative distance from α*_n at which the sign of sin α − α cos α is taken: four ulps. The function has the slope
+/// α sin α there, so that its value, 4εα², is far above its rounding, some ε of 1 + α.
+const BESIDE: f64 = 4.0 * f64::EPSILON;
 
-pub(super) fn check(_: &Progress) -> Result<Vec<Claim>, Error> {
-    Ok(vec![printed_digits(), all_are_fixed()?, found_from_the_map()?, stability()?, exponents()?])
-}
-
-fn printed_digits() -> Claim {
+pub(super) fn digits(star: &impl Star) -> Evidence {
     let printed = [("4.493409", 6), ("7.725251", 6), ("10.90412", 5)];
-    let mut right = true;
-    let mut ours = Vec::new();
+    let excess = |x: f64| pxfm::f_sin(x) - x * pxfm::f_cos(x);
+    let (mut right, mut ours, mut units, mut cut) = (true, Vec::new(), Vec::new(), Vec::new());
     for (n, (digits, decimals)) in (1u64..).zip(printed) {
-        let star = alpha_star(n);
-        let ulp = 10f64.powi(-decimals);
-        // The paper rounds some values and truncates others: both are within one unit of the last digit.
-        right &= digits.parse::<f64>().is_ok_and(|value| (value - star).abs() < ulp);
+        let star = star(n);
+        // A root of tan α = α is a change of sign of sin α − α cos α.
+        let signs = [1.0 - BESIDE, 1.0 + BESIDE].map(|part| excess(star * part) > 0.0);
+        right &= signs[0] != signs[1];
+        let value = digits.parse::<f64>().unwrap_or(f64::NAN);
+        units.push((value - star).abs() * pxfm::f_exp10(f64::from(decimals)));
+        if format!("{star:.*}", decimals as usize) != digits {
+            cut.push(digits);
+        }
         ours.push(format!("{star:.12}"));
     }
-    Claim::new("Sec. II, Eq. 3", "fixed points")
-        .paper("tan $α$ = $α$: 4.493409, 7.725251, 10.90412, …")
+    let worst = largest(units);
+    let rounding = match cut.as_slice() {
+        [] => "all are rounded".into(),
+        cut => format!("not rounded but cut: {}", cut.join(", ")),
+    };
+    Evidence::about("tan $α$ = $α$: 4.493409, 7.725251, 10.90412, …")
         .ours(ours.join(", "))
-        .error("under one unit of the last printed digit (7.725251 is cut, not rounded)")
-        .how("$α$ = ($n$+½)$π$ − arctan(1/$α$) in double-double; checked in the tests against 50 digits for 33 indices up to 10^{6}")
-        .holds(right)
+        .error(format!("at most {worst:.2} units of the last printed digit; {rounding}"))
+        .how("$α$ = ($n$+½)$π$ − arctan(1/$α$) in double-double; sin $α$ − $α$ cos $α$ changes its sign within four ulps")
+        // The paper rounds some values and cuts others: both are within one unit of the last digit.
+        .holds(right && worst < 1.0)
 }
 
-fn all_are_fixed() -> Result<Claim, Error> {
-    let mut errors = Vec::new();
+pub(super) fn all_are_fixed(
+    map: &impl Map,
+    star: &impl Star,
+    last: u64,
+) -> Result<Evidence, Error> {
+    let (mut errors, mut of_bound) = (Vec::new(), Vec::new());
     for m in RATIOS {
-        let map = LiftOffMap::new(MassRatio::new(m)?);
-        for n in 1..=30 {
-            let star = alpha_star(n);
-            let image = map.image(star)?.unwrap_or(f64::NAN);
-            errors.push(((image - star) / star).abs());
+        for n in 1..=last {
+            let star = star(n);
+            let image = map(star, MassRatio::new(m)?)?.unwrap_or(f64::NAN);
+            let error = (image / star - 1.0).abs();
+            errors.push(error);
+            // An error of α′² is twice that of α′. The loss at the double nearest to α*_n is under an ulp.
+            of_bound.push(error / (0.5 * printed_rounding(star) + f64::EPSILON));
         }
     }
-    let worst = largest(errors);
-    Ok(Claim::new("Sec. II", "incessant hopping is possible")
-        .paper(
-            "at $α$ = $α$^{∗} the landing takes no energy and the hop repeats for ever, for any $M$",
-        )
-        .ours("$f$($α$^{∗}_{n}) = $α$^{∗}_{n} for $n$ ≤ 30 and seven mass ratios from 0.02 to 50")
-        .error(format!("{worst:.1e} relative"))
-        .how("the map at the double nearest to $α$^{∗}_{n}; bound: two ulps")
-        .holds(worst <= FIXED))
+    let bound = largest(of_bound);
+    Ok(Evidence::about(
+        "at $α$ = $α$^{∗} the landing takes no energy and the hop repeats for ever, for any $M$",
+    )
+    .ours(format!(
+        "$f$($α$^{{∗}}_{{n}}) = $α$^{{∗}}_{{n}} for $n$ ≤ {last} and {} mass ratios from {} to {}",
+        RATIOS.len(),
+        RATIOS[0],
+        RATIOS[RATIOS.len() - 1]
+    ))
+    .error(format!(
+        "{:.1e} relative, {:.0} % of the rounding bound",
+        largest(errors),
+        100.0 * bound
+    ))
+    .how("the printed map at the double nearest to $α$^{∗}_{n}")
+    .holds(bound <= 1.0))
 }
 
-fn found_from_the_map() -> Result<Claim, Error> {
-    let map = LiftOffMap::new(MassRatio::new(0.2)?);
-    let window = (alpha_star(1) - 1.0, alpha_star(5) + 1.0);
-    let found = fixed_points(|x| map.image(x).ok().flatten(), window.0, window.1, 4001)?;
-    let distances = found.iter().zip(1..).map(|(point, n)| (point.location - alpha_star(n)).abs());
-    let worst = largest(distances);
-    let touching = found.iter().all(|point| point.intersection == Intersection::Tangent);
-    Ok(Claim::new("Sec. III, Fig. 2", "the fixed points are touches")
-        .paper("the map has infinitely many fixed points, where tan $α$ = $α$, and stays below the diagonal")
-        .ours(format!("{} fixed points on [$α$^{{∗}}_{{1}} − 1, $α$^{{∗}}_{{5}} + 1] at $M$ = 0.2, all touching", found.len()))
-        .error(format!("largest distance from $α$^{{∗}}_{{n}}: {worst:.1e}"))
-        .how("searched with the map only, at 4001 points and by golden section; $f$ − $α$ falls like the 4/3 power, so that rounding hides 10^{−11}")
-        .holds(found.len() == 5 && touching && worst < FOUND))
-}
+/// The mass ratio of the search.
+const M: f64 = 0.2;
+/// Sampled speeds of the search. Two fixed points are 700 samples apart.
+const SAMPLES: usize = 4001;
 
-/// The map near α*_n as a map of the distance |δ|, computed from the loss, which does not cancel.
-pub(super) fn probe(
-    n: u64,
-    mass_ratio: MassRatio,
-    side: Side,
-    largest: f64,
-    count: usize,
-) -> OneSidedStability {
-    let map = LiftOffMap::new(mass_ratio);
-    let star = FixedPointSpeed::new(n);
-    let sign = match side {
-        Side::Left => -1.0,
-        Side::Right => 1.0,
-    };
-    let displacement = |distance: f64| {
-        let alpha = star.value() + sign * distance;
-        let exact = sign * star.offset_of(alpha);
-        let loss = map.hop(alpha).ok()?.loss?;
-        // The map is evaluated at the nearest f64, at the distance `exact`. Its loss is scaled to the given distance.
-        // The loss grows like the power 4/3, so that the error of this scaling is a third of the relative difference.
-        Some(distance - sign * loss * (distance / exact))
-    };
-    one_sided_stability(displacement, side, largest, count)
-}
-
-fn stability() -> Result<Claim, Error> {
-    let mut wrong = 0;
-    for m in RATIOS {
-        for n in INDICES {
-            let ratio = MassRatio::new(m)?;
-            let local = Coefficients::new(n, ratio, Form::Corrected)?;
-            let largest = (PART_OF_TRAP * local.trap_length()).min(FARTHEST);
-            let right = probe(n, ratio, Side::Right, largest, 20);
-            let left = probe(n, ratio, Side::Left, largest, 20);
-            wrong += usize::from(right.stability != Stability::Attracting);
-            wrong += usize::from(left.stability != Stability::Repelling);
-        }
+pub(super) fn touches(map: &impl Map, star: &impl Star) -> Result<Evidence, Error> {
+    const COUNT: u64 = 5;
+    let mass_ratio = MassRatio::new(M)?;
+    let window = (star(1) - 1.0, star(COUNT) + 1.0);
+    let image = |alpha: f64| map(alpha, mass_ratio).ok().flatten();
+    let found = fixed_points(image, window.0, window.1, SAMPLES)?;
+    let mut of_bound = Vec::new();
+    let mut distances = Vec::new();
+    for (point, n) in found.iter().zip(1..) {
+        let distance = (point.location - star(n)).abs();
+        // The search cannot tell α from α*_n where the loss λ|δ|^{4/3} is below the rounding of f.
+        let lambda = Coefficients::new(n, mass_ratio, Form::Corrected)?.lambda;
+        let hidden = 0.5 * printed_rounding(star(n)) * star(n) / lambda;
+        distances.push(distance);
+        of_bound.push(distance / pxfm::f_pow(hidden, 0.75));
     }
-    Ok(Claim::new("Secs. III, IV", "one-way stability")
-        .paper("each fixed point attracts from the right and not from the left")
-        .ours("attracting from the right, repelling to the left, at every distance probed")
-        .error(format!("{wrong} wrong of {}", 2 * RATIOS.len() * INDICES.len()))
-        .how("20 halvings of the distance from min(0.3 $Δ$, 10^{−3}) down, $n$ = 1, 2, 3, 10, seven mass ratios")
-        .holds(wrong == 0))
-}
-
-/// (δ − δ')/|δ|^{4/3} as δ → 0 on one side, from three distances; positive on both sides.
-pub(super) fn coefficient(n: u64, ratio: MassRatio, side: Side) -> f64 {
-    let at = |distance: f64| {
-        let probe = probe(n, ratio, side, distance, 1);
-        probe.approach.first().map_or(f64::NAN, |&(d, step)| step.abs() / (d * pxfm::f_cbrt(d)))
-    };
-    // (δ − δ′)/|δ|^{4/3} = c (1 + a δ^{1/3} + b δ^{2/3} + …). At δ, δ/8 and δ/64 the factors of a are 1, ½, ¼ and those
-    // of b are 1, ¼, 1/16: with the weights 1, −6, 8 both vanish, and the weights add up to 3.
-    (at(FACTOR_DISTANCE) - 6.0 * at(FACTOR_DISTANCE / 8.0) + 8.0 * at(FACTOR_DISTANCE / 64.0)) / 3.0
-}
-
-fn exponents() -> Result<Claim, Error> {
-    let (mut exponents, mut factors) = (Vec::new(), Vec::new());
-    for m in RATIOS {
-        for n in INDICES {
-            let ratio = MassRatio::new(m)?;
-            for side in [Side::Right, Side::Left] {
-                let law = probe(n, ratio, side, EXPONENT_DISTANCE, 4).power_law();
-                exponents.push(law.map_or(f64::NAN, |(exponent, _)| (exponent - 4.0 / 3.0).abs()));
-            }
-            let [right, left] = [Side::Right, Side::Left].map(|side| coefficient(n, ratio, side));
-            factors.push((left / right / LEFT_FACTOR - 1.0).abs());
-        }
-    }
-    let (exponent, factor) = (largest(exponents), largest(factors));
-    Ok(Claim::new("Sec. IV, Eq. 19", "the exponent 4/3, and 10 on the left")
-        .paper("$f$ ≈ $α$ − $λ$($α$ − $α$^{∗})^{4/3}; the left side is not described")
-        .ours("4/3 on both sides; the left loses 10 times as much: its second landing is three times as fast, 1 + 3^{2} = 10")
-        .error(format!("exponent {exponent:.1e}; factor 10 (1 ± {factor:.1e})"))
-        .how("exponents from the map at |$δ$| = 2.5·10^{−8} and 1.25·10^{−8}; the factor from ($δ$ − $δ$′)/|$δ$|^{4/3} at 10^{−6}, /8 and /64 on each side, extrapolated in |$δ$|^{1/3}; $n$ = 1, 2, 3, 10, seven mass ratios")
-        .holds(exponent < EXPONENT && factor < FACTOR))
+    let touching = found.iter().filter(|point| point.intersection == Intersection::Tangent).count();
+    let worst = largest(of_bound);
+    Ok(Evidence::about(
+        "the map has infinitely many fixed points, where tan $α$ = $α$, and stays below the diagonal",
+    )
+    .ours(format!(
+        "{} fixed points on [$α$^{{∗}}_{{1}} − 1, $α$^{{∗}}_{{{COUNT}}} + 1] at $M$ = {M}; the map touches the \
+         diagonal at {touching} of them",
+        found.len()
+    ))
+    .error(format!(
+        "largest distance from $α$^{{∗}}_{{n}}: {:.1e}, {:.0} % of the distance at which rounding hides the loss",
+        largest(distances),
+        100.0 * worst
+    ))
+    .how(format!("{SAMPLES} equally spaced points, then golden section; $λ$|$δ$|^{{4/3}} is hidden by rounding from |$δ$| ≈ 10^{{−10}} down"))
+    .holds(found.len() as u64 == COUNT && touching == found.len() && worst <= 1.0))
 }

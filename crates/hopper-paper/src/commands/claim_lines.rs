@@ -1,17 +1,33 @@
 //! Claims on the terminal.
 
-use crate::claims::{Claim, Verdict};
+use crate::claims::{Claim, Ground, Verdict};
 use crate::error::Error;
 use journal_figures::html;
 
-/// A claim as one line without markup.
+/// A claim as lines without markup: verdict, name and error; then its test or its theorem.
 pub(super) fn line(claim: &Claim) -> String {
     let word = match claim.verdict {
         Verdict::Confirmed => "confirmed",
         Verdict::Corrected => "corrected",
-        Verdict::Fails => "FAILS    ",
+        Verdict::ByConstruction => "by construction",
+        Verdict::Fails => "FAILS",
     };
-    format!("{word}  {:38} {}", plain(&claim.name), plain(&claim.error))
+    format!(
+        "{word:15}  {:42} {}\n{:15}  {}",
+        plain(claim.name),
+        plain(&claim.error),
+        "",
+        plain(&ground(&claim.ground))
+    )
+}
+
+/// The test of a claim and its theorem, as markup.
+fn ground(ground: &Ground) -> String {
+    match ground {
+        Ground::Test { test, proof: None } => format!("tested by {test}"),
+        Ground::Test { test, proof: Some(proof) } => format!("tested by {test}; {proof}"),
+        Ground::Theorem { proof } => format!("{proof}; no test"),
+    }
 }
 
 /// Markup as plain text.

@@ -80,6 +80,9 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     });
     let counts: Vec<String> =
         levels.iter().map(|level| level.intervals().len().to_string()).collect();
+    let first = levels[1].intervals();
+    let own = first.iter().filter(|i| i.right < alpha_star(2)).count();
+    let next = first.iter().filter(|i| i.left > alpha_star(2) && i.right < alpha_star(3)).count();
     Ok(Figure {
         name: "fig_05_construction",
         title: "The basin of $α$^{∗}_{1}, level by level".into(),
@@ -89,8 +92,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 says tend to a Cantor set."
                 .into(),
         notes: format!(
-            "Not a sketch but the real map at $M$ = {M}. Beside $A$_{{1}} and $A$_{{2}} on hump 2 the \
-             trap has one preimage, $A$_{{0}}, on the rising part of its own hump. Blue: the preimages of these three. Levels 0 to \
+            "Not a sketch but the real map at $M$ = {M}. The trap has {next} preimages on hump 2 and {own} on \
+             its own hump ($A$_{{0}}, $A$_{{1}}, … from left to right). Blue: the preimages of these. Levels 0 to \
              {DEPTH} have {} intervals in [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{4}}]; ends are located to \
              one ulp. In a bounded window they do not tend to a Cantor set: $f$($α$) ≤ $α$ lets no orbit \
              return, so the boundary is the countable set of all preimages of $α$^{{∗}}_{{1}} and \
