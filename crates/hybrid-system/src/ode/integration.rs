@@ -2,7 +2,8 @@
 
 use super::chebyshev::NODES;
 use super::first_step::first_step;
-use super::scheme::{ALL_STAGES, Scheme, inverse_root};
+use super::inverse_root::inverse_root;
+use super::schemes::{ALL_STAGES, Scheme, scheme_for};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use super::vector::Vector;
@@ -168,7 +169,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         start.check_finite(0.0)?;
         let slope = field(0.0, start);
         slope.check_finite(0.0)?;
-        let scheme = Scheme::within(tolerances.relative);
+        let scheme = scheme_for(tolerances.relative);
         let next = first_step(&field, start, &slope, tolerances, scheme.order);
         Ok(Steps {
             field,
@@ -231,7 +232,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         }
         let (mut after, mut error) = (self.state, V::zero());
         for (slope, (b, e)) in
-            self.slopes.iter().zip(self.scheme.weights.iter().zip(&self.scheme.errors))
+            self.slopes.iter().zip(self.scheme.weights.iter().zip(self.scheme.errors))
         {
             after.add(size * b, slope);
             error.add(size * e, slope);
@@ -241,7 +242,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
 
     /// Computes one stage of a step of this size from `from` at `time`.
     fn stage(&mut self, stage: usize, time: f64, from: V, size: f64) {
-        let at = V::combination(&from, size, &self.scheme.rows[stage], &self.slopes);
+        let at = V::combination(&from, size, self.scheme.rows[stage], &self.slopes);
         self.stages[stage] = at;
         self.slopes[stage] = (self.field)(time + size * self.scheme.times[stage], &at);
     }
@@ -256,7 +257,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         for stage in 1..self.scheme.stages {
             self.stage(stage, self.from, self.before, size);
         }
-        for (slope, b) in self.slopes.iter().zip(&self.scheme.weights) {
+        for (slope, b) in self.slopes.iter().zip(self.scheme.weights) {
             state.add(size * b, slope);
         }
         state.check_finite(time).map(|()| state)
