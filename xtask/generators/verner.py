@@ -235,11 +235,8 @@ def polished(name, order):
 
 
 def with_first(terms, total):
-    """The rounded numbers of a sum. The first, the factor of the first stage, makes the rounded sum `total`."""
-    others = [(j, float(x)) for j, x in terms if j > 0]
-    if len(others) == len(terms):
-        return others
-    return [(0, float(total - sum((mpfr(x) for _, x in others), mpfr(0)))), *others]
+    """The rounded factors of a sum over slopes k_j, written as total k_0 + sum of others (k_j - k_0)."""
+    return [(0, float(total)), *((j, float(x)) for j, x in terms if j > 0)] if terms else []
 
 
 def dense(terms, length):

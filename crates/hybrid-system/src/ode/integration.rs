@@ -151,8 +151,9 @@ pub(super) struct Steps<F, V> {
     pub(super) time: f64,
     state: V,
     slope: V,
-    /// The states at the stages of the last step, and the field at each of them.
+    /// The states at the stages of the last step.
     stages: [V; ALL_STAGES],
+    /// The field at the start of the last step, then the differences from it at the other stages.
     slopes: [V; ALL_STAGES],
     /// True if the stages of the interpolant have been computed too. Most steps never need these stages.
     dense: bool,
@@ -240,11 +241,14 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         (after, error)
     }
 
-    /// Computes one stage of a step of this size from `from` at `time`.
+    /// Computes one stage of a step of this size from `from` at `time`. Its slope is kept as the difference from the
+    /// slope at the start (see `schemes`).
     fn stage(&mut self, stage: usize, time: f64, from: V, size: f64) {
         let at = V::combination(&from, size, self.scheme.rows[stage], &self.slopes);
         self.stages[stage] = at;
         self.slopes[stage] = (self.field)(time + size * self.scheme.times[stage], &at);
+        let first = self.slopes[0];
+        self.slopes[stage].add(-1.0, &first);
     }
 
     /// The state at a time in the last step, by a separate step that ends there.
