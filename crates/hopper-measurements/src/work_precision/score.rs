@@ -115,27 +115,6 @@ mod tests {
     }
 
     #[test]
-    fn zz_print_ode() {
-        for class in classes().unwrap() {
-            for k in [3u8, 6, 9, 10, 11, 12] {
-                let (mut refused, mut wrong, mut errors) = (0, 0, Vec::new());
-                for case in &class.cases {
-                    match Method::Integrated(k).hop(case) {
-                        None => refused += 1,
-                        Some(answer) => match error(class.quantity, case, &answer) {
-                            None => wrong += 1,
-                            Some(Some(e)) => errors.push(e),
-                            _ => {}
-                        },
-                    }
-                }
-                errors.sort_by(f64::total_cmp);
-                println!("ODE {} {k} refused {refused} wrong {wrong} median {:e} worst {:e}", class.name, errors.get(errors.len() / 2).copied().unwrap_or(0.0), errors.last().copied().unwrap_or(0.0));
-            }
-        }
-    }
-
-    #[test]
     fn wrong_decisions_are_not_errors() {
         let case = Case {
             mass_ratio: MassRatio::ONE,

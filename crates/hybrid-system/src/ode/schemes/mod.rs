@@ -31,10 +31,10 @@
 //! weights near 1, and no such error.
 mod eight;
 mod nine;
-mod scheme;
-mod scheme_for;
 #[cfg(test)]
 mod order_tests;
+mod scheme;
+mod scheme_for;
 
 pub(super) use scheme::{ALL_STAGES, Scheme};
 pub(super) use scheme_for::scheme_for;
