@@ -5,6 +5,7 @@ from typing import Callable, NamedTuple
 import first_flight
 import guesses
 import sines
+import verner
 
 
 class Constant(NamedTuple):
@@ -17,4 +18,5 @@ CONSTANTS = (
     Constant("sines", sines.verify),
     Constant("first_flight", first_flight.verify),
     Constant("guesses", guesses.verify),
+    Constant("verner", verner.verify),
 )

@@ -89,7 +89,8 @@
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
 //! time (t, j); R. I. Leine, H. Nijmeijer, *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*,
 //! Springer (2004), for saltation; J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*,
-//! Numer. Algorithms 53 (2010).
+//! Numer. Algorithms 53 (2010). The two pairs of the feature `ode` and their coefficients are his, from his
+//! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
 mod arc;
 mod crossing;

@@ -16,7 +16,7 @@ const INTERVAL: f64 = 0.02;
 const MOST_SAMPLES: f64 = 1e5;
 
 /// Largest number of events in a hop; past it the hop is refused. The reference hops have up to 7831.
-const EVENTS: usize = 10_000;
+pub(super) const EVENTS: usize = 10_000;
 
 /// The section of gradual lift-offs, with the speed α as coordinate.
 struct GradualLiftOff;
@@ -53,7 +53,7 @@ pub(super) fn searched_landings(case: &Case) -> Option<Answer> {
     answer(&hopper, Limits::sampled(horizon, EVENTS, INTERVAL), case)
 }
 
-fn answer<T>(hopper: &T, limits: Limits, case: &Case) -> Option<Answer>
+pub(super) fn answer<T>(hopper: &T, limits: Limits, case: &Case) -> Option<Answer>
 where
     T: HybridSystem<4, Mode = Phase, Surface = HopperSurface>,
 {

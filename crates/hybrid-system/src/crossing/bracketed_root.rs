@@ -17,6 +17,10 @@ const MOST_ITERATIONS: usize = 1200;
 /// affected.
 const SMALLEST_VALUE: f64 = 1e-150;
 
+/// Width of the last bracket in units of ε·|x|, which is one ulp or two. A narrower one would ask for neighbouring
+/// doubles, between which Brent's steps do not move; a wider one would give away digits of the root.
+const LAST_WIDTH: f64 = 2.0;
+
 /// Stops at an exact zero or when the bracket is two ulps wide.
 struct FullPrecision;
 
@@ -25,7 +29,7 @@ impl Convergency<f64> for FullPrecision {
         y == 0.0
     }
     fn is_converged(&mut self, x1: f64, x2: f64) -> bool {
-        (x1 - x2).abs() <= 2.0 * f64::EPSILON * x1.abs().max(x2.abs())
+        (x1 - x2).abs() <= LAST_WIDTH * f64::EPSILON * x1.abs().max(x2.abs())
     }
     fn is_iteration_limit_reached(&mut self, iteration: usize) -> bool {
         iteration >= MOST_ITERATIONS

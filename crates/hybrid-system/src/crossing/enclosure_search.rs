@@ -27,6 +27,10 @@ const HIGHEST_ORDER: u32 = 16;
 /// decision reach it. The search then ends with [`Error::NoConvergence`].
 const MOST_INTERVALS: usize = 1_000_000;
 
+/// Relative margin on the half length of an interval. Two differences and a product round by ε/2 each; 4ε is more than
+/// these roundings together. A larger margin would only make the tests slightly weaker.
+const RADIUS_MARGIN: f64 = 4.0 * f64::EPSILON;
+
 /// A guard along a flow: its values, and its enclosures by order and interval.
 pub(crate) struct EnclosedGuard<V, E> {
     pub(crate) value: V,
@@ -171,8 +175,7 @@ where
             return Ok(ZeroTest::NoZero { sign });
         }
         let middle = left + 0.5 * (right - left);
-        // The two differences and the product round once each; 4ε is more than these roundings.
-        let radius = (right - middle).max(middle - left) * (1.0 + 4.0 * f64::EPSILON);
+        let radius = (right - middle).max(middle - left) * (1.0 + RADIUS_MARGIN);
         let slopes = self.enclosed(1, (left, right))?;
         if let Some(slope) = slopes.and_then(|slopes| slopes.sign()) {
             return Ok(ZeroTest::Monotone { slope });

@@ -2,11 +2,20 @@
 
 use crate::state::State;
 
+/// The change of each component, in units of ε times its size. A component that was computed is wrong by an ulp or two. A
+/// smaller number would take rounding for a distance from the surface; a larger one would take small distances for
+/// zero.
+const COMPONENT_ULPS: f64 = 2.0;
+
+/// Factor on the sum of the changes, for the roundings inside the guard. It is an estimate, not a bound: the operations
+/// of the guard are not known here.
+const ROOM: f64 = 2.0;
+
 /// An estimate of the rounding error of `guard` at `state`: how much the guard changes if each component changes by
-/// two ulps of the same component of `size`, added over the components and doubled.
+/// [`COMPONENT_ULPS`] of the same component of `size`, added over the components, times [`ROOM`].
 ///
 /// A guard whose value is smaller than this may be zero. `size` is |state| for a state that is given, and larger for a
-/// state that was computed from larger numbers. The factors of two leave room for the roundings inside the guard.
+/// state that was computed from larger numbers.
 ///
 /// Returns 0 if the guard is not finite near `state`: then there is no estimate, and only an exact zero counts as
 /// zero.
@@ -18,9 +27,9 @@ pub(crate) fn guard_rounding<const N: usize>(
     let value = guard(state);
     let change = |axis: usize| {
         let mut moved = *state;
-        moved[axis] += 2.0 * f64::EPSILON * size[axis];
+        moved[axis] += COMPONENT_ULPS * f64::EPSILON * size[axis];
         (guard(&moved) - value).abs()
     };
     let sum: f64 = (0..N).map(change).sum();
-    if sum.is_finite() { 2.0 * sum } else { 0.0 }
+    if sum.is_finite() { ROOM * sum } else { 0.0 }
 }

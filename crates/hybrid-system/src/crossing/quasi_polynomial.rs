@@ -2,6 +2,12 @@
 
 use crate::error::Error;
 
+/// Roundings for each coefficient of a term and for each term of a sum: Horner's product and sum.
+const ROUNDINGS_PER_COEFFICIENT: f64 = 2.0;
+
+/// Roundings of the sine, the cosine and the two products with them.
+const ROUNDINGS_OF_SINE_AND_COSINE: f64 = 4.0;
+
 /// p(t) cos ωt + q(t) sin ωt, with polynomials p and q, lowest power first.
 #[derive(Debug, Clone, PartialEq)]
 struct Term {
@@ -103,11 +109,16 @@ impl QuasiPolynomial {
     ///
     /// In units of ε times the bound of each term: two roundings for each coefficient (Horner's product and sum)
     /// and two for each term of the sum; four for the sine, the cosine and the two products with them; |ωt| for the
-    /// rounding of the phase, which moves a sine by that much.
+    /// rounding of the phase, which moves a sine by that much. Each rounding is ε/2 at most. The other half covers the
+    /// products of roundings and the rounding of this bound itself, as long as there are fewer than some 10⁷ of them.
+    ///
+    /// The coefficients count as exact. Those of a derivative are rounded, by ε of each of the two terms of which they
+    /// are sums. This bound does not contain that error. It matters where the two terms cancel.
     pub(crate) fn rounding(&self, time: f64) -> f64 {
         let of_term = |term: &Term| {
             let terms = (term.cos.len() + term.sin.len() + self.terms.len()) as f64;
-            (2.0 * terms + 4.0 + term.omega.abs() * time) * term.bound(time)
+            let roundings = ROUNDINGS_PER_COEFFICIENT * terms + ROUNDINGS_OF_SINE_AND_COSINE;
+            (roundings + term.omega.abs() * time) * term.bound(time)
         };
         f64::EPSILON * self.terms.iter().map(of_term).sum::<f64>()
     }

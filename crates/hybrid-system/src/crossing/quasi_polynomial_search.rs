@@ -25,6 +25,11 @@ use crate::guard::Direction;
 /// longer, not the search less certain.
 const CLEAR: f64 = 4.0;
 
+/// A monotone interval that ends within rounding of a zero is extended by this multiple of rounding/|g′|. From −rounding to
+/// +rounding takes twice rounding/|g′|. Twice that, because the slope at the end may be smaller than at the middle. With
+/// a smaller multiple the zero would more often lie at an end of two intervals, and neither test would show it.
+const EXTENSION: f64 = 4.0;
+
 /// Highest order of a zero at the start that is tested. The test cases go to order 8; the limit only bounds the array
 /// of lower terms. A zero of higher order is [`Error::UndecidedSign`].
 const HIGHEST_ORDER: u32 = 16;
@@ -251,9 +256,7 @@ impl<'a> Search<'a> {
         if self.function.value(right).abs() > rounding {
             return right;
         }
-        // From −rounding to +rounding takes 2·rounding/|g′|. Twice that, because the slope at the end may be smaller
-        // than g′(m).
-        let end = right + 4.0 * rounding / slope.abs();
+        let end = right + EXTENSION * rounding / slope.abs();
         match self.test(right, end) {
             // The end may lie beyond the horizon. The caller drops a crossing there.
             ZeroTest::Monotone { .. } | ZeroTest::Undecided => end.max(right.min(horizon)),

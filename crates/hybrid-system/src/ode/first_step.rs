@@ -3,6 +3,28 @@
 use super::tolerances::Tolerances;
 use super::vector::Vector;
 
+// The constants of the book. They trade a rejected first step for a few short ones, and never accuracy.
+
+/// Change of the state, relative to its size, by the explicit Euler step; and the first and the second derivative times
+/// the power of the step, in units of the tolerance.
+const CHANGE: f64 = 0.01;
+
+/// A state or a rate below this, in units of the tolerance, gives no scale. The Euler step is then [`SMALL_STEP`].
+const NO_SCALE: f64 = 1e-5;
+
+/// The step if there is no scale, in the unit of time.
+const SMALL_STEP: f64 = 1e-6;
+
+/// Both derivatives below this, in units of the tolerance: the field is almost zero, and the step is
+/// [`SHARE_OF_EULER`] of the Euler step, or [`SMALL_STEP`].
+const ALMOST_ZERO: f64 = 1e-15;
+
+/// See [`ALMOST_ZERO`].
+const SHARE_OF_EULER: f64 = 1e-3;
+
+/// Largest first step, in Euler steps.
+const MOST_EULER_STEPS: f64 = 100.0;
+
 /// A first step for which the first and the second derivative change the state by little, in units of the tolerance
 /// (Hairer, Nørsett, Wanner, *Solving Ordinary Differential Equations I*, II.4, "Starting Step Size").
 ///
@@ -20,20 +42,20 @@ pub(super) fn first_step<V: Vector>(
         (in_tolerances(start, start, tolerances), in_tolerances(slope, start, tolerances));
     // An explicit Euler step that changes the state by a hundredth of its size. A state or a rate near zero gives no
     // scale: then the step is small.
-    let euler = if size > 1e-5 && rate > 1e-5 { 0.01 * size / rate } else { 1e-6 };
+    let euler = if size > NO_SCALE && rate > NO_SCALE { CHANGE * size / rate } else { SMALL_STEP };
     let mut ahead = *start;
     ahead.add(euler, slope);
     // |x″| ≈ |f(x + h f) − f(x)|/h.
     let mut bend = field(euler, &ahead);
     bend.add(-1.0, slope);
     let worst = rate.max(in_tolerances(&bend, start, tolerances) / euler);
-    // hᵖ max(|x′|, |x″|) = 0.01 with p = `order`. A field that is almost zero gives no scale.
-    let refined = if worst > 1e-15 {
-        pxfm::f_pow(0.01 / worst, 1.0 / f64::from(order))
+    // hᵖ max(|x′|, |x″|) = CHANGE with p = `order`. A field that is almost zero gives no scale.
+    let refined = if worst > ALMOST_ZERO {
+        pxfm::f_pow(CHANGE / worst, 1.0 / f64::from(order))
     } else {
-        (1e-3 * euler).max(1e-6)
+        (SHARE_OF_EULER * euler).max(SMALL_STEP)
     };
-    let step = refined.min(100.0 * euler);
+    let step = refined.min(MOST_EULER_STEPS * euler);
     // A field that is not finite at the Euler step: the integration itself will return the error.
     if step > 0.0 && step.is_finite() { step } else { euler.max(f64::MIN_POSITIVE) }
 }

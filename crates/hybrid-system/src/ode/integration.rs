@@ -2,7 +2,8 @@
 
 use super::chebyshev::NODES;
 use super::first_step::first_step;
-use super::scheme::{ALL_STAGES, Scheme, inverse_root};
+use super::inverse_root::inverse_root;
+use super::schemes::{ALL_STAGES, Scheme, scheme_for};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use super::vector::Vector;
@@ -150,8 +151,9 @@ pub(super) struct Steps<F, V> {
     pub(super) time: f64,
     state: V,
     slope: V,
-    /// The states at the stages of the last step, and the field at each of them.
+    /// The states at the stages of the last step.
     stages: [V; ALL_STAGES],
+    /// The field at the start of the last step, then the differences from it at the other stages.
     slopes: [V; ALL_STAGES],
     /// True if the stages of the interpolant have been computed too. Most steps never need these stages.
     dense: bool,
@@ -168,7 +170,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         start.check_finite(0.0)?;
         let slope = field(0.0, start);
         slope.check_finite(0.0)?;
-        let scheme = Scheme::within(tolerances.relative);
+        let scheme = scheme_for(tolerances.relative);
         let next = first_step(&field, start, &slope, tolerances, scheme.order);
         Ok(Steps {
             field,
@@ -231,7 +233,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         }
         let (mut after, mut error) = (self.state, V::zero());
         for (slope, (b, e)) in
-            self.slopes.iter().zip(self.scheme.weights.iter().zip(&self.scheme.errors))
+            self.slopes.iter().zip(self.scheme.weights.iter().zip(self.scheme.errors))
         {
             after.add(size * b, slope);
             error.add(size * e, slope);
@@ -239,11 +241,14 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         (after, error)
     }
 
-    /// Computes one stage of a step of this size from `from` at `time`.
+    /// Computes one stage of a step of this size from `from` at `time`. Its slope is kept as the difference from the
+    /// slope at the start (see `schemes`).
     fn stage(&mut self, stage: usize, time: f64, from: V, size: f64) {
-        let at = V::combination(&from, size, &self.scheme.rows[stage], &self.slopes);
+        let at = V::combination(&from, size, self.scheme.rows[stage], &self.slopes);
         self.stages[stage] = at;
         self.slopes[stage] = (self.field)(time + size * self.scheme.times[stage], &at);
+        let first = self.slopes[0];
+        self.slopes[stage].add(-1.0, &first);
     }
 
     /// The state at a time in the last step, by a separate step that ends there.
@@ -256,7 +261,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         for stage in 1..self.scheme.stages {
             self.stage(stage, self.from, self.before, size);
         }
-        for (slope, b) in self.slopes.iter().zip(&self.scheme.weights) {
+        for (slope, b) in self.slopes.iter().zip(self.scheme.weights) {
             state.add(size * b, slope);
         }
         state.check_finite(time).map(|()| state)

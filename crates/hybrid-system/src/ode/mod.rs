@@ -1,18 +1,18 @@
 //! How is a flow computed that is only given as ẋ = f(t, x)? (feature `ode`)
 //!
-//! [`Integration`] takes the steps of a Runge–Kutta scheme of Verner, whose coefficients come from the crate
-//! `differential-equations` (`scheme`). Inside each step the state is a polynomial (`step`, through values at the nodes
-//! of `chebyshev`). `search` follows all guards of a mode from step to step, with one `followed_guard` for each. A
-//! `followed_guard` decides by `polynomial_test` whether a step contains a crossing. A model calls `flow` and
-//! `variation`.
+//! [`Integration`] takes the steps of a Runge–Kutta pair of Verner (`schemes`). Inside each step the state is a
+//! polynomial (`step`, through values at the nodes of `chebyshev`). `search` follows all guards of a mode from step to
+//! step, with one `followed_guard` for each. A `followed_guard` decides by `polynomial_test` whether a step contains a
+//! crossing. A model calls `flow` and `variation`.
 
 mod chebyshev;
 mod first_step;
 mod flow;
 mod followed_guard;
 mod integration;
+mod inverse_root;
 mod polynomial_test;
-mod scheme;
+mod schemes;
 mod search;
 mod step;
 mod tolerances;

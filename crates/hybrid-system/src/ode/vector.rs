@@ -1,6 +1,6 @@
 //! The operations on states that the integrator needs.
 
-use super::scheme::ALL_STAGES;
+use super::schemes::ALL_STAGES;
 use super::tolerances::Tolerances;
 use crate::error::Error;
 use crate::state::State;
