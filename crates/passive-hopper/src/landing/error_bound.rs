@@ -342,8 +342,9 @@ mod tests {
                 over_linear = over_linear.max(off_excess / linear);
             }
         }
-        println!("CORNERS {conclusive} {largest} {over_linear}");
-        assert!(conclusive > 1000 && largest > 0.8, "{conclusive} {largest}");
+        // The bound is nearly met, and the linear bound alone does not hold.
+        assert!(conclusive > 1000 && largest > 0.999, "{conclusive} {largest}");
+        assert!(over_linear > 1.03, "{over_linear}");
     }
 
     /// docs/theory.md, Lemma 62: Γ² of a first flight next to α*_n, where Γ and its slope vanish.
@@ -375,6 +376,6 @@ mod tests {
                 }
             }
         }
-        println!("LOSS {largest}");
+        assert!(largest > 0.6, "{largest}");
     }
 }

@@ -159,6 +159,8 @@ mod tests {
             }
         }
         assert!(largest.0 <= BACKWARD_ULPS, "{largest:?}");
-        println!("RESID {largest:?}");
+        // The largest of these 40 000 errors. One ulp, an earlier bound, is exceeded five times.
+        let planted = residual_error(0.525493336423793, 5547.378407116755);
+        assert!(planted > 5.6 && largest.0 >= planted, "{planted} {largest:?}");
     }
 }

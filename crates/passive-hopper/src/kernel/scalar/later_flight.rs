@@ -208,3 +208,49 @@ pub(crate) fn later_flight(start: &GroundState, kappa: f64) -> Option<FlightEnd>
     }
     None
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::landing::extended_landing::ExtendedLanding;
+    use crate::landing::next_landing::{before_maximum, next_root};
+    use crate::precision::long::Long;
+    use crate::precision::real::Real;
+    use basin_of_attraction::SplitMix64;
+
+    type Four = Long<4>;
+
+    /// docs/theory.md, Lemma 61: starts whose errors are 0, or known to 10⁻¹⁴ … 10⁻⁵. The exact landings from the corners
+    /// of the error's square are within the bounds of an accepted flight.
+    #[test]
+    fn accepted_landings_are_within_their_bounds() {
+        let generator = SplitMix64::from_state(61);
+        let (mut accepted, mut largest) = (0, 0f64);
+        for k in 0..6000u64 {
+            let part = |i| generator.uniform(8 * k + i);
+            let error = if k % 2 == 0 { 0.0 } else { pxfm::f_exp10(-14.0 + 9.0 * part(0)) };
+            let velocity = 40.0 * part(1) * part(2) - 8.0;
+            let excess = pxfm::f_exp10(8.0 * part(3) - 5.0);
+            let start = TakeOff { excess, velocity };
+            let kappa = part(4);
+            let state = GroundState { excess, velocity, error };
+            let Some(end) = later_flight(&state, kappa) else { continue };
+            accepted += 1;
+            let branch = before_maximum(start);
+            for (dx, dv) in [(error, error), (-error, error), (error, -error), (-error, -error)] {
+                let (x, v) = (Four::from(excess) + dx, Four::from(velocity) + dv);
+                let moved = TakeOff { excess: x.nearest(), velocity: v.nearest() };
+                let exact =
+                    ExtendedLanding::near(&next_root(moved, branch), x, v, Four::from(kappa));
+                let off = |exact: Four, found: f64| (exact - Four::from(found)).nearest().abs();
+                let of_state = off(exact.excess, end.state.excess)
+                    .max(off(exact.velocity, end.state.velocity));
+                let of_square = off(exact.closing_speed.squared(), end.closing_speed_squared);
+                assert!(of_state <= end.state.error, "{state:?} {kappa}: {of_state:e}");
+                assert!(of_square <= end.closing_speed_squared_error, "{state:?}: {of_square:e}");
+                largest = largest.max(of_state / end.state.error);
+            }
+        }
+        assert!(accepted > 4000 && largest > 0.5, "{accepted} {largest}");
+    }
+}
