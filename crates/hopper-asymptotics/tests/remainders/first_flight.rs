@@ -12,7 +12,7 @@ pub(crate) fn factorial_term(k: usize) -> Interval {
 
 /// (−1)^k
 pub(crate) fn sign(k: usize) -> f64 {
-    if k % 2 == 0 { 1.0 } else { -1.0 }
+    if k.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
 /// The functions of the first flight, scaled with a: all are models in t with p = 1/a as a parameter.
@@ -40,10 +40,10 @@ impl First {
         let zero = Interval::from(0.0);
         let one = Interval::from(1.0);
         let entire = |term: &dyn Fn(usize) -> Interval| Model::entire(term, order, width);
-        let s = |k: usize| if k % 2 == 0 { 1.0 } else { side };
+        let s = |k: usize| if k.is_multiple_of(2) { 1.0 } else { side };
         // (t − sin t)/t³ and (t²/2 − 1 + cos t)/t³
         let e3 = entire(&|k| {
-            if k % 2 == 0 { factorial_term(k + 3) * sign(k / 2) } else { zero }
+            if k.is_multiple_of(2) { factorial_term(k + 3) * sign(k / 2) } else { zero }
         });
         let e4 = entire(&|k| {
             if k % 2 == 1 { factorial_term(k + 3) * (sign(k / 2) * s(k)) } else { zero }
@@ -51,14 +51,20 @@ impl First {
         let sin = entire(&|k| {
             if k % 2 == 1 { factorial_term(k) * (sign(k / 2) * s(k)) } else { zero }
         });
-        let cos = entire(&|k| if k % 2 == 0 { factorial_term(k) * sign(k / 2) } else { zero });
+        let cos =
+            entire(&|k| if k.is_multiple_of(2) { factorial_term(k) * sign(k / 2) } else { zero });
         // sin η/t and cos η, η = t/2
         let half = |k: usize| Interval::from(0.5f64.powi(k as i32));
         let sin_half = entire(&|k| {
-            if k % 2 == 0 { factorial_term(k + 1) * half(k + 1) * sign(k / 2) } else { zero }
+            if k.is_multiple_of(2) {
+                factorial_term(k + 1) * half(k + 1) * sign(k / 2)
+            } else {
+                zero
+            }
         });
-        let cos_half =
-            entire(&|k| if k % 2 == 0 { factorial_term(k) * half(k) * sign(k / 2) } else { zero });
+        let cos_half = entire(&|k| {
+            if k.is_multiple_of(2) { factorial_term(k) * half(k) * sign(k / 2) } else { zero }
+        });
         let square = p.squared();
         let r2 = one + square; // R²/a²
         let t = Model::linear(Interval::from(side), order, width);

@@ -18,7 +18,7 @@ pub(crate) fn small_hop_remainder(mu: Interval) -> Interval {
     // (h² − S²)/h⁴ = Σ (−1)^k 2^{2k+3} h^{2k}/(2k+4)!
     let rise = Model::entire(
         |k| {
-            if k % 2 == 0 {
+            if k.is_multiple_of(2) {
                 factorial_term(k + 4) * (sign(k / 2) * 2f64.powi(k as i32 + 3))
             } else {
                 Interval::from(0.0)

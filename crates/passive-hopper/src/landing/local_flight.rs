@@ -218,7 +218,7 @@ mod tests {
         let mut largest = [0.0, 0.0];
         // The last two had the largest errors of t in a search.
         let planted = [(4999, 1.3502490543059118), (1, -1.350997673072077)];
-        let sizes = (0..400).map(|k| 10f64.powf(-0.05 * f64::from(k)));
+        let sizes = (0..400).map(|k| pxfm::f_exp10(-0.05 * f64::from(k)));
         let all = [1, 2, 5, 40, 1000, 1 << 30]
             .into_iter()
             .flat_map(|n| sizes.clone().flat_map(move |size| [(n, 1.3 * size), (n, -1.3 * size)]));

@@ -249,7 +249,7 @@ mod tests {
     fn short_second_flights_end_in_contact() {
         for k in 0..2000 {
             let part = f64::from(k) / 2000.0;
-            let delta = -10f64.powf(-12.0 * part) * 0.9;
+            let delta = -pxfm::f_exp10(-12.0 * part) * 0.9;
             for (n, m) in [(1, 1e-6), (1, 1e6), (3, 1.0), (1000, 0.2)] {
                 let local = NearFixedPoint::new(alpha_star(n));
                 let kappa = MassRatio::new(m).unwrap().kappa();
