@@ -38,7 +38,7 @@ pub(crate) enum Verdict {
 /// Largest number of hops of a fate in each of [`Arithmetic::ALL`]. On a quiet machine each of them takes at most some tenths
 /// of a second. A larger value decides more of the orbits that leave a fixed point slowly; past it the fate is undecided, for
 /// the reason [`UndecidedReason::Precision`](basin_of_attraction::UndecidedReason::Precision).
-const EXTENDED_BUDGETS: [usize; 4] = [4096, 512, 128, 64];
+const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
 
 /// Largest |δ| left of a fixed point for which the number of hops to leave it is estimated. Beyond it the number is small.
 const SLOW: f64 = 1e-3;
@@ -139,7 +139,7 @@ impl Fates {
         Ok((Some(Verdict::Budget), budget))
     }
 
-    /// Half the number of hops that the orbit takes to leave α*_n to the left: at offset δ it needs about
+    /// Five sixths of the number of hops that the orbit takes to leave α*_n to the left: at offset δ it needs about
     /// 3/(10λ|δ|^{1/3}) (docs/theory.md, Theorem 38). 0 if it is not near.
     ///
     /// The estimate only avoids work that would end in an undecided fate. It decides no fate.
@@ -153,6 +153,6 @@ impl Fates {
         // β³ = 12a²/(1+a²), λ = μaβ⁴/8 (docs/theory.md, Section 7).
         let beta = pxfm::f_cbrt(12.0 / (1.0 + 1.0 / (a * a)));
         let lambda = self.map().mass_ratio().mu() * a * beta * beta * beta * beta / 8.0;
-        0.15 / (lambda * pxfm::f_cbrt(offset.abs()))
+        0.25 / (lambda * pxfm::f_cbrt(offset.abs()))
     }
 }
