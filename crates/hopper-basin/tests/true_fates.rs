@@ -1,6 +1,6 @@
 //! A decided fate is the fate of the exact orbit, at every double beside every kind of edge.
 //!
-//! The reference follows the orbit in 256 or 512 bits, with nothing rounded to `f64` between hops.
+//! The reference follows the orbit in 256 to 1024 bits, with nothing rounded to `f64` between hops.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
@@ -28,7 +28,7 @@ fn trap_of(fates: &Fates, orbit: &ExtendedOrbit) -> Option<u64> {
 
 /// The fate of the exact orbit, if it is decided within `most` hops.
 fn reference(fates: &Fates, alpha: f64, most: usize) -> Option<HopperFate> {
-    [Arithmetic::Bits256, Arithmetic::Bits512].into_iter().find_map(|arithmetic| {
+    Arithmetic::ALL[1..].iter().find_map(|&arithmetic| {
         let mut orbit = ExtendedOrbit::new(fates.map(), alpha, arithmetic).unwrap();
         for _ in 0..most {
             match trap_of(fates, &orbit) {

@@ -14,8 +14,7 @@
 //! docs/theory.md, Theorem 87.
 
 use crate::error::Error;
-use crate::fates::fates_at_mass_ratio::Fates;
-use crate::traps::trap::TrapSide;
+use crate::traps::trap::{Trap, TrapSide};
 use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, HopWithin, LiftOffMap, alpha_star, index_below,
 };
@@ -38,12 +37,18 @@ pub(crate) enum Verdict {
 /// Largest number of hops of a fate in each of [`Arithmetic::ALL`]. On a quiet machine each of them takes at most some tenths
 /// of a second. A larger value decides more of the orbits that leave a fixed point slowly; past it the fate is undecided, for
 /// the reason [`UndecidedReason::Precision`](basin_of_attraction::UndecidedReason::Precision).
-const EXTENDED_BUDGETS: [usize; 4] = [4096, 512, 128, 64];
+const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
 
 /// Largest |δ| left of a fixed point for which the number of hops to leave it is estimated. Beyond it the number is small.
 const SLOW: f64 = 1e-3;
 
-impl Fates {
+/// The map at one mass ratio, and its traps by their index.
+pub(crate) struct CertainFates<'a, T> {
+    pub(crate) map: &'a LiftOffMap,
+    pub(crate) trap: T,
+}
+
+impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
     /// The verdict on the exact orbit of `alpha`, and the number of hops until it was known.
     pub(crate) fn verdict(&self, alpha: f64, budget: usize) -> Result<(Verdict, usize), Error> {
         let plain = self.in_f64(alpha, budget, LiftOffMap::hop_within)?;
@@ -79,7 +84,7 @@ impl Fates {
             if hops == budget {
                 break;
             }
-            match hop(self.map(), speed, error) {
+            match hop(self.map, speed, error) {
                 HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
                 HopWithin::Grounded => return Ok((Verdict::Grounded, hops + 1)),
                 HopWithin::Inconclusive => {
@@ -91,8 +96,8 @@ impl Fates {
     }
 
     /// The index of the trap that contains all speeds within `error` of `speed`.
-    pub(crate) fn trap_within(&self, speed: f64, error: f64) -> Result<Option<u64>, Error> {
-        let trap = self.trap(index_below(speed)?)?;
+    fn trap_within(&self, speed: f64, error: f64) -> Result<Option<u64>, Error> {
+        let trap = (self.trap)(index_below(speed)?)?;
         let side = if error == 0.0 {
             trap.side(speed)
         } else {
@@ -109,7 +114,7 @@ impl Fates {
         (budget, most): (usize, usize),
         arithmetic: Arithmetic,
     ) -> Result<(Option<Verdict>, usize), Error> {
-        let mut orbit = ExtendedOrbit::new(self.map(), alpha, arithmetic)?;
+        let mut orbit = ExtendedOrbit::new(self.map, alpha, arithmetic)?;
         for hops in 0..=budget {
             let speed = orbit.speed();
             let mut n = index_below(speed)?;
@@ -119,7 +124,7 @@ impl Fates {
                 n -= 1;
                 (offset, error) = orbit.offset_from(n);
             }
-            if self.trap(n)?.side_of_offset(offset, error) == TrapSide::Inside {
+            if (self.trap)(n)?.side_of_offset(offset, error) == TrapSide::Inside {
                 return Ok((Some(Verdict::Trapped(n)), hops));
             }
             if hops == budget {
@@ -139,7 +144,7 @@ impl Fates {
         Ok((Some(Verdict::Budget), budget))
     }
 
-    /// Half the number of hops that the orbit takes to leave α*_n to the left: at offset δ it needs about
+    /// Five sixths of the number of hops that the orbit takes to leave α*_n to the left: at offset δ it needs about
     /// 3/(10λ|δ|^{1/3}) (docs/theory.md, Theorem 38). 0 if it is not near.
     ///
     /// The estimate only avoids work that would end in an undecided fate. It decides no fate.
@@ -152,7 +157,7 @@ impl Fates {
         let a = alpha_star(n);
         // β³ = 12a²/(1+a²), λ = μaβ⁴/8 (docs/theory.md, Section 7).
         let beta = pxfm::f_cbrt(12.0 / (1.0 + 1.0 / (a * a)));
-        let lambda = self.map().mass_ratio().mu() * a * beta * beta * beta * beta / 8.0;
-        0.15 / (lambda * pxfm::f_cbrt(offset.abs()))
+        let lambda = self.map.mass_ratio().mu() * a * beta * beta * beta * beta / 8.0;
+        0.25 / (lambda * pxfm::f_cbrt(offset.abs()))
     }
 }

@@ -1,7 +1,7 @@
 //! The fates of all lift-off speeds at one mass ratio.
 
 use crate::error::Error;
-use crate::fates::certain_fate::Verdict;
+use crate::fates::certain_fate::{CertainFates, Verdict};
 use crate::fates::hopper_fate::HopperFate;
 use crate::traps::trap::Trap;
 use basin_of_attraction::{Image, ScalarMap, Traps, UndecidedReason};
@@ -89,7 +89,8 @@ impl Fates {
     /// As [`fate`](Self::fate).
     pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
         self.map.check_speed(alpha)?;
-        let (verdict, hops) = self.verdict(alpha, budget)?;
+        let fates = CertainFates { map: &self.map, trap: |n| self.trap(n) };
+        let (verdict, hops) = fates.verdict(alpha, budget)?;
         let fate = match verdict {
             Verdict::Trapped(0) => HopperFate::Decaying,
             Verdict::Trapped(n) => HopperFate::Incessant { n },
