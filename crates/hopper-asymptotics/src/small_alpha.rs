@@ -69,7 +69,7 @@ mod tests {
             let found = small_hop_loss(MassRatio::new(m).unwrap(), alpha).unwrap();
             let off = (found.value - exact).abs();
             // The digits of `exact` are rounded to half an ulp.
-            assert!(off <= found.error && found.error < 1e-2 * exact, "{m} {alpha}: {found:?}");
+            assert!(off <= found.error && found.error < 3e-2 * exact, "{m} {alpha}: {found:?}");
             if (m, alpha) == (1.0, 0.01) {
                 assert!(off > 0.95 * found.error, "{off:e} {found:?}");
             }

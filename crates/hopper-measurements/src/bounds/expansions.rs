@@ -62,6 +62,12 @@ fn inside(n: u64, mass_ratio: f64, right: bool, part: f64) -> Start {
     Start { n, mass_ratio, delta: part * end }
 }
 
+/// A start on the left, at `part` of the range of the series.
+fn below_range(n: u64, mass_ratio: f64, part: f64) -> Start {
+    let series = MassRatio::new(mass_ratio).ok().and_then(|m| LeftExpansion::new(n, m).ok());
+    Start { n, mass_ratio, delta: -part * series.map_or(LEFT_RANGE, |series| series.range()) }
+}
+
 const CLASSES: [Class; 8] = [
     Class {
         name: "right, in the range of the series",
@@ -93,18 +99,14 @@ const CLASSES: [Class; 8] = [
     },
     Class {
         name: "left, in the range of the series",
-        start: |[a, b, c, _]| Start {
-            n: index(2.0, a),
-            mass_ratio: between(-3.0, 3.0, b),
-            delta: -LEFT_RANGE * between(-6.0, 0.0, c),
+        start: |[a, b, c, _]| {
+            below_range(index(2.0, a), between(-3.0, 3.0, b), between(-6.0, 0.0, c))
         },
     },
     Class {
         name: "left, n up to 10¹², M from 10⁻⁶ to 10⁶",
-        start: |[a, b, c, _]| Start {
-            n: index(12.0, a),
-            mass_ratio: between(-6.0, 6.0, b),
-            delta: -LEFT_RANGE * between(-30.0, 0.0, c),
+        start: |[a, b, c, _]| {
+            below_range(index(12.0, a), between(-6.0, 6.0, b), between(-20.0, 0.0, c))
         },
     },
     Class {

@@ -5,7 +5,7 @@ use crate::map::extended_hop::{ExtendedMasses, Start, watched_hop_with};
 use crate::map::lift_off_map::LiftOffMap;
 use crate::model::fixed_points::fixed_point_in;
 use crate::precision::long::Long;
-use crate::precision::real::{Extended, Real};
+use crate::precision::real::Extended;
 
 /// A number to 100 bits: the sum of two `f64`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -185,3 +185,73 @@ impl LocalFlight {
         (self.0.a * cos + sin) * (b / self.0.r2)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::fixed_points::{exact_alpha_star, fixed_point_in};
+    use crate::precision::long::Long;
+    use crate::precision::real::Real;
+
+    /// 256 bits: of the digits of t, 15 and more are left for |δ| ≥ 10⁻¹⁵⁰.
+    type Bits = Long<4>;
+
+    /// The relative errors of t(δ) and of Γ(t(δ)), in units 2⁻⁵³, against 256 bits.
+    fn errors(n: u64, delta: f64) -> [f64; 2] {
+        let local = NearFixedPoint::new(exact_alpha_star(n).high);
+        let t = local.time_shift(delta);
+        let closing_speed = local.landing(t, 0.0).2;
+        let star = fixed_point_in::<Bits>(n);
+        let exact = NearFixedPoint::new(star).extended_landing(Bits::from(delta), Bits::from(0.0));
+        let shift = exact.time - star * 2.0;
+        let relative = |value: f64, exact: Bits| {
+            ((exact + -value) / exact).nearest().abs() * (2.0 / f64::EPSILON)
+        };
+        [relative(t, shift), relative(closing_speed, exact.closing_speed)]
+    }
+
+    /// docs/theory.md, Lemma 80.
+    #[test]
+    fn times_and_closing_speeds_have_the_derived_errors() {
+        const TIME: f64 = 7.0;
+        const CLOSING_SPEED: f64 = 40.0;
+        let mut largest = [0.0, 0.0];
+        // The last two had the largest errors of t in a search.
+        let planted = [(4999, 1.3502490543059118), (1, -1.350997673072077)];
+        let sizes = (0..400).map(|k| 10f64.powf(-0.05 * f64::from(k)));
+        let all = [1, 2, 5, 40, 1000, 1 << 30]
+            .into_iter()
+            .flat_map(|n| sizes.clone().flat_map(move |size| [(n, 1.3 * size), (n, -1.3 * size)]));
+        for (n, delta) in all.chain(planted) {
+            let [time, closing_speed] = errors(n, delta);
+            assert!(time <= TIME && closing_speed <= CLOSING_SPEED, "{n} {delta:e}");
+            largest = [time.max(largest[0]), closing_speed.max(largest[1])];
+        }
+        assert!(largest[0] > 1.0 && largest[1] > 3.0, "{largest:?}");
+    }
+
+    /// The two conditions of docs/theory.md, Lemma 80: t δ′(t) ≥ 2δ and 0 ≤ t Γ′(t) ≤ 2Γ.
+    #[test]
+    fn logarithmic_slopes_of_the_flight_are_bounded() {
+        for n in [1u64, 2, 3, 10, 1000] {
+            let flight = LocalFlight::new(n);
+            let star = alpha_star(n);
+            let end = |m: u64| 2.0 * (m as f64 * std::f64::consts::PI - star);
+            for k in 1..200 {
+                let part = f64::from(k) / 200.0;
+                for t in [part * end(n), part * end(n + 1)] {
+                    let step = 1e-5 * t;
+                    let slope = |f: fn(&LocalFlight, f64) -> f64| {
+                        let difference = f(&flight, t + step) - f(&flight, t - step);
+                        difference / (2e-5 * f(&flight, t))
+                    };
+                    let (offset, closing) =
+                        (slope(LocalFlight::delta), slope(LocalFlight::closing_speed));
+                    // 10⁻⁸ for the difference quotients.
+                    assert!(offset >= 2.0 - 1e-8, "{n} {t}: {offset}");
+                    assert!((-1e-8..=2.0 + 1e-8).contains(&closing), "{n} {t}: {closing}");
+                }
+            }
+        }
+    }
+}

@@ -153,3 +153,113 @@ impl LiftOffMap {
         Ok(LocalHop { next, loss, sudden, time_shift })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::mass_ratio::MassRatio;
+
+    /// (error of δ′, error of the loss) in ulps, against 512 bits.
+    fn ulps(n: u64, mass_ratio: f64, delta: f64) -> (f64, f64) {
+        let map = LiftOffMap::new(MassRatio::new(mass_ratio).unwrap());
+        let hop = map.hop_near_fixed_point(n, delta).unwrap();
+        let exact = map.reference_local_hop(n, delta).unwrap().unwrap();
+        assert_eq!(hop.sudden, exact.sudden, "{n} {mass_ratio} {delta:e}");
+        let next = exact.next.unwrap().error_of(hop.next.unwrap()) / hop.next.unwrap().abs();
+        let loss = exact.loss.unwrap();
+        let loss = loss.error_of(hop.loss.unwrap()) / loss.nearest;
+        (next / f64::EPSILON, loss / f64::EPSILON)
+    }
+
+    /// Starts with the largest errors of a search: right, left with a short second flight, left with a long one, large n.
+    const PLANTED: [(u64, f64, f64); 8] = [
+        (1, 0.010907304827861081, 0.0002546572882442288),
+        (9843555168, 0.13431827198618587, 1.2613044519465298e-25),
+        (794, 2.108726604372915e-9, 0.015702838572973592),
+        (1, 0.02783775485290209, -3.8359763625895474e-6),
+        (9539457, 939042.7438450479, -1.6714438862110644e-13),
+        (1, 1.720148734991015e-5, -1.0076174996334226),
+        (1, 7.273548307447073e-6, -1.350997673072077),
+        (100, 0.013613571355108071, 3.0869183734174e-23),
+    ];
+
+    #[test]
+    fn planted_hops_are_right_to_eight_ulps() {
+        for (n, mass_ratio, delta) in PLANTED {
+            let (next, _) = ulps(n, mass_ratio, delta);
+            assert!(next <= 8.0, "{n} {mass_ratio} {delta:e}: {next}");
+        }
+        // These errors are actual ones: one of them is more than the rounding of δ′ alone.
+        let next = PLANTED.map(|(n, mass_ratio, delta)| ulps(n, mass_ratio, delta).0);
+        assert!(next.iter().any(|&next| next > 0.5), "{next:?}");
+    }
+
+    /// Next to the largest loss of the plain arithmetic, on both sides of the limit, the loss has at most the error that
+    /// the limit is derived from.
+    #[test]
+    fn losses_next_to_the_limit_have_the_derived_error() {
+        const LOSS_ULPS: f64 = 111.0;
+        for n in [1, 2, 30, 1000] {
+            for mass_ratio in [0.003, 0.1, 1.0, 40.0] {
+                for side in [1.0, -1.0] {
+                    let map = LiftOffMap::new(MassRatio::new(mass_ratio).unwrap());
+                    let share = |size: f64| {
+                        let hop = map.hop_near_fixed_point(n, side * size).unwrap();
+                        hop.loss.unwrap_or(f64::INFINITY) / size
+                    };
+                    // The share of the loss grows with |δ| here: bisection for 1/16.
+                    let (mut low, mut high) = (1e-12, 0.05);
+                    if share(high) < SMALL_LOSS {
+                        continue;
+                    }
+                    while high / low > 1.0 + 1e-9 {
+                        let middle = (low * high).sqrt();
+                        if share(middle) < SMALL_LOSS { low = middle } else { high = middle }
+                    }
+                    for k in 0..20 {
+                        let delta = side * low * (1.0 + 1e-7 * f64::from(k - 10));
+                        let (next, loss) = ulps(n, mass_ratio, delta);
+                        assert!(next <= 8.0 && loss <= LOSS_ULPS, "{n} {mass_ratio} {delta:e}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// The loss is subnormal and then 0; δ′ stays right.
+    #[test]
+    fn losses_below_the_smallest_number_are_zero() {
+        let map = LiftOffMap::new(MassRatio::ONE);
+        let loss = |delta: f64| map.hop_near_fixed_point(1, delta).unwrap().loss.unwrap();
+        assert!(loss(1e-230) > f64::MIN_POSITIVE);
+        assert!(loss(1e-240) > 0.0 && loss(1e-240) < f64::MIN_POSITIVE);
+        assert_eq!(loss(1e-245), 0.0);
+        for delta in [1e-230, 1e-245, SMALLEST_OFFSET, -1e-245, -SMALLEST_OFFSET] {
+            let hop = map.hop_near_fixed_point(1, delta).unwrap();
+            let exact = map.reference_local_hop(1, delta).unwrap().unwrap();
+            let error = exact.next.unwrap().error_of(hop.next.unwrap());
+            assert!(error <= f64::EPSILON * delta.abs(), "{delta:e}");
+            let error = exact.time_shift.error_of(hop.time_shift);
+            assert!(error <= 8.0 * f64::EPSILON * hop.time_shift.abs(), "{delta:e}");
+        }
+    }
+
+    /// The second landing of a flight that is shorter than `SHORT_FLIGHT` is below stretch one (docs/theory.md, Lemma 82).
+    #[test]
+    fn short_second_flights_end_in_contact() {
+        for k in 0..2000 {
+            let part = f64::from(k) / 2000.0;
+            let delta = -10f64.powf(-12.0 * part) * 0.9;
+            for (n, m) in [(1, 1e-6), (1, 1e6), (3, 1.0), (1000, 0.2)] {
+                let local = NearFixedPoint::new(alpha_star(n));
+                let kappa = MassRatio::new(m).unwrap().kappa();
+                let (excess, velocity, _) = local.landing(local.time_shift(delta), kappa);
+                let next = next_landing(TakeOff { excess, velocity }, kappa);
+                assert!(
+                    next.time >= SHORT_FLIGHT || (next.excess < 0.0 && !next.sudden),
+                    "{n} {m}"
+                );
+            }
+        }
+    }
+}
