@@ -146,9 +146,8 @@ mod tests {
             let (m, alpha) = class.start(3, index);
             LiftOffMap::new(MassRatio::new(m).unwrap()).hop(alpha).unwrap().sudden
         };
-        let mut lengths: Vec<usize> = (0..100).map(|k| sudden("chains", k)).collect();
-        lengths.sort_unstable();
-        assert!(lengths[80] > 10 && lengths[99] > 100, "{lengths:?}");
+        // Longer than the 64 flights of the kernel.
+        assert!((0..100).filter(|&k| sudden("chains", k) > 64).count() > 3);
         assert!((0..100).filter(|&k| sudden("next to x′ = 0", k) > 0).count() > 50);
         assert!((0..100).all(|k| sudden("small α", k) == 0));
     }
