@@ -148,10 +148,11 @@ fn enclosures_are_near_values_of_the_map() {
             assert!(right.remainder.low <= rest && rest <= right.remainder.high, "{n} {m} {rest}");
             assert!(right.loss.low <= exact / (lambda * delta * v));
         }
-        for delta in [1e-5f64, 1e-4, 1e-3] {
+        let series = LeftExpansion::new(n, ratio).unwrap();
+        for delta in [1.0, 0.3, 0.1].map(|part| part * series.range()) {
             let exact = map.reference_local_hop(n, -delta).unwrap().unwrap().loss.unwrap().nearest;
-            let series = LeftExpansion::new(n, ratio).unwrap().loss(-delta).unwrap().value;
-            let rest = (exact - series) / (10.0 * lambda * delta.cbrt() * delta * delta);
+            let rest = (exact - series.loss(-delta).unwrap().value)
+                / (10.0 * lambda * delta.cbrt() * delta * delta);
             let found = left.remainder;
             assert!(found.low <= rest && rest <= found.high, "{n} {m} {rest} {found:?}");
         }
