@@ -35,13 +35,10 @@ pub(crate) enum Verdict {
     },
 }
 
-/// Largest work of one fate in the longer arithmetics, in hops of 106 bits. Some tens of microseconds each: the work takes
-/// at most some tenths of a second. A larger value decides more of the orbits that leave a fixed point slowly.
-const EXTENDED_BUDGET: usize = 4096;
-
-/// Time of a hop in each of [`Arithmetic::ALL`], in hops of 106 bits: measured on hops with one sudden lift-off, rounded to a
-/// power of two.
-const COST: [usize; 4] = [1, 16, 64, 256];
+/// Largest number of hops of a fate in each of [`Arithmetic::ALL`]. On a quiet machine each of them takes at most some tenths
+/// of a second. A larger value decides more of the orbits that leave a fixed point slowly; past it the fate is undecided, for
+/// the reason [`UndecidedReason::Precision`](basin_of_attraction::UndecidedReason::Precision).
+const EXTENDED_BUDGETS: [usize; 4] = [4096, 512, 128, 64];
 
 /// Largest |δ| left of a fixed point for which the number of hops to leave it is estimated. Beyond it the number is small.
 const SLOW: f64 = 1e-3;
@@ -53,18 +50,15 @@ impl Fates {
         let Verdict::Inconclusive { .. } = plain.0 else { return Ok(plain) };
         let signed = self.in_f64(alpha, budget, LiftOffMap::signed_hop_within)?;
         let Verdict::Inconclusive { .. } = signed.0 else { return Ok(signed) };
-        let (mut verdict, mut left) = (signed, EXTENDED_BUDGET);
-        for (arithmetic, cost) in Arithmetic::ALL.into_iter().zip(COST) {
-            let within = (budget, left / cost);
-            let (longer, done) = self.in_extended(alpha, within, arithmetic)?;
-            left = left.saturating_sub(cost * done.max(1));
-            match longer {
-                Some(Verdict::Inconclusive { at }) => {
-                    verdict = (Verdict::Inconclusive { at }, done);
+        let mut verdict = signed;
+        for (arithmetic, most) in Arithmetic::ALL.into_iter().zip(EXTENDED_BUDGETS) {
+            match self.in_extended(alpha, (budget, most), arithmetic)? {
+                (Some(inconclusive @ Verdict::Inconclusive { .. }), hops) => {
+                    verdict = (inconclusive, hops);
                 }
-                Some(decided) => return Ok((decided, done)),
+                (Some(decided), hops) => return Ok((decided, hops)),
                 // A longer arithmetic would use up its budget as well.
-                None => break,
+                (None, _) => break,
             }
         }
         Ok(verdict)

@@ -14,19 +14,20 @@ const KEPT_TRAPS: usize = 64;
 
 /// The number of hops after which a fate is reported as [undecided](HopperFate::Undecided).
 ///
-/// A million hops take less than a second if each has few sudden lift-offs. For M above 10⁴ a hop may have
-/// thousands; give [`fate_within`](Fates::fate_within) a smaller budget there.
-///
-/// The slowest orbits start an ulp below a fixed point. From a distance δ they need about 3/(10 λ δ^{1/3}) hops to
-/// leave (docs/theory.md, Theorem 38), some 10⁵/(3λ) for δ = 10⁻¹⁵, with λ proportional to μ. For the small M at which
-/// this would exceed the budget, a [trap](crate::TrapEdge::NextFixedPoint) covers the whole interval between the fixed
-/// points, and no orbit has to leave. For M above 10⁴ such orbits may be undecided.
+/// A million hops take some tenths of a second in `f64`. The slowest orbits start just below a fixed point. From a distance δ
+/// they need about 3/(10 λ δ^{1/3}) hops to leave (docs/theory.md, Theorem 38), with λ proportional to μ. `f64` decides them
+/// down to some 10⁻⁹. Below, the orbit is followed in longer arithmetic, for some thousand hops, which suffice down to some
+/// 10⁻¹³. Nearer starts are undecided for the reason `Precision`, unless a [trap](crate::TrapEdge::NextFixedPoint) covers the
+/// whole interval between the fixed points.
 pub const HOP_BUDGET: usize = 1_000_000;
 
 /// The fates at one mass ratio.
 ///
 /// As f(α) ≤ α, an orbit only descends (docs/theory.md, Theorem 24). Its fate is decided when it enters a [`Trap`] or
 /// is grounded. Closeness to a fixed point does not decide a fate: orbits just below a fixed point leave it slowly.
+///
+/// A decided fate is that of the exact orbit of the given `f64` at the given M, and not of an orbit rounded to `f64`
+/// (docs/theory.md, Theorem 87).
 ///
 /// ```
 /// use hopper_basin::{Fates, HopperFate};

@@ -14,7 +14,12 @@ pub enum HopperFate {
     Decaying,
     /// After some landing the lower mass never lifts off again.
     Grounded,
-    /// The fate is not known, for the given reason.
+    /// The fate is not known, for the given reason:
+    ///
+    /// - [`Budget`](UndecidedReason::Budget): the caller's budget of hops is used up;
+    /// - [`Precision`](UndecidedReason::Precision): `f64` does not decide the orbit, and longer arithmetic would need some
+    ///   thousand hops or more than 1024 bits; `at` is the speed before the undecided hop;
+    /// - [`Map`](UndecidedReason::Map): the map does not decide the first hop.
     Undecided(UndecidedReason),
 }
 
@@ -23,8 +28,8 @@ impl HopperFate {
     pub const GROUNDED: u16 = u16::MAX - 1;
     /// The label of a fate that is undecided because the budget of hops was used up.
     pub const UNDECIDED: u16 = u16::MAX;
-    /// The label of a fate that is undecided because the computed orbit repeats its speed: a hop changes the speed by
-    /// less than half an ulp.
+    /// The label of a fate that is undecided because the error of the orbit in `f64` reaches a verdict, and longer
+    /// arithmetic would need too many hops or more than 1024 bits.
     pub const UNDECIDED_PRECISION: u16 = u16::MAX - 2;
     /// The label of a fate that is undecided because the map could not decide a hop.
     pub const UNDECIDED_HOP: u16 = u16::MAX - 3;
@@ -57,7 +62,7 @@ impl HopperFate {
             0 => "decaying".into(),
             Self::GROUNDED => "grounded".into(),
             Self::UNDECIDED => "undecided: budget of hops".into(),
-            Self::UNDECIDED_PRECISION => "undecided: precision of f64".into(),
+            Self::UNDECIDED_PRECISION => "undecided: precision".into(),
             Self::UNDECIDED_HOP => "undecided: a hop".into(),
             Self::BEYOND_LABELS => "to a fixed point beyond the labels".into(),
             n => format!("to α*_{n}"),

@@ -2,8 +2,8 @@
 //!
 //! There are three fates: the hopper hops for ever and converges to a fixed point, it hops ever lower, or it is
 //! grounded ([`hopper_fate`], with the labels of fates in images). An orbit is followed until it enters a trap or is
-//! grounded ([`fates_at_mass_ratio`]). The fate is undecided, with the reason, if neither happens within a budget of
-//! hops, or if a hop cannot be decided.
+//! grounded, with a bound on its error ([`certain_fate`]). The fate is undecided, with the reason, if neither happens
+//! within a budget of hops, or if the error reaches a verdict. [`fates_at_mass_ratio`] has the entries and the traps.
 //!
 //! This room uses `traps`. The raster finds the fates of many speeds faster, and gives the same labels.
 

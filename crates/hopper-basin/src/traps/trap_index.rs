@@ -17,8 +17,9 @@ const STEPS_INSIDE: usize = 8;
 /// The largest `f64` that is certainly in the trap, or one a few ulps smaller.
 fn largest_inside(trap: &Trap) -> f64 {
     let end = trap.fixed_point.value() + (trap.delta - trap.error);
-    let steps = std::iter::successors(Some(end), |end| Some(end.next_down())).take(STEPS_INSIDE);
-    { steps }.find(|&end| trap.contains(end)).unwrap_or(f64::NEG_INFINITY)
+    let mut steps =
+        std::iter::successors(Some(end), |end| Some(end.next_down())).take(STEPS_INSIDE);
+    steps.find(|&end| trap.contains(end)).unwrap_or(f64::NEG_INFINITY)
 }
 
 /// The traps of the first fixed points as closed intervals of `f64` that are certainly inside, from α*_0 = 0 up.
