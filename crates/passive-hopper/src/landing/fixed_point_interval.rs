@@ -69,3 +69,34 @@ impl FixedPointInterval {
         a + 0.5 * w * (1.0 + w * (t2 + w * (t3 + w * (w * (1.0 / 1400.0) - t4))))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// docs/theory.md, Lemma 65: the computed α*_n errs by less than 2⁻¹⁰¹ of it. No `f64` is nearer than 2⁻⁸⁰ of it for
+    /// these n, so that each is on the right side.
+    #[test]
+    fn no_number_is_as_near_to_a_fixed_point_as_its_error() {
+        for n in 1..20_000 {
+            let star = exact_alpha_star(n);
+            // The nearest f64 is `high`.
+            assert!(star.low.abs() > 2f64.powi(-80) * star.high, "{n}: {:e}", star.low);
+        }
+    }
+
+    /// The nearest `f64` to any nπ below 2⁴³ is 1.238·10⁻¹⁸ away, at n = 29 (docs/theory.md, Lemma 65): the interval is
+    /// decided rightly there.
+    #[test]
+    fn the_number_nearest_to_a_multiple_of_pi_is_on_its_right_side() {
+        let pi = n_pi(29);
+        assert!((pi.low.abs() / 1.237_961_3e-18 - 1.0).abs() < 1e-6, "{:e}", pi.low);
+        let (below, above) = if pi.low > 0.0 {
+            (pi.high, pi.high.next_up())
+        } else {
+            (pi.high.next_down(), pi.high)
+        };
+        assert_eq!(FixedPointInterval::of(below).n, 28);
+        assert_eq!(FixedPointInterval::of(above).n, 29);
+    }
+}

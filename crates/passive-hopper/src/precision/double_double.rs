@@ -70,7 +70,8 @@ impl DoubleDouble {
         Self::ordered_sum(root, rest.high / (2.0 * root))
     }
 
-    /// sin and cos, with an absolute error of about 2⁻¹⁰⁰; near zero the relative error of sin is as small.
+    /// sin and cos, with an absolute error below 40 · 2⁻¹⁰⁶ for |self| ≤ 2⁴³ (docs/theory.md, Lemma 57); near zero the
+    /// relative error of sin is as small.
     pub(crate) fn sin_cos(self) -> (Self, Self) {
         let multiple = (self.high / std::f64::consts::PI).round();
         // π has three parts. The largest product is subtracted first: that difference cancels without error.
@@ -210,8 +211,9 @@ impl Real for DoubleDouble {
 }
 
 impl Extended for DoubleDouble {
-    /// 2⁻¹⁰⁰: six of the 106 bits are a margin for the rounding errors inside an operation.
-    const EPSILON: f64 = 7.9e-31;
+    /// 2⁻¹⁰⁰ = 64u², u = 2⁻⁵³. An operation errs by at most 8u², a sine by 40u² (docs/theory.md, Lemmas 55 and 57). A
+    /// smaller value would not cover the sines; a larger one sends more hops to 256 bits.
+    const EPSILON: f64 = 7.888_609_052_210_118e-31;
     /// A flight takes some tens of microseconds.
     const SUDDEN_BUDGET: usize = 100_000;
     /// A number of 100 right bits is already as good as [`EPSILON`](Self::EPSILON).
@@ -229,6 +231,8 @@ impl Extended for DoubleDouble {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::precision::long::Long;
+    use basin_of_attraction::SplitMix64;
     use proptest::prelude::*;
 
     proptest! {
@@ -272,5 +276,49 @@ mod tests {
         let pi = DoubleDouble::multiple_of_pi(1.0);
         assert_eq!(pi.compare(std::f64::consts::PI), Ordering::Less);
         assert_eq!(pi.compare(std::f64::consts::PI.next_up()), Ordering::Greater);
+    }
+
+    /// |found − exact|/|exact| in units of u² = 2⁻¹⁰⁶.
+    fn apart(found: DoubleDouble, exact: Long<4>) -> f64 {
+        ((Long::<4>::from(found) - exact) / exact).nearest().abs() * 2f64.powi(106)
+    }
+
+    /// docs/theory.md, Lemmas 55 and 57: at most 4, 8, 8 and 5 units, and 40 for sines. The errors of 20 000 random numbers
+    /// come to a third of these bounds at least, so that a bound is not far too wide.
+    #[test]
+    fn operations_err_by_less_than_their_bounds() {
+        let generator = SplitMix64::from_state(13);
+        let number = |k: u64| {
+            let high = generator.uniform(2 * k) * 2f64.powi((k % 7) as i32 * 4 - 12);
+            DoubleDouble::exact_sum(
+                high,
+                (generator.uniform(2 * k + 1) - 0.5) * high * 2f64.powi(-53),
+            )
+        };
+        let mut largest = [0f64; 5];
+        for k in 1..=20_000 {
+            let (a, b) = (number(2 * k), number(2 * k + 1));
+            let (long_a, long_b) = (Long::<4>::from(a), Long::<4>::from(b));
+            let angle = a * (1.0 + (k % 50) as f64);
+            let (sin, cos) = angle.sin_cos();
+            let (long_sin, long_cos) = Long::<4>::from(angle).sin_cos();
+            let absolute = |found: DoubleDouble, exact: Long<4>| {
+                (Long::<4>::from(found) - exact).nearest().abs() * 2f64.powi(106)
+            };
+            let errors = [
+                apart(a - b, long_a - long_b),
+                apart(a * b, long_a * long_b),
+                apart(a / b, long_a / long_b),
+                apart(a.sqrt(), long_a.sqrt()),
+                absolute(sin, long_sin).max(absolute(cos, long_cos)),
+            ];
+            for (most, error) in largest.iter_mut().zip(errors) {
+                *most = most.max(error);
+            }
+        }
+        for (most, bound) in largest.into_iter().zip([4.0, 8.0, 8.0, 5.0, 40.0]) {
+            assert!(most <= bound, "{largest:?}");
+        }
+        assert!(largest[..4].iter().all(|&most| most > 1.0), "{largest:?}");
     }
 }

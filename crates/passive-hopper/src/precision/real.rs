@@ -40,7 +40,8 @@ pub(crate) trait Real:
 
 /// Numbers longer than `f64`.
 pub(crate) trait Extended: Real {
-    /// Bound on the relative rounding error of an operation, with a margin of some bits.
+    /// Unit of the error bounds in this arithmetic: at least eight times the relative error of an operation, and at
+    /// least the error of a sine for an argument up to 1 (docs/theory.md, Lemmas 55 to 57).
     const EPSILON: f64;
     /// Largest number of sudden lift-offs for which a hop is computed in this arithmetic. The value is chosen so that
     /// the computation takes at most some seconds. For a longer chain the result of the shorter arithmetic is used, or
@@ -83,7 +84,8 @@ impl Real for f64 {
 
 /// [`Real::sine_remainders`] of an extended number.
 pub(crate) fn extended_sine_remainders<R: Extended>(t: R, sin: R, cos: R) -> (R, R) {
-    // From |t| = 1 on the differences lose five bits at most (1/2 − 1 + cos 1 = 0.04). EPSILON has a margin for them.
+    // From |t| = 1 on the differences are at least 0.04 (1/2 − 1 + cos 1) and 0.16 (1 − sin 1). The errors of sine and
+    // cosine, up to EPSILON, are then up to 25 EPSILON of the difference.
     if t.nearest().abs() < 1.0 {
         remainder_series(t)
     } else {

@@ -62,14 +62,15 @@ fn six_terms(c: &[f64; 6], z: f64) -> f64 {
     low + (square * square) * (c[4] + c[5] * z)
 }
 
-/// The first four terms of the sum. The omitted terms are 2·10⁻⁹ of sin r and cos r.
+/// The first four terms of the sum. The omitted terms are below 1.8·10⁻⁹ (docs/theory.md, Lemma 57).
 #[inline(always)]
 fn four_terms(c: &[f64; 6], z: f64) -> f64 {
     (c[0] + c[1] * z) + (z * z) * (c[2] + c[3] * z)
 }
 
-/// Bound on the errors of S and C in units of ε = 2⁻⁵² of the value.
-pub(crate) const SINE_ULPS: f64 = 1.2;
+/// Bound on the errors of S and C in units of ε = 2⁻⁵² of the value (docs/theory.md, Lemma 57). The largest error measured
+/// is 1.2.
+pub(crate) const SINE_ULPS: f64 = 2.0;
 
 impl HalfAngle {
     /// The functions of `h`, 0 < h < 2²⁰: S and C to [`SINE_ULPS`], D and u without cancellation at small h.
@@ -146,7 +147,7 @@ mod tests {
                 let (found, exact) = (HalfAngle::at(h), HalfTime::at(h));
                 prop_assert!(ulps(found.sin, exact.sin) <= 1.2 && ulps(found.cos, exact.cos) <= 1.2);
                 let rough = HalfAngle::to_eight_digits(h);
-                prop_assert!((rough.sin - exact.sin).abs() < 1e-8 && (rough.cos - exact.cos).abs() < 1e-8);
+                prop_assert!((rough.sin - exact.sin).abs() < 1.8e-9 && (rough.cos - exact.cos).abs() < 1.8e-9);
                 prop_assert!((rough.d / exact.d - 1.0).abs() < 1e-7);
                 prop_assert!((found.d / exact.d - 1.0).abs() < 4e-15);
                 prop_assert!((found.u - exact.u).abs() < 4e-15 * exact.u.abs() + 4e-16 * h * h.min(1.0));

@@ -24,7 +24,7 @@ pub(crate) struct MassFactors {
 pub(crate) struct FlightSums {
     /// Σ Γ².
     pub(crate) closing_speeds_squared: f64,
-    /// Bound on the part of the error of Σ Γ² that is propagated from flight to flight.
+    /// Bound on the error of the later flights' part of Σ Γ².
     pub(crate) error: f64,
     /// Σ h, half the time of flight.
     pub(crate) half_time: f64,
@@ -43,8 +43,8 @@ pub(crate) struct DecidedHop {
 }
 
 impl FlightSums {
-    /// The sums after the first flight. No error is propagated to the first flight. The rounding error of the table is
-    /// counted by [`end`](Self::end).
+    /// The sums after the first flight. No error is propagated to the first flight. The error of the table is counted by
+    /// [`end`](Self::end).
     #[inline(always)]
     pub(crate) fn of_first(first: &FirstFlight) -> Self {
         let square = first.closing_speed * first.closing_speed;
@@ -70,8 +70,9 @@ impl FlightSums {
     /// The end of the hop, and whether the sign of α′² is larger than its error bound (I2).
     ///
     /// As long as the hop continues, μ times the partial sum is below α², because the remaining energy is positive. The
-    /// rounding error of every flight is therefore counted in ulps of α². Two more ulps are for α² itself and for the
-    /// difference.
+    /// roundings of μ, of the squares and of the sums are therefore counted in ulps of α²: at most 4 + 2 flights halves of
+    /// an ulp. The first flight's Γ², from the table, has at most 8 ulps. `LANDING_ULPS` for each flight and for two more
+    /// is above both (docs/theory.md, Theorem 66). The rounding errors of the later Γ² are in `error`.
     #[inline(always)]
     pub(crate) fn end(&self, alpha: f64, mu: f64) -> (DecidedHop, bool) {
         let loss_of_square = mu * self.closing_speeds_squared;

@@ -14,7 +14,7 @@
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::half_angle::HalfAngle;
 use crate::kernel::scalar::landing_bracket::LandingBracket;
-use crate::landing::error_bound::{BACKWARD_ULPS, LANDING_ULPS};
+use crate::landing::error_bound::BACKWARD_ULPS;
 use crate::landing::flight_ends::{TakeOff, state_after_flight};
 use crate::landing::half_time::HalfTime;
 use std::f64::consts::PI;
@@ -32,22 +32,30 @@ const STEPS: usize = 8;
 /// repeated.
 const LAST_STEP: f64 = 3e-5;
 
-/// Largest relative correction that is added to first order: its square, 10⁻¹⁸, is below an ulp.
+/// Largest relative correction that is added to first order. What it leaves is below 10⁻¹⁷ of h, or of 1 where h > 1
+/// (docs/theory.md, Lemma 59).
 const FIRST_ORDER: f64 = 1e-9;
+
+/// Bound on the direct rounding errors of x′, V′ and Γ, in ulps of the size 1 + x + |V| + τ + Γ (docs/theory.md,
+/// Lemma 61).
+///
+/// It is twice [`LANDING_ULPS`](crate::landing::error_bound::LANDING_ULPS), because h is rounded once more after the last
+/// step, by up to half an ulp of h; this moves x′ by 2h max(D, Γ) half ulps, for h up to 32π.
+const KERNEL_LANDING_ULPS: f64 = 64.0;
 
 /// Largest size · T/Γ of a flight that is accepted, with T the bound on the error of the time of flight and the size
 /// 1 + x + |V| + τ + Γ. With the limit the bounds of [`land`] hold with all terms of second order (docs/theory.md,
-/// Theorem 62). It fails next to a touch (Γ small) and for short flights from x < 10⁻⁶; the general solver computes
+/// Lemma 61). It fails next to a touch (Γ small) and for short flights from x < 10⁻⁶; the general solver computes
 /// them. A larger limit needs larger constants in the bounds; a smaller one sends more hops away, in proportion to its
 /// inverse for touches and to its inverse root for short flights.
 const LARGEST_NONLINEARITY: f64 = 1.0 / 1024.0;
 
 /// Part of the size that is added to |ṡ| and to |x′| in the bounds, for the terms of second order. They are below
-/// 1.5·10⁻³ of the size where size · T/Γ is below [`LARGEST_NONLINEARITY`] (docs/theory.md, Theorem 62).
+/// 1.5·10⁻³ of the size where size · T/Γ is below [`LARGEST_NONLINEARITY`] (docs/theory.md, Lemma 61).
 const SECOND_ORDER: f64 = 1.0 / 512.0;
 
 /// 2/(1 − q), rounded up, with q < 0.01 from [`LARGEST_NONLINEARITY`]: T is the first-order bound 2 (S² + D) e/Γ on the
-/// error of the time times 1/(1 − q) (docs/theory.md, Theorem 62).
+/// error of the time times 1/(1 − q) (docs/theory.md, Lemma 61).
 const TWICE_LINEAR: f64 = 2.0625;
 
 /// The end of a flight.
@@ -126,9 +134,9 @@ pub(crate) fn land(
 
     // I4: the errors at the start are propagated through the flight by its linear map (`landing/flight_derivative.rs`),
     // with every term positive: 1.5 > |cos τ| + |sin τ| and 2.5 > |sin τ| + 1 − cos τ. Terms of second order are in the
-    // constants (docs/theory.md, Theorem 62).
+    // constants (docs/theory.md, Lemma 61).
     let size = y + v.abs() + 2.0 * h + closing;
-    let rounding = LANDING_ULPS * f64::EPSILON * size;
+    let rounding = KERNEL_LANDING_ULPS * f64::EPSILON * size;
     let before = error + BACKWARD_ULPS * f64::EPSILON * size;
     let time_error = TWICE_LINEAR * (square + d) * before * per_speed;
     let second_order = SECOND_ORDER * size;
@@ -199,4 +207,50 @@ pub(crate) fn later_flight(start: &GroundState, kappa: f64) -> Option<FlightEnd>
         }
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::landing::extended_landing::ExtendedLanding;
+    use crate::landing::next_landing::{before_maximum, next_root};
+    use crate::precision::long::Long;
+    use crate::precision::real::Real;
+    use basin_of_attraction::SplitMix64;
+
+    type Four = Long<4>;
+
+    /// docs/theory.md, Lemma 61: starts whose errors are 0, or known to 10⁻¹⁴ … 10⁻⁵. The exact landings from the corners
+    /// of the error's square are within the bounds of an accepted flight.
+    #[test]
+    fn accepted_landings_are_within_their_bounds() {
+        let generator = SplitMix64::from_state(61);
+        let (mut accepted, mut largest) = (0, 0f64);
+        for k in 0..6000u64 {
+            let part = |i| generator.uniform(8 * k + i);
+            let error = if k % 2 == 0 { 0.0 } else { pxfm::f_exp10(-14.0 + 9.0 * part(0)) };
+            let velocity = 40.0 * part(1) * part(2) - 8.0;
+            let excess = pxfm::f_exp10(8.0 * part(3) - 5.0);
+            let start = TakeOff { excess, velocity };
+            let kappa = part(4);
+            let state = GroundState { excess, velocity, error };
+            let Some(end) = later_flight(&state, kappa) else { continue };
+            accepted += 1;
+            let branch = before_maximum(start);
+            for (dx, dv) in [(error, error), (-error, error), (error, -error), (-error, -error)] {
+                let (x, v) = (Four::from(excess) + dx, Four::from(velocity) + dv);
+                let moved = TakeOff { excess: x.nearest(), velocity: v.nearest() };
+                let exact =
+                    ExtendedLanding::near(&next_root(moved, branch), x, v, Four::from(kappa));
+                let off = |exact: Four, found: f64| (exact - Four::from(found)).nearest().abs();
+                let of_state = off(exact.excess, end.state.excess)
+                    .max(off(exact.velocity, end.state.velocity));
+                let of_square = off(exact.closing_speed.squared(), end.closing_speed_squared);
+                assert!(of_state <= end.state.error, "{state:?} {kappa}: {of_state:e}");
+                assert!(of_square <= end.closing_speed_squared_error, "{state:?}: {of_square:e}");
+                largest = largest.max(of_state / end.state.error);
+            }
+        }
+        assert!(accepted > 4000 && largest > 0.5, "{accepted} {largest}");
+    }
 }
