@@ -105,7 +105,7 @@ def verify(check):
     octaves = numbers("OCTAVES", "usize")[0]
     first = numbers("FIRST_OCTAVE", "u64")
     first = first[0] - abs(first[1]) - 1023 if len(first) > 1 else first[0] - 1023
-    floor = numbers("BEYOND_FLOOR")[0] / numbers("BEYOND_FLOOR")[1]
+    floor = mpf(numbers("BEYOND_FLOOR")[0])
     intervals = SAMPLE if check else dict.fromkeys(range(numbers("TABLES", "usize")[0]), COARSE) | WHOLE
     wrong = 0
     with mp.workdps(40):

@@ -172,14 +172,15 @@ fn a_landing_is_certain_after_a_lift_off_only() {
 #[test]
 fn a_landing_whose_phase_is_lost_in_rounding_is_not_certain() {
     let hopper = hopper(3.0);
-    let landing = |velocity: f64| {
-        let start = HopperState { upper_position: 1.5, ..HopperState::lift_off(velocity) };
+    let landing = |upper_position: f64, velocity: f64| {
+        let start = HopperState { upper_position, ..HopperState::lift_off(velocity) };
         hopper.first_crossing(Phase::Flight, &start.into(), f64::INFINITY, None).unwrap().unwrap()
     };
-    let is_above = |velocity: f64| landing(velocity).state[0] > 1.0;
     let (mut changes, mut exact) = (0, 0);
-    for k in 0..600 {
-        let (mut left, mut right) = (0.05 * f64::from(k), 0.05 * f64::from(k + 1));
+    for k in 0..20_000 {
+        let upper_position = 1.0 + 0.05 * f64::from(1 + k / 400);
+        let is_above = |velocity: f64| landing(upper_position, velocity).state[0] > 1.0;
+        let (mut left, mut right) = (0.05 * f64::from(k % 400), 0.05 * f64::from(k % 400 + 1));
         if is_above(left) == is_above(right) {
             continue;
         }
@@ -190,7 +191,7 @@ fn a_landing_whose_phase_is_lost_in_rounding_is_not_certain() {
         }
         changes += 1;
         for velocity in [left, right] {
-            let found = landing(velocity);
+            let found = landing(upper_position, velocity);
             let is_exact = found.certainty == Certainty::Exact;
             // Only a state that rounds to the surface itself can lose its phase.
             assert!(!is_exact || found.state[0] == 1.0);

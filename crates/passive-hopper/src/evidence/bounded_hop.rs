@@ -19,8 +19,6 @@ pub struct BoundedHop {
     /// The way in which it was computed.
     pub solver: Solver,
     /// Bound on |α′ − exact α′|, with M and α taken as exact; `None` if the hopper is grounded.
-    ///
-    /// It is a bound if the hop is [certain](Hop::certain).
     pub next_error: Option<f64>,
     /// Bound on the error of α′²/α² = 1 − Σ μ Γ²/α². A value above this number, or below its negative, decides whether
     /// the hopper is grounded.

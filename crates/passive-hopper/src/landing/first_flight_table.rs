@@ -26,6 +26,7 @@
 //!
 //! A table is computed when a speed in its interval is used for the first time. That takes some milliseconds.
 
+use crate::landing::chebyshev_interpolation::{COEFFICIENTS, INTERPOLATION};
 use crate::landing::error_bound::LANDING_ULPS;
 use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::landing::half_time::HalfTime;
@@ -39,10 +40,6 @@ use std::sync::{LazyLock, OnceLock};
 /// Intervals with a table: α up to 32π ≈ 100. Each table takes 64 KiB. For faster hops the root search starts from an
 /// expansion. The number is a power of two, so that a mask replaces the bounds check of an index.
 pub(crate) const TABLES: usize = 32;
-
-/// Coefficients of a piece: eight `f64`, one vector of AVX-512 and one line of the cache. With degree 7 the error of the
-/// interpolation is below that of the rounding; see [`TABLE_ULPS`]. With degree 6 it would be 100 times as large.
-const COEFFICIENTS: usize = 8;
 
 /// Bound on the error of the tables, in units of ε = 2⁻⁵²: TABLE_ULPS·ε·Γ for Γ, and
 /// TABLE_ULPS·ε·(|α − h| + [`BEYOND_FLOOR`]) for α − h.
@@ -61,9 +58,10 @@ pub(crate) const TABLE_ULPS: f64 = 4.0;
 /// of two for which the bound of the rounding stays below three units: a smaller one makes q larger.
 pub(crate) const BEYOND_FLOOR: f64 = 0.25;
 
-// The decisions of a hop count LANDING_ULPS for each quantity of a landing. The errors of Γ² and of x′ = 2h (α − h) are
-// twice those of the factors, and |α − h| < 1.
-const _: () = assert!(2.0 * TABLE_ULPS * (1.0 + BEYOND_FLOOR) < LANDING_ULPS);
+/// The decisions of a hop count LANDING_ULPS for each quantity of a landing. The errors of Γ² and of x′ = 2h (α − h) are
+/// twice those of the factors, and |α − h| < 1. If the tables were worse, the difference would be negative, which is no
+/// `usize`, and the crate would not compile.
+const _: usize = (2.0 * TABLE_ULPS * (1.0 + BEYOND_FLOOR) < LANDING_ULPS) as usize - 1;
 
 /// Octaves of |δ| with pieces, from 2⁻¹³ up to 4; |δ| is at most π. Speeds within 2⁻¹³ of α*_n have no piece. Such
 /// speeds are few. The kernel leaves them undecided, and the root search solves them.
@@ -312,54 +310,6 @@ fn exact_first(alpha: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     let rest = -residual * half.d / closing_speed.high;
     let change = -0.5 * residual * half.loss_slope(0.0) / closing_speed.high;
     (closing_speed + change, (alpha - h) + -rest)
-}
-
-/// Interpolation at the Chebyshev nodes of [−1, 1]: from values to coefficients by powers.
-///
-/// `hybrid-system` has a transform at Chebyshev nodes too, in `ode/chebyshev.rs`. The two share no code: this one has
-/// 8 nodes, computes in 106 bits and gives coefficients by powers; that one has 16, computes in `f64` and gives
-/// Chebyshev coefficients.
-struct Interpolation {
-    nodes: [DoubleDouble; COEFFICIENTS],
-    /// Coefficient k is Σ matrix[k][j] value[j].
-    matrix: [[DoubleDouble; COEFFICIENTS]; COEFFICIENTS],
-}
-
-static INTERPOLATION: LazyLock<Interpolation> = LazyLock::new(Interpolation::new);
-
-impl Interpolation {
-    fn new() -> Self {
-        const V: usize = COEFFICIENTS;
-        let sixteenth = DoubleDouble::multiple_of_pi(1.0 / (2 * V) as f64);
-        let cosine = |k: usize| (sixteenth * k as f64).sin_cos().1;
-        // T_m by powers: T₀ = 1, T₁ = x, Tₘ₊₁ = 2x Tₘ − Tₘ₋₁, all whole numbers.
-        let mut chebyshev = [[0.0; V]; V];
-        (chebyshev[0][0], chebyshev[1][1]) = (1.0, 1.0);
-        for m in 2..V {
-            for k in 0..V {
-                let shifted = if k > 0 { chebyshev[m - 1][k - 1] } else { 0.0 };
-                chebyshev[m][k] = 2.0 * shifted - chebyshev[m - 2][k];
-            }
-        }
-        let entry = |k: usize, j: usize| {
-            let term = |m: usize| {
-                let weight = if m == 0 { 1.0 } else { 2.0 } / V as f64;
-                cosine(m * (2 * j + 1)) * (weight * chebyshev[m][k])
-            };
-            (0..V).map(term).fold(DoubleDouble::ZERO, |sum, term| sum + term)
-        };
-        Interpolation {
-            nodes: std::array::from_fn(|j| cosine(2 * j + 1)),
-            matrix: std::array::from_fn(|k| std::array::from_fn(|j| entry(k, j))),
-        }
-    }
-
-    fn coefficients(&self, values: [DoubleDouble; COEFFICIENTS]) -> [f64; COEFFICIENTS] {
-        self.matrix.map(|row| {
-            let terms = row.iter().zip(values).map(|(&factor, value)| factor * value);
-            terms.fold(DoubleDouble::ZERO, |sum, term| sum + term).high
-        })
-    }
 }
 
 #[cfg(test)]

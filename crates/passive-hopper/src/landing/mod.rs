@@ -5,6 +5,7 @@
 //!   half_time.rs, half_flight.rs          the closed forms, in half the time of flight; their public form
 //!   half_time_root.rs                     the root search that all landings from the ground share
 //!   fixed_point_interval.rs, first_flight_table.rs, first_landing.rs      after a gradual lift-off
+//!   chebyshev_interpolation.rs            polynomials of the table
 //!   next_landing.rs                       after a sudden lift-off
 //!   local_flight.rs, extended_landing.rs  near a fixed point; in extended arithmetic
 //!   from_air.rs, printed_bracket.rs       from any state; for the printed equations
@@ -14,6 +15,7 @@
 //!
 //! This room uses `precision` and `model`.
 
+pub(crate) mod chebyshev_interpolation;
 pub(crate) mod decided_landing;
 pub(crate) mod error_bound;
 pub(crate) mod extended_landing;
