@@ -1,6 +1,6 @@
 //! The algebraic approach to a fixed point from the right.
 //!
-//! Proof: docs/theory.md, Theorem 37 and Theorem 76.
+//! Proof: docs/theory.md, Theorem 37 and Theorem 69.
 
 use crate::error::Error;
 use crate::expansion_value::{ExpansionValue, UNDERFLOW};
@@ -28,7 +28,7 @@ pub struct Decay {
     pub inverse: f64,
 }
 
-/// Bound on dδ of an error of K, relative to its first order where the slope of rK is 1 (docs/theory.md, Theorem 76): the
+/// Bound on dδ of an error of K, relative to its first order where the slope of rK is 1 (docs/theory.md, Theorem 69): the
 /// slope is at least 0.69, and the error of K changes u by at most 5 %.
 const OFFSET_FACTOR: f64 = 2.0;
 
@@ -45,11 +45,11 @@ const NEWTON_STEPS: usize = 60;
 /// largest `f64`, r above 10⁻¹⁵¹, and ln 1.8·10³⁰⁸ = 709.8.
 const LARGEST_LOGARITHM: f64 = 710.0;
 
-/// Bound on the rounding error of rK in ulps of u + 710 |L| (docs/theory.md, Lemma 79): 27 units 2⁻⁵³ of u, of which 14 are
+/// Bound on the rounding error of rK in ulps of u + 710 |L| (docs/theory.md, Lemma 72): 27 units 2⁻⁵³ of u, of which 14 are
 /// the error of r, and 18 of |L| ln.
 const SUM_ULPS: f64 = 16.0;
 
-/// Bound on the rounding error of 1/u³ in ulps of it (docs/theory.md, Lemma 79): 6 for the last Newton step, which is at
+/// Bound on the rounding error of 1/u³ in ulps of it (docs/theory.md, Lemma 72): 6 for the last Newton step, which is at
 /// most two ulps of u, and 2 for its rounding and the three divisions, rounded up.
 const OFFSET_ULPS: f64 = 10.0;
 
@@ -58,10 +58,10 @@ impl Decay {
     pub const NEGLECTED_EXPONENT: f64 = 2.0 / 3.0;
 
     /// The coefficients of the bound for one hop, |K(u′) − K(u) − 1| ≤ (0.55 + 0.3 λ³) u⁻³, for all n ≥ 1 and all M
-    /// (docs/theory.md, Theorem 76).
+    /// (docs/theory.md, Theorem 69).
     pub const ONE_HOP: [f64; 2] = [0.55, 0.3];
 
-    /// Bound on r δ₀^{−2/3} Σ u_j⁻³ over an orbit from δ₀ (docs/theory.md, Theorem 76).
+    /// Bound on r δ₀^{−2/3} Σ u_j⁻³ over an orbit from δ₀ (docs/theory.md, Theorem 69).
     ///
     /// So the neglected terms of a number of hops are at most `ORBIT` (0.55 + 0.3 λ³) δ₀^{2/3}/r. The proof gives 0.603; the
     /// rest of 0.61 covers the rounding of this product.
@@ -89,7 +89,7 @@ impl Decay {
 
     /// The largest offset for which the law has values: 0.1, or 10⁻³ λ⁻³ if that is less.
     ///
-    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error is proved up to it (docs/theory.md, Theorem 76).
+    /// 10⁻³ λ⁻³ is about a thousandth of the length of the trap. The error is proved up to it (docs/theory.md, Theorem 69).
     pub fn range(&self) -> f64 {
         let lambda = 3.0 * self.rate;
         RIGHT_RANGE.min(1e-3 / (lambda * lambda * lambda))

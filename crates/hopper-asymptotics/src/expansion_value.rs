@@ -17,6 +17,6 @@ pub struct ExpansionValue {
 ///
 /// An operation with a subnormal result has an error of up to half this spacing, which no bound relative to the result
 /// covers. The bounds here are themselves such products. Each value and its bound have at most seven such operations,
-/// and the factors after them are at most 1.2, together less than four spacings (docs/theory.md, Lemma 79). Where
+/// and the factors after them are at most 1.2, together less than four spacings (docs/theory.md, Lemma 72). Where
 /// nothing underflows, this term is far below an ulp of the bound.
 pub(crate) const UNDERFLOW: f64 = f64::from_bits(4);

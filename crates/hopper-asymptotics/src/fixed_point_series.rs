@@ -1,15 +1,15 @@
 //! The fixed points α*_n for large n.
 //!
-//! Proof: docs/theory.md, Lemma 40 and Theorem 78.
+//! Proof: docs/theory.md, Lemma 40 and Theorem 71.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;
 
-/// Bound on −q¹¹ times the neglected terms of [`fixed_point_series`], for all n ≥ 1 (docs/theory.md, Theorem 78). The next
+/// Bound on −q¹¹ times the neglected terms of [`fixed_point_series`], for all n ≥ 1 (docs/theory.md, Theorem 71). The next
 /// coefficient is 16328/3465 ≈ 4.71. The proof gives 5.177; the rest of 5.2 covers the rounding of the bound.
 pub const FIXED_POINT_REMAINDER: f64 = 5.2;
 
-/// Bound on the rounding error in ulps of q, for n < 2⁵² (docs/theory.md, Lemma 79): 1.36 units 2⁻⁵³ for π and the product,
+/// Bound on the rounding error in ulps of q, for n < 2⁵² (docs/theory.md, Lemma 72): 1.36 units 2⁻⁵³ for π and the product,
 /// 1 for the last difference, and 0.14 for the quotient that is subtracted.
 const ULPS: f64 = 1.25;
 

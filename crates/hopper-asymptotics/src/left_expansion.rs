@@ -1,6 +1,6 @@
 //! The map on the left of a fixed point, to three orders.
 //!
-//! Proof: docs/theory.md, Theorem 36 and Theorem 75.
+//! Proof: docs/theory.md, Theorem 36 and Theorem 68.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
@@ -35,13 +35,13 @@ pub struct LeftExpansion {
     pub coefficients: [f64; 2],
 }
 
-/// The largest |δ| for which the error is proved (docs/theory.md, Theorem 75), and for which [`LeftExpansion`] has values
+/// The largest |δ| for which the error is proved (docs/theory.md, Theorem 68), and for which [`LeftExpansion`] has values
 /// where λ is small.
 ///
 /// A larger range would need a larger [`LeftExpansion::REMAINDER`].
 pub const LEFT_RANGE: f64 = 1e-3;
 
-/// Bound on the rounding error of a loss, in ulps of its leading term (docs/theory.md, Lemma 79): 17.2 units 2⁻⁵³ of
+/// Bound on the rounding error of a loss, in ulps of its leading term (docs/theory.md, Lemma 72): 17.2 units 2⁻⁵³ of
 /// the leading term 10λ|δ|^{4/3}, 1.5 of the series, and 2 for the last sum and product.
 const LOSS_ULPS: f64 = 12.0;
 
@@ -49,7 +49,7 @@ impl LeftExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 7.0 / 3.0;
 
-    /// Bound on |c₃ + c₄|δ|^{1/3} + …|, for all n ≥ 1, all M and |δ| ≤ [`LEFT_RANGE`] (docs/theory.md, Theorem 75). The
+    /// Bound on |c₃ + c₄|δ|^{1/3} + …|, for all n ≥ 1, all M and |δ| ≤ [`LEFT_RANGE`] (docs/theory.md, Theorem 68). The
     /// proof gives 8.79; the rest of 9 covers the rounding of the bound.
     pub const REMAINDER: f64 = 9.0;
 

@@ -1,6 +1,6 @@
 //! The map on the right of a fixed point, to five orders.
 //!
-//! Proof: docs/theory.md, Theorem 35 and Theorem 74.
+//! Proof: docs/theory.md, Theorem 35 and Theorem 67.
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
@@ -32,12 +32,12 @@ pub struct RightExpansion {
     pub coefficients: [f64; 4],
 }
 
-/// The largest δ for which the error is proved (docs/theory.md, Theorem 74), and for which [`RightExpansion`] has values.
+/// The largest δ for which the error is proved (docs/theory.md, Theorem 67), and for which [`RightExpansion`] has values.
 ///
 /// A larger range would need a larger [`RightExpansion::REMAINDER`].
 pub const RIGHT_RANGE: f64 = 0.1;
 
-/// Bound on the rounding error of a loss, in ulps of its leading term (docs/theory.md, Lemma 79): 16.2 units 2⁻⁵³ of
+/// Bound on the rounding error of a loss, in ulps of its leading term (docs/theory.md, Lemma 72): 16.2 units 2⁻⁵³ of
 /// the leading term λδ^{4/3}, 5 of the series, and 2 for the last sum and product, times the largest series, 1.15.
 const LOSS_ULPS: f64 = 14.0;
 
@@ -45,7 +45,7 @@ impl RightExpansion {
     /// Exponent of the first neglected term of δ′.
     pub const NEGLECTED_EXPONENT: f64 = 3.0;
 
-    /// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|, for all n ≥ 1, all M and 0 ≤ δ ≤ [`RIGHT_RANGE`] (docs/theory.md, Theorem 74). The
+    /// Bound on |ℓ₉ + ℓ₁₀δ^{1/3} + …|, for all n ≥ 1, all M and 0 ≤ δ ≤ [`RIGHT_RANGE`] (docs/theory.md, Theorem 67). The
     /// proof gives 0.445; the rest of 0.5 covers the rounding of the bound.
     pub const REMAINDER: f64 = 0.5;
 

@@ -1,20 +1,20 @@
 //! Small hops: the map about α*_0 = 0.
 //!
-//! Proof: docs/theory.md, Lemma 39 and Theorem 78.
+//! Proof: docs/theory.md, Lemma 39 and Theorem 71.
 
 use crate::error::Error;
 use crate::expansion_value::{ExpansionValue, UNDERFLOW};
 use passive_hopper::MassRatio;
 
-/// The largest α for which the error is proved (docs/theory.md, Theorem 78), and for which [`small_hop_loss`] has a value.
+/// The largest α for which the error is proved (docs/theory.md, Theorem 71), and for which [`small_hop_loss`] has a value.
 pub const SMALL_ALPHA_RANGE: f64 = 0.3;
 
 /// Bound on |c₄ + c₆α² + …| in the factor 1 − (8/5)α² + c₄α⁴ + … of [`small_hop_loss`], for all M and 0 ≤ α ≤
-/// [`SMALL_ALPHA_RANGE`] (docs/theory.md, Theorem 78). The proof gives 2.365; the rest of 2.4 covers the rounding of the
+/// [`SMALL_ALPHA_RANGE`] (docs/theory.md, Theorem 71). The proof gives 2.365; the rest of 2.4 covers the rounding of the
 /// bound.
 pub const SMALL_HOP_REMAINDER: f64 = 2.4;
 
-/// Bound on the rounding error in ulps of the leading term (docs/theory.md, Lemma 79): 11 units 2⁻⁵³ of the leading
+/// Bound on the rounding error in ulps of the leading term (docs/theory.md, Lemma 72): 11 units 2⁻⁵³ of the leading
 /// term, and 2.5 of the factor and the product.
 const LOSS_ULPS: f64 = 7.0;
 

@@ -1,6 +1,6 @@
 //! The length Δ_n of the trap for large λ.
 //!
-//! Proof: docs/theory.md, Lemma 40 and Theorem 77.
+//! Proof: docs/theory.md, Lemma 40 and Theorem 70.
 
 use crate::error::Error;
 use crate::expansion_value::ExpansionValue;
@@ -13,11 +13,11 @@ use passive_hopper::MassRatio;
 pub const SMALLEST_LAMBDA: f64 = 3.0;
 
 /// Bound on |c₃ + c₄/λ + …| in the factor 1 + c₁/λ + c₂/λ² + c₃/λ³ + … of Δ, for all n ≥ 1 and all M with λ ≥
-/// [`SMALLEST_LAMBDA`] (docs/theory.md, Theorem 77). The proof gives 6.155; the rest of 6.2 covers the rounding of the
+/// [`SMALLEST_LAMBDA`] (docs/theory.md, Theorem 70). The proof gives 6.155; the rest of 6.2 covers the rounding of the
 /// bound.
 pub const TRAP_LENGTH_REMAINDER: f64 = 6.2;
 
-/// Bound on the rounding error in ulps of λ⁻³ (docs/theory.md, Lemma 79): 43 units 2⁻⁵³ of λ⁻³ times the largest
+/// Bound on the rounding error in ulps of λ⁻³ (docs/theory.md, Lemma 72): 43 units 2⁻⁵³ of λ⁻³ times the largest
 /// factor, 1.2, and 32 for the factor, of which most is the error of λ.
 const LENGTH_ULPS: f64 = 44.0;
 

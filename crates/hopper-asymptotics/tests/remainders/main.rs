@@ -1,6 +1,6 @@
 //! The remainders of the expansions, enclosed for all fixed points and mass ratios at once.
 //!
-//! These tests are the computations in the proofs of docs/theory.md, Theorems 74 to 78. They use intervals that are
+//! These tests are the computations in the proofs of docs/theory.md, Theorems 67 to 71. They use intervals that are
 //! rounded outwards, and Taylor models. The parameters are p = 1/α*_n, at the first forty fixed points and on an interval
 //! that holds all others and p = 0, and μ or κ in small intervals that cover all mass ratios.
 
@@ -38,7 +38,7 @@ fn inverse_speeds() -> Vec<Interval> {
     (1..=SINGLE).map(inverse).chain(rest).collect()
 }
 
-/// Theorems 74 and 77: the right side, and the length of the trap.
+/// Theorems 67 and 70: the right side, and the length of the trap.
 #[test]
 fn right_remainders_are_below_their_bounds() {
     const { assert!(RIGHT_RANGE <= 0.1 && SMALLEST_LAMBDA >= 3.0) };
@@ -59,7 +59,7 @@ fn right_remainders_are_below_their_bounds() {
     const { assert!(RightExpansion::REMAINDER > 0.445 && TRAP_LENGTH_REMAINDER > 6.155) };
 }
 
-/// Theorem 75: the left side. The second flight ends in contact.
+/// Theorem 68: the left side. The second flight ends in contact.
 #[test]
 fn the_left_remainder_is_below_its_bound() {
     const { assert!(LEFT_RANGE <= 1e-3) };
@@ -79,7 +79,7 @@ fn the_left_remainder_is_below_its_bound() {
     const { assert!(LeftExpansion::REMAINDER > 8.79) };
 }
 
-/// Theorem 76: one hop on the right changes K by 1, to (0.55 + 0.3 λ³) u⁻³.
+/// Theorem 69: one hop on the right changes K by 1, to (0.55 + 0.3 λ³) u⁻³.
 #[test]
 fn one_hop_changes_the_number_of_hops_by_one() {
     let mu = Interval::new(0.0, 0.25);
@@ -97,7 +97,7 @@ fn one_hop_changes_the_number_of_hops_by_one() {
     assert!(sum < 0.603 && Decay::ORBIT > 0.603, "{sum}");
 }
 
-/// Theorem 76: the slope of rK.
+/// Theorem 69: the slope of rK.
 #[test]
 fn the_slope_of_the_number_of_hops_is_near_one() {
     let mut range = Interval::from(1.0);
@@ -111,7 +111,7 @@ fn the_slope_of_the_number_of_hops_is_near_one() {
     assert!(range.low >= 0.69 && range.high <= 1.2, "{range:?}");
 }
 
-/// Theorem 78: small hops, and the fixed points.
+/// Theorem 71: small hops, and the fixed points.
 #[test]
 fn remainders_of_small_hops_and_fixed_points_are_below_their_bounds() {
     const { assert!(SMALL_ALPHA_RANGE <= 0.3) };

@@ -13,7 +13,7 @@ const PARTS: u32 = 40;
 /// At least ∛0.1 = 0.46415888…
 pub(crate) const LARGEST_ROOT: f64 = 0.464_159;
 
-/// G = (δ − δ′)/(λδ^{4/3}) is at least this for 0 ≤ δ ≤ 0.1 (docs/theory.md, Theorem 74).
+/// G = (δ − δ′)/(λδ^{4/3}) is at least this for 0 ≤ δ ≤ 0.1 (docs/theory.md, Theorem 67).
 pub(crate) const SMALLEST_LOSS: f64 = 0.879;
 
 /// ℓ₅, ℓ₆, ℓ₇, ℓ₈ of docs/theory.md, Theorem 35.

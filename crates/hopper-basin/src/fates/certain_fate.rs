@@ -11,7 +11,7 @@
 //! exact. Only two verdicts decide: the whole interval of the error lies inside a trap, or the hopper is grounded from all
 //! of it. A speed beside the end of a trap is therefore followed further: its image lies on one side of α*_n.
 //!
-//! docs/theory.md, Theorem 87.
+//! docs/theory.md, Theorem 79.
 
 use crate::error::Error;
 use crate::traps::trap::{Trap, TrapSide};

@@ -1,7 +1,7 @@
 //! Itineraries: the laps that an orbit visits, and its end.
 //!
 //! If the exact orbits of two speeds have the same itinerary, every exact orbit that starts between them has their fate
-//! (docs/theory.md, Theorem 88). An itinerary carries a bound on the distance between the computed and the exact orbit, so
+//! (docs/theory.md, Theorem 52). An itinerary carries a bound on the distance between the computed and the exact orbit, so
 //! that it is the itinerary of the exact orbit. README.md has the proof; its invariants are cited here by name.
 
 use crate::raster::laps::{ID_BITS, Laps};

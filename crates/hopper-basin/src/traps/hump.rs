@@ -70,12 +70,12 @@ fn inverse_tangent_of_inverse(alpha: f64) -> f64 {
     pxfm::f_atan(1.0 / alpha)
 }
 
-/// (n+1)π − α*_n = ½π + arctan(1/α*_n), the length of the contact part of hump n, to an ulp (docs/theory.md, Lemma 84).
+/// (n+1)π − α*_n = ½π + arctan(1/α*_n), the length of the contact part of hump n, to an ulp (docs/theory.md, Lemma 76).
 pub(crate) fn contact_length(n: u64) -> f64 {
     FRAC_PI_2 + inverse_tangent_of_inverse(alpha_star(n))
 }
 
-/// α*_{n+1} − α*_n = π + arctan(1/α*_n) − arctan(1/α*_{n+1}), to an ulp (docs/theory.md, Lemma 84).
+/// α*_{n+1} − α*_n = π + arctan(1/α*_n) − arctan(1/α*_{n+1}), to an ulp (docs/theory.md, Lemma 76).
 pub(crate) fn distance_to_next(n: u64) -> f64 {
     let [angle, next] = [n, n + 1].map(|n| inverse_tangent_of_inverse(alpha_star(n)));
     PI + (angle - next)

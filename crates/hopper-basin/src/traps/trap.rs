@@ -51,13 +51,13 @@ fn cannot_fall(n: u64, mass_ratio: MassRatio) -> bool {
 
 /// Bound on the difference of the two sides of α² − α*_n² = μΓ² at the computed edge, in ulps of their common value: 9 for
 /// the rounding of the left side, 29 for that of the right side, 1 for the difference, and 9 for the last step of the
-/// search (docs/theory.md, Lemma 85). A larger value makes the band around an edge wider in which the next hop decides.
+/// search (docs/theory.md, Lemma 77). A larger value makes the band around an edge wider in which the next hop decides.
 const SIDES_ULPS: f64 = 48.0;
 
-/// Bound on the error of δ(t) and of the spacing of t, in ulps of δ (docs/theory.md, Lemma 85).
+/// Bound on the error of δ(t) and of the spacing of t, in ulps of δ (docs/theory.md, Lemma 77).
 const OFFSET_ULPS: f64 = 10.0;
 
-/// Bound on the error of the offset δ at which f falls to α*_n (docs/theory.md, Lemma 85).
+/// Bound on the error of the offset δ at which f falls to α*_n (docs/theory.md, Lemma 77).
 ///
 /// The derivative of α² − α*_n² − μΓ² by δ is 2α (1 − 4μW). The error of δ is the error of both sides divided by it.
 fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
@@ -68,7 +68,7 @@ fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
     f64::EPSILON * (SIDES_ULPS * sides / slope + OFFSET_ULPS * delta)
 }
 
-/// Bound on the error of an edge that is given by a closed form, relative to Δ (docs/theory.md, Lemma 84).
+/// Bound on the error of an edge that is given by a closed form, relative to Δ (docs/theory.md, Lemma 76).
 const CLOSED_FORM_ERROR: f64 = 2.0 * f64::EPSILON;
 
 /// Bound on the error of the 100 bits of α*_n, relative to α*_n: the precision that `FixedPointSpeed` states.

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 /// Where the numbers of a class start, so that no two classes use the same ones.
 const SEED: u64 = 14;
 
-/// Bound on the error of a local hop, in ulps of δ′ and of t (docs/theory.md, Theorem 81).
+/// Bound on the error of a local hop, in ulps of δ′ and of t (docs/theory.md, Theorem 74).
 const LOCAL_ULPS: f64 = 8.0;
 
 /// Bound on the relative error of `hop(α).loss` for small α, in ulps, measured (docs/accuracy.md). It is used for α from
@@ -129,13 +129,13 @@ const CLASSES: [Class; 8] = [
 
 /// The bounds that are measured at one start: name and statement.
 const QUANTITIES: [(&str, &str); 7] = [
-    ("right expansion: loss", "Theorem 74"),
-    ("right expansion: δ′", "Theorem 74"),
-    ("left expansion: loss", "Theorem 75"),
-    ("left expansion: δ′", "Theorem 75"),
-    ("local hop: δ′", "Theorem 81"),
-    ("local hop: time shift", "Lemma 80"),
-    ("decay: one hop", "Theorem 76"),
+    ("right expansion: loss", "Theorem 67"),
+    ("right expansion: δ′", "Theorem 67"),
+    ("left expansion: loss", "Theorem 68"),
+    ("left expansion: δ′", "Theorem 68"),
+    ("local hop: δ′", "Theorem 74"),
+    ("local hop: time shift", "Lemma 73"),
+    ("decay: one hop", "Theorem 69"),
 ];
 
 /// Measures the bounds of expansions and local hops on about `count` inputs a class.
@@ -151,7 +151,7 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
         count,
         ROWS,
         "decay: number of hops",
-        "Theorem 76",
+        "Theorem 69",
         "orbits of 300 hops",
         decay,
     ));
@@ -159,7 +159,7 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
         count,
         ROWS + 1,
         "decay: offset",
-        "Theorem 76",
+        "Theorem 69",
         "orbits of 300 hops",
         offset,
     ));
@@ -167,7 +167,7 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
         10 * count,
         ROWS + 2,
         "series of α*_n",
-        "Theorem 78",
+        "Theorem 71",
         "n in order",
         fixed_points,
     ));
@@ -175,16 +175,16 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
         10 * count,
         ROWS + 3,
         "series of α*_n",
-        "Theorem 78",
+        "Theorem 71",
         "n up to 10¹⁹",
         large_indices,
     ));
-    measured.push(single(count, ROWS + 4, "series of Δ_n", "Theorem 77", "λ from 3", trap_lengths));
+    measured.push(single(count, ROWS + 4, "series of Δ_n", "Theorem 70", "λ from 3", trap_lengths));
     measured.push(single(
         count,
         ROWS + 5,
         "loss of small hops",
-        "Theorem 78",
+        "Theorem 71",
         "α from 0.003 to 0.3",
         small_hops,
     ));
@@ -334,7 +334,7 @@ fn orbit([a, b, c, d]: [f64; 4]) -> Option<Orbit> {
 fn decay(_: u64, numbers: [f64; 4]) -> Option<(f64, String)> {
     let Orbit { law, first, last, hops, relative_error, text } = orbit(numbers)?;
     let found = law.hops(first, last).ok()?;
-    // An error of δ is one of δ^{−1/3}/r hops, times at most 1.2 (docs/theory.md, Theorem 76).
+    // An error of δ is one of δ^{−1/3}/r hops, times at most 1.2 (docs/theory.md, Theorem 69).
     let reference = 0.4 * relative_error / (pxfm::f_cbrt(last) * law.rate);
     Some((against(found, hops, reference), text))
 }

@@ -54,7 +54,7 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
             Ok(())
         })?;
         let text = |k| format!("(n, M) = {:?}", at(k));
-        measured.push(tally.measured("length of a trap, crossing", "Lemma 85", class, text));
+        measured.push(tally.measured("length of a trap, crossing", "Lemma 77", class, text));
     }
     let at = |k: u64| (3.0 * pxfm::f_pow(10.0, 7.0 * part(k, 0))) as u64;
     let tally = collect(count, |tally, k| {
@@ -64,7 +64,7 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
     let text = |k| format!("n = {}", at(k));
     measured.push(tally.measured(
         "length of a trap, closed form",
-        "Lemma 84",
+        "Lemma 76",
         "n up to 3·10⁷",
         text,
     ));
@@ -74,7 +74,7 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
             let tally =
                 collect(count, |tally, k| follow(at(k), within, |ratio| tally.add(ratio, k)))?;
             let text = |k| format!("(M, α) = {:?}", at(k));
-            measured.push(tally.measured(bound, "Lemma 86", class, text));
+            measured.push(tally.measured(bound, "Lemma 78", class, text));
         }
     }
     Ok(measured)

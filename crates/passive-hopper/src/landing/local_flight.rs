@@ -15,7 +15,7 @@
 //!
 //! No term cancels another, however small t is. Hence every function keeps its relative accuracy.
 //!
-//! Proof: docs/theory.md, Lemma 34. Lemma 80 bounds the rounding errors.
+//! Proof: docs/theory.md, Lemma 34. Lemma 73 bounds the rounding errors.
 
 use crate::landing::extended_landing::ExtendedLanding;
 use crate::model::fixed_points::alpha_star;
@@ -75,7 +75,7 @@ impl<R: Real> NearFixedPoint<R> {
 const NEWTON_STEPS: usize = 12;
 
 /// A Newton step below this part of t is rounding error, four and a half ulps. The next step would be about its square
-/// (docs/theory.md, Lemma 80). A smaller value would let the search go on until the guard.
+/// (docs/theory.md, Lemma 73). A smaller value would let the search go on until the guard.
 const LAST_STEP: f64 = 1e-15;
 
 impl NearFixedPoint<f64> {
@@ -210,7 +210,7 @@ mod tests {
         [relative(t, shift), relative(closing_speed, exact.closing_speed)]
     }
 
-    /// docs/theory.md, Lemma 80.
+    /// docs/theory.md, Lemma 73.
     #[test]
     fn times_and_closing_speeds_have_the_derived_errors() {
         const TIME: f64 = 7.0;
@@ -230,7 +230,7 @@ mod tests {
         assert!(largest[0] > 1.0 && largest[1] > 3.0, "{largest:?}");
     }
 
-    /// The two conditions of docs/theory.md, Lemma 80: t δ′(t) ≥ 2δ and 0 ≤ t Γ′(t) ≤ 2Γ.
+    /// The two conditions of docs/theory.md, Lemma 73: t δ′(t) ≥ 2δ and 0 ≤ t Γ′(t) ≤ 2Γ.
     #[test]
     fn logarithmic_slopes_of_the_flight_are_bounded() {
         for n in [1u64, 2, 3, 10, 1000] {

@@ -17,17 +17,17 @@ use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 /// Up to this ratio of the loss to |δ| the plain result is used.
 ///
 /// The plain loss has a relative error of up to 111 ulps, and δ′ = δ − loss must be right to 8 ulps: 1/16 is the largest
-/// power of two that ensures this (docs/theory.md, Theorem 81). Hops with a larger loss are computed in extended
+/// power of two that ensures this (docs/theory.md, Theorem 74). Hops with a larger loss are computed in extended
 /// arithmetic. A smaller value would send more hops there.
 const SMALL_LOSS: f64 = 1.0 / 16.0;
 
 /// Smallest |δ| other than 0. Here t³ ∝ δ, the smallest term of δ(t), is 10⁸ times the smallest normal number, so that no
-/// factor of the local functions underflows (docs/theory.md, Lemma 80). Further down the terms would lose digits.
+/// factor of the local functions underflows (docs/theory.md, Lemma 73). Further down the terms would lose digits.
 const SMALLEST_OFFSET: f64 = 1e-300;
 
 /// A second flight that is shorter than this is not followed by a sudden lift-off, whatever the rounding of its landing
-/// (docs/theory.md, Lemma 82). The lemma needs τ < α*_1 = 4.49. The error of δ′ is derived for flights shorter than 1
-/// (Theorem 81); the landings of longer ones are decided with their error bound.
+/// (docs/theory.md, Lemma 75). The lemma needs τ < α*_1 = 4.49. The error of δ′ is derived for flights shorter than 1
+/// (Theorem 74); the landings of longer ones are decided with their error bound.
 const SHORT_FLIGHT: f64 = 1.0;
 
 /// A hop near a fixed point.
@@ -244,7 +244,7 @@ mod tests {
         }
     }
 
-    /// The second landing of a flight that is shorter than `SHORT_FLIGHT` is below stretch one (docs/theory.md, Lemma 82).
+    /// The second landing of a flight that is shorter than `SHORT_FLIGHT` is below stretch one (docs/theory.md, Lemma 75).
     #[test]
     fn short_second_flights_end_in_contact() {
         for k in 0..2000 {
