@@ -48,6 +48,13 @@ fn factor(text: &str) -> Result<f64, String> {
     factor.ok_or_else(|| "FACTOR must be a positive number".to_owned())
 }
 
+/// Hops for each sine of a class. With the three numbers, each group takes at most as long as the hops themselves.
+const HOPS_PER_SINE: u64 = 10;
+/// Hops for each input of a class of expansions, most of which are compared in 512 bits.
+const HOPS_PER_EXPANSION: u64 = 1000;
+/// Hops for each trap and each orbit of a class.
+const HOPS_PER_ORBIT: u64 = 100;
+
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
     let start = Instant::now();
@@ -64,13 +71,13 @@ pub fn run(options: &Options) -> Result<(), Error> {
         measured.extend(of_hops);
     }
     if runs(Group::Sines) {
-        measured.extend(sines::measure(count / 10, seed)?);
+        measured.extend(sines::measure(count / HOPS_PER_SINE, seed)?);
     }
     if runs(Group::Expansions) {
-        measured.extend(expansions::measure(count / 100)?);
+        measured.extend(expansions::measure(count / HOPS_PER_EXPANSION)?);
     }
     if runs(Group::Fates) {
-        measured.extend(fates::measure(count / 100)?);
+        measured.extend(fates::measure(count / HOPS_PER_ORBIT)?);
     }
     for found in &mut measured {
         found.median /= bound_factor;
