@@ -62,7 +62,7 @@
 //! bounds: next to a change of branch it may decide wrongly.
 //!
 //! Near a fixed point [`LiftOffMap::hop_near_fixed_point`] gives δ′ to 8 ulps of δ′ itself. Sines and cosines come from
-//! `pxfm`, correctly rounded, or from the kernel, to 1.2 ulps. Results have the same bits on every x86-64 machine.
+//! `pxfm`, correctly rounded, or from the kernel, to 2 ulps (docs/theory.md, Lemma 57). Results have the same bits on every x86-64 machine.
 //!
 //! # Speed
 //! A hop of the paper's window takes as long as eight `f64::sin_cos`, or a quarter of that among many hops; `cargo

@@ -18,7 +18,7 @@ pub struct SineErrors {
 
 /// The errors of sin `x` and cos `x` as `solver` computes them, against `reference`.
 ///
-/// The bounds are: for the kernel 1.2 ulps, for 0 < x < 2²⁰; for the general solver half an ulp; for an arithmetic with
+/// The bounds are: for the kernel 2 ulps, for 0 < x < 2²⁰; for the general solver half an ulp; for an arithmetic with
 /// relative error e its e (1 + |x|), since it subtracts a multiple of π that is right to e of its size.
 ///
 /// `None` unless `reference` is a longer arithmetic than `solver`, and for an `x` that is not finite.

@@ -51,7 +51,7 @@ fn decided_in<R: Extended>(start: TakeOff, mass_ratio: MassRatio) -> Option<Land
     landing.sudden = is_sudden(landing.excess, landing.velocity);
     let mut bound = ErrorBound::of_extended(start.velocity, R::EPSILON).starting_at(start);
     bound.add_flight_on_branch(&landing, mass_ratio.kappa(), test);
-    (!bound.landing_inconclusive()).then_some(landing)
+    (found.settled && !bound.landing_inconclusive()).then_some(landing)
 }
 
 #[cfg(test)]

@@ -12,12 +12,15 @@ pub(crate) struct ExtendedLanding<R> {
     pub(crate) excess: R,
     pub(crate) velocity: R,
     pub(crate) time: R,
+    /// False if the search used up its steps before the residual was as small as its rounding error. Such a landing decides
+    /// nothing.
+    pub(crate) settled: bool,
 }
 
 /// Guard on the number of steps. From a good `f64` start each step doubles the number of right digits, and seven steps
 /// suffice for 1024 bits. Next to a double root (a flight that nearly touches the ground) a step of Newton's method only
 /// halves the distance, and a step that would leave the bracket is replaced by a bisection, which halves the bracket:
-/// 1024 bits take fewer than 1100 such steps. After the last step the search returns the current h.
+/// 1024 bits take fewer than 1100 such steps. A search that needs more is not settled, and the hop is inconclusive.
 const STEPS: usize = 1200;
 
 /// The search takes its last step from a residual within this many EPSILON of 1 + x + |V| + h. It is twice the rounding
@@ -46,6 +49,7 @@ impl<R: Extended> ExtendedLanding<R> {
         let tolerance = RESIDUAL_ULPS * R::EPSILON * size;
         let mut h = R::from(root.half.h);
         let mut half = HalfTime::extended_at(h);
+        let mut settled = false;
         for _ in 0..STEPS {
             let residual = (h - v) + half.speed_beyond_h(x);
             let last = residual.nearest().abs() <= tolerance;
@@ -58,6 +62,7 @@ impl<R: Extended> ExtendedLanding<R> {
             let newton = (slope.nearest() > 0.0).then(|| h - residual / slope);
             let inside = newton
                 .filter(|&next| (next - left).nearest() > 0.0 && (right - next).nearest() > 0.0);
+            settled = last;
             if last && inside.is_none() {
                 break; // the root to the last bit, or a double root, where no step is needed
             }
@@ -73,6 +78,7 @@ impl<R: Extended> ExtendedLanding<R> {
             excess: x + h * (v - h) * 2.0,
             velocity: v - h * 2.0 + kappa * closing_speed,
             time: h * 2.0,
+            settled,
         }
     }
 

@@ -139,7 +139,9 @@ impl<R: Extended> NearFixedPoint<R> {
         let q = self.offset(t).1;
         let eta = t * 0.5;
         let (excess, velocity, closing_speed) = self.landing_state(eta, self.b(eta), q, kappa);
-        ExtendedLanding { closing_speed, excess, velocity, time: (self.a + eta) * 2.0 }
+        // A search that the guard ended is right to its rounding error: see `EXTENDED_NEWTON_STEPS`.
+        let time = (self.a + eta) * 2.0;
+        ExtendedLanding { closing_speed, excess, velocity, time, settled: true }
     }
 }
 

@@ -171,7 +171,7 @@ impl<R: Extended> StartIn<R> {
         Ok(Some(HopIn {
             next_speed_squared: self.alpha.squared() - loss_of_square,
             loss_of_square,
-            decided: !chain.with_start.landing_inconclusive(),
+            decided: chain.settled && !chain.with_start.landing_inconclusive(),
             ratio_error: chain.rounding.ratio_error(mu, speed),
             propagated: chain.rounding.propagated(mu, speed),
             landings: chain.landings,
@@ -252,6 +252,8 @@ struct Chain<R> {
     rounding: ErrorBound,
     /// The bound that contains the error of the start.
     with_start: ErrorBound,
+    /// Whether the search of every landing has ended before its limit.
+    settled: bool,
 }
 
 /// All flights of a hop, from its first landing and the decision whether that landing is sudden, for a start that is known
@@ -271,6 +273,7 @@ fn chain<R: Extended>(
         landings: vec![rounded],
         rounding: ErrorBound::of_extended(alpha, R::EPSILON),
         with_start: ErrorBound::of_extended(alpha, R::EPSILON).with_speed_error(error),
+        settled: first.settled,
     };
     hop.rounding.add_flight(&rounded, kappa);
     hop.with_start.add_flight(&rounded, kappa);
@@ -290,6 +293,7 @@ fn chain<R: Extended>(
         let test = if start.velocity >= PI { maximum_test(x, v) } else { f64::INFINITY };
         let root = next_root(start, start.velocity >= PI && test >= 0.0);
         landing = ExtendedLanding::near(&root, x, v, masses.kappa);
+        hop.settled &= landing.settled;
         hop.loss = hop.loss + landing.closing_speed.squared();
         rounded = landing.rounded(false);
         rounded.sudden = is_sudden(rounded.excess, rounded.velocity);
