@@ -4,6 +4,7 @@ from typing import Callable, NamedTuple
 
 import first_flight
 import guesses
+import separations
 import sines
 import verner
 
@@ -18,5 +19,6 @@ CONSTANTS = (
     Constant("sines", sines.verify),
     Constant("first_flight", first_flight.verify),
     Constant("guesses", guesses.verify),
+    Constant("separations", separations.verify),
     Constant("verner", verner.verify),
 )
