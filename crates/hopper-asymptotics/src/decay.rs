@@ -50,7 +50,7 @@ const LARGEST_LOGARITHM: f64 = 710.0;
 const SUM_ULPS: f64 = 16.0;
 
 /// Bound on the rounding error of 1/u³ in ulps of it (docs/theory.md, Lemma 72): 6 for the last Newton step, which is at
-/// most two ulps of u, and 2 for its rounding and the three divisions, rounded up.
+/// most two ulps of u, 1.5 for the rounding of u and 1.5 for the three divisions, rounded up.
 const OFFSET_ULPS: f64 = 10.0;
 
 impl Decay {

@@ -107,7 +107,7 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
     }
 
     /// The verdict in longer arithmetic, within a budget of hops of the caller and one of this arithmetic; `None` if the
-    /// second is used up, or certainly would be.
+    /// second is used up, or would be by an estimate.
     fn in_extended(
         &self,
         alpha: f64,

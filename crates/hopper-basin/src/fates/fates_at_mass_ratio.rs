@@ -27,7 +27,9 @@ pub const HOP_BUDGET: usize = 1_000_000;
 /// is grounded. Closeness to a fixed point does not decide a fate: orbits just below a fixed point leave it slowly.
 ///
 /// A decided fate is that of the exact orbit of the given `f64` at the given M, and not of an orbit rounded to `f64`
-/// (docs/theory.md, Theorem 79).
+/// (docs/theory.md, Theorem 79). A part of the error bound behind this is not proved. In the slow approach to and escape from
+/// fixed points the second order of a hop's error is an estimate, which is measured against longer arithmetic
+/// (docs/theory.md, Section 15).
 ///
 /// ```
 /// use hopper_basin::{Fates, HopperFate};

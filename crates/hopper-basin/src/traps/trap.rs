@@ -71,7 +71,8 @@ fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
 /// Bound on the error of an edge that is given by a closed form, relative to Δ (docs/theory.md, Lemma 76).
 const CLOSED_FORM_ERROR: f64 = 2.0 * f64::EPSILON;
 
-/// Bound on the error of the 100 bits of α*_n, relative to α*_n: the precision that `FixedPointSpeed` states.
+/// Bound on the error of the 100 bits of α*_n, relative to α*_n: 2⁻¹⁰⁰. The theorem gives 2⁻¹⁰¹
+/// (docs/theory.md, Lemma 65).
 const FIXED_POINT_ERROR: f64 = 7.9e-31;
 
 /// Where a speed lies.

@@ -99,7 +99,8 @@ impl DecidedHop {
 
 /// The state after a sudden first landing: x′ = 2h (α − h), V′ = (α − h) − h + κΓ.
 ///
-/// The table gives α − h to an ulp of α − h. Therefore x′ keeps its digits next to α*_n, where it vanishes.
+/// The table gives α − h without a difference of large numbers. Therefore x′ keeps its digits. The errors of x′ and V′ are
+/// below 12 ulps of the size (docs/theory.md, Lemma 61).
 #[inline(always)]
 pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> GroundState {
     let FirstFlight { half_time: h, beyond, closing_speed } = *first;
@@ -164,10 +165,11 @@ pub(crate) struct BoundedSquare {
 ///
 /// Tables end 10⁻⁷ π from nπ and 2⁻¹³ from α*_n: all speeds within the error of a tabled speed have the same kind of first
 /// landing. Within 2⁻²⁷ the derivatives of the first flight change by less than a thousandth, since they grow like
-/// δ^{−2/3} towards δ = 0, and 2⁻²⁷/2⁻¹³ = 6·10⁻⁵. 1 + α ≤ 101 makes it 3·10⁻¹⁰ and more.
+/// δ^{−2/3} towards δ = 0, and 2⁻²⁷/2⁻¹³ = 6·10⁻⁵. As 1 + α ≤ 102, the error is at most 3.1·10⁻⁹, below 2⁻²⁷ = 7.5·10⁻⁹.
 const LARGEST_SPEED_ERROR: f64 = 3e-11;
 
-/// A factor for the change of the derivatives of the first flight within the error.
+/// A factor for the change of the derivatives of the first flight within the error g, and for the g² of
+/// docs/theory.md, Lemma 78, part 1: (2αg + g²)/(2αg) = 1 + g/(2α), and g/(2α) < 10⁻⁶ since α ≥ 2⁻¹³ in the tables.
 const DERIVATIVE_CHANGE: f64 = 1.01;
 
 /// The hop of all speeds within `error` of `alpha`: α′² and a bound on its error; `None` if a landing is inconclusive, or
