@@ -25,9 +25,9 @@ const LARGEST_CHANGE: f64 = 1.0 / 64.0;
 
 /// Rounding error of the slope, in ulps of the sizes of its terms, for each flight. The coefficients of a flight's derivative
 /// err by less than 32 ulps (docs/theory.md, Theorem 60); 64 leaves room for the sums. It is an estimate as well. It does
-/// not contain the error of the phase in the sines, 4ετ, which is part of the second order where the error of the speed is
-/// at least its rounding to `f64`. A larger value makes no visible difference: this term is 10⁻¹⁴ of the bound, unless the
-/// slope cancels.
+/// not contain the error of the phase in the sines, 4ετ. In `f64` the second order is larger than that, because the error of
+/// the speed is at least its rounding. In longer arithmetic it is neglected; it matters only if the slope cancels to a part
+/// 4ετ of its terms. A larger value makes no visible difference: this term is 10⁻¹⁴ of the bound, unless the slope cancels.
 const SLOPE_ULPS: f64 = 64.0;
 
 /// Bound on |F(ξ) − F(α)| for |ξ − α| ≤ `error`, to second order, from the `landings` of the hop from `alpha`. `None` if
