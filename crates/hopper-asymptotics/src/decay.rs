@@ -138,8 +138,9 @@ impl Decay {
             let right = f64::MAX / self.rate.max(1.0);
             return Err(Error::OutsideRange { value: hops, left: 0.0, right });
         }
-        // Newton's method on r (K(u) − K(u₀)) = r · hops. The slope of r K is near 1 throughout the range, so that the
-        // leading term is a good start. u never decreases, so that no step may fall below u₀.
+        // Newton's method on r (K(u) − K(u₀)) = r · hops. The slope of r K by u is near 1 throughout the range
+        // (docs/theory.md, Theorem 69), so that the leading term is a good start. The slope is positive and `hops` is not
+        // negative: the root is not below u₀, and no step may fall below it.
         let mut u = u0 + self.rate * hops;
         for _ in 0..NEWTON_STEPS {
             let sum = (u - u0) - self.logarithm * pxfm::f_log(u / u0)

@@ -6,7 +6,7 @@ pub struct ExpansionValue {
     /// The truncated sum.
     pub value: f64,
     /// Bound on the distance from the exact value: the neglected terms, and the rounding of the sum and of its
-    /// coefficients. It is proved in docs/theory.md, section 14.
+    /// coefficients (docs/theory.md, Theorems 67 to 71 and Lemma 72).
     pub error: f64,
     /// Exponent of the first neglected term, in the variable of the expansion.
     pub neglected_exponent: f64,

@@ -12,7 +12,8 @@ pub enum Error {
     /// An error of the generic basin tools, such as an empty raster.
     #[error(transparent)]
     BasinOfAttraction(#[from] basin_of_attraction::Error),
-    /// The root search failed on a bracket that holds a root (docs/theory.md, Theorem 29 and Theorem 31).
+    /// The root search failed on a bracket that holds a root (docs/theory.md, Theorem 29, Corollary 30
+    /// and Theorem 31).
     #[error("theory guarantees a root on hump {n}, but the search failed: {source}")]
     RootSearch {
         /// The index of the hump.

@@ -143,7 +143,7 @@ fn fates_that_were_wrong() {
 /// offset is at most Δ.
 #[test]
 fn traps_shorter_than_an_ulp_contain_only_what_is_within_their_length() {
-    let (mut inside, mut outside) = (0, 0);
+    let (mut inside, mut outside, mut inside_of) = (0, 0, Vec::new());
     for n in (3_883..40_000).step_by(17) {
         let trap = Trap::new(n, MassRatio::ONE).unwrap();
         let alpha = trap.fixed_point.smallest_not_below();
@@ -151,8 +151,21 @@ fn traps_shorter_than_an_ulp_contain_only_what_is_within_their_length() {
         assert_eq!(trap.contains(alpha), offset < trap.delta, "{n}");
         inside += usize::from(trap.contains(alpha));
         outside += usize::from(!trap.contains(alpha));
+        inside_of.extend(trap.contains(alpha).then_some(n));
     }
     assert!(inside > 10 && outside > 1000, "{inside} {outside}");
+    // The fates there, inside and outside of the traps.
+    let at_one = fates(1.0);
+    let mut decided = 0;
+    for n in (3_883..40_000).step_by(17 * 100) {
+        let alpha = FixedPointSpeed::new(n).smallest_not_below();
+        decided += usize::from(check(&at_one, alpha, FEW));
+    }
+    for n in inside_of {
+        let alpha = FixedPointSpeed::new(n).smallest_not_below();
+        assert_eq!(at_one.fate(alpha).unwrap(), HopperFate::Incessant { n });
+    }
+    assert!(decided > 10, "{decided}");
     // M = 0.5, n = 4315: the orbit of the next double falls through α*_n.
     let fates = fates(0.5);
     let alpha = FixedPointSpeed::new(4315).smallest_not_below();
@@ -180,10 +193,22 @@ fn lengths_of_whole_contact_parts_do_not_depend_on_the_size_of_the_speed() {
 #[test]
 fn fates_left_of_a_preimage_of_a_fixed_point_are_decided_and_right() {
     let fates = fates(0.12);
+    let at = |distance, k| 11.920_553_918_335_777 - distance * (0.3 + 0.7 * f64::from(k) / 299.0);
     for distance in [1e-8, 1e-10] {
         for k in (0..300).step_by(75) {
-            let alpha = 11.920_553_918_335_777 - distance * (0.3 + 0.7 * f64::from(k) / 299.0);
+            let alpha = at(distance, k);
             assert!(check(&fates, alpha, 2000), "{alpha}");
+        }
+    }
+    // Nearer to the preimage the orbit is slower, and 106 bits may not follow it to its end.
+    for distance in [1e-11, 3e-12] {
+        for k in (0..300).step_by(150) {
+            let alpha = at(distance, k);
+            let is_decided = check(&fates, alpha, 3000);
+            let (fate, hops) = fates.fate_within(alpha, 3000).unwrap();
+            let undecided =
+                matches!(fate, HopperFate::Undecided(UndecidedReason::Precision { .. }));
+            assert!(is_decided || undecided, "{alpha}: {fate:?} after {hops}");
         }
     }
 }

@@ -57,11 +57,22 @@ const SIDES_ULPS: f64 = 48.0;
 /// Bound on the error of δ(t) and of the spacing of t, in ulps of δ (docs/theory.md, Lemma 77).
 const OFFSET_ULPS: f64 = 10.0;
 
-/// Bound on the error of the offset δ at which f falls to α*_n (docs/theory.md, Lemma 77).
+/// Smallest |4μW − 1| at an edge for which Lemma 77 of docs/theory.md gives a bound. Nearer to the touch the rounding of W and
+/// the curvature of the difference are no small part of its slope. A larger value gives up the bound of more traps, all of
+/// them at mass ratios some ulps above a crisis.
+const SMALLEST_SLOPE: f64 = 1e-12;
+
+/// Bound on the error of the offset δ at which f falls to α*_n, if the exact offset is below δ (docs/theory.md, Lemma 77).
 ///
-/// The derivative of α² − α*_n² − μΓ² by δ is 2α (1 − 4μW). The error of δ is the error of both sides divided by it.
+/// The derivative of α² − α*_n² − μΓ² by δ is 2α (1 − 4μW). The error of δ is the error of both sides divided by it. Where
+/// the lemma gives no bound, the bound is δ itself: no speed is then certainly inside.
+///
+/// `t` lies left of the touch, where f falls to α*_n only once (Theorem 29). So it is the first fall.
 fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
     let (delta, w) = (hump.delta(t), hump.w(t));
+    if !((4.0 * mu * w - 1.0).abs() > SMALLEST_SLOPE) {
+        return delta;
+    }
     let alpha = hump.star.value() + delta;
     let sides = delta * (alpha + hump.star.value());
     let slope = 2.0 * alpha * (4.0 * mu * w - 1.0).abs();
@@ -185,5 +196,34 @@ impl Trap {
     /// The upper end, α*_n + Δ_n, rounded to `f64`.
     pub fn right(&self) -> f64 {
         self.fixed_point.value() + self.delta
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where the slope of the two sides vanishes, no offset is certainly in the trap. Just beside it the lemma's bound
+    /// applies, and it is smaller than the offset.
+    #[test]
+    fn an_edge_without_a_slope_contains_nothing() {
+        for n in [0, 1, 2, 7, 100] {
+            let hump = Hump::new(n).unwrap();
+            let t = 0.5;
+            let (delta, level) = (hump.delta(t), 0.25 / hump.w(t)); // 4μW = 1
+            for part in [0.0, 9e-13, -9e-13] {
+                let error = crossing_error(&hump, level * (1.0 + part), t);
+                assert_eq!(error, delta, "{n} {part}");
+                let (fixed_point, edge) = (hump.star, TrapEdge::Crossing);
+                let trap = Trap { n, fixed_point, delta, error, edge };
+                for inside in [0.001, 0.5, 0.999] {
+                    assert_eq!(trap.side_of_offset(inside * delta, 0.0), TrapSide::Unclear);
+                }
+            }
+            for part in [1.1e-12, -1.1e-12] {
+                let error = crossing_error(&hump, level * (1.0 + part), t);
+                assert!(error > 1e-3 * delta && error < 0.1 * delta, "{n} {part}");
+            }
+        }
     }
 }

@@ -45,8 +45,22 @@ macro_rules! names {
 const NAMES: [[&str; QUANTITIES]; SOLVERS.len()] =
     [names!("kernel"), names!("general solver"), names!("106 bits"), names!("256 bits")];
 
-/// Where the bounds are derived.
-const STATEMENT: &str = "section 13";
+/// Where the bounds of docs/theory.md are derived, for a way whose landings have the bound of `landing`.
+const fn statements(landing: &'static str) -> [&'static str; QUANTITIES] {
+    let test = "Lemma 64";
+    let whole = "Theorem 66";
+    // The loss of a first flight into contact has a bound of its own.
+    let loss = "Theorem 66, Lemma 62";
+    [landing, landing, loss, test, whole, whole, whole, "Lemma 61", "Lemma 61"]
+}
+
+/// The statements by the place of each way in [`SOLVERS`]: the rounding of a landing, and its propagation.
+const STATEMENTS: [[&str; QUANTITIES]; SOLVERS.len()] = [
+    statements("Lemma 61"),
+    statements("Theorem 60, Lemma 58"),
+    statements("Theorem 60, Lemma 63"),
+    statements("Theorem 60, Lemma 63"),
+];
 
 /// One hop in so many is compared with 256 bits, and 106 bits with them.
 const EVERY_256: u64 = 100;
@@ -166,7 +180,8 @@ impl Total {
                 for (place, class) in CLASSES.iter().enumerate() {
                     let at = (place * SOLVERS.len() + way) * QUANTITIES + quantity;
                     let Some(tally) = &self.tallies[at] else { continue };
-                    measured.push(tally.measured(name, STATEMENT, class.name, |index| {
+                    let statement = STATEMENTS[way][quantity];
+                    measured.push(tally.measured(name, statement, class.name, |index| {
                         let (m, alpha) = class.start(seed, index);
                         format!("M = {m:?}, α = {alpha:?}")
                     }));

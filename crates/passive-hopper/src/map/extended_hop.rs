@@ -11,7 +11,7 @@ use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::landing::flight_ends::{Landing, TakeOff, is_sudden};
 use crate::landing::local_flight::NearFixedPoint;
 use crate::landing::next_landing::{maximum_test, next_root};
-use crate::map::limits::SUDDEN_LIFT_OFF_BUDGET;
+use crate::map::limits::{SHORT_FLIGHT, SUDDEN_LIFT_OFF_BUDGET};
 use crate::model::fixed_points::{alpha_star, fixed_point_in, n_pi};
 use crate::model::mass_ratio::MassRatio;
 use crate::precision::double_double::DoubleDouble;
@@ -215,8 +215,8 @@ pub(crate) fn watched_hop_with<R: Extended>(
     });
     let speed = alpha.nearest();
     // The bound is absolute. At an offset from a fixed point the time of the first flight and the state after it have
-    // small relative errors instead (`NearFixedPoint`), and a short second flight keeps them. There the propagated
-    // error is neglected; an offset far below the spacing of the arithmetic would otherwise never be precise.
+    // small relative errors instead, and a short second flight keeps them (docs/theory.md, Lemma 73 and Theorem 74, to
+    // first order in the rounding; Section 12). There the propagated error is neglected; an offset far below the spacing of the arithmetic would otherwise never be precise.
     let relative = matches!(start, Start::Offset { .. })
         && match hop.landings.as_slice() {
             [_] => true,
@@ -237,11 +237,6 @@ pub(crate) fn watched_hop_with<R: Extended>(
         landings: hop.landings,
     }))
 }
-
-/// Longest second flight, τ, after a first flight from an offset, for which the propagated error is neglected. Near α*_n
-/// that flight lasts 3|t| (docs/theory.md, Theorem 36). Chosen: a larger value would neglect errors of flights that are
-/// not short; a smaller one sends more local hops to the longer arithmetic.
-const SHORT_FLIGHT: f64 = 1.0;
 
 /// All flights of a hop.
 struct Chain<R> {

@@ -92,6 +92,11 @@ impl ExtendedOrbit {
         self.0.error()
     }
 
+    /// The speed minus `other`, rounded to `f64`. With `other` next to the speed this shows its further digits.
+    pub fn minus(&self, other: f64) -> f64 {
+        self.0.minus(other)
+    }
+
     /// The speed minus α*_n, and a bound on the error of this difference.
     pub fn offset_from(&self, n: u64) -> (f64, f64) {
         self.0.offset_from(n)
@@ -103,6 +108,7 @@ trait Orbit: Debug + Send {
     fn hop(&mut self) -> Result<ExtendedStep, Error>;
     fn speed(&self) -> f64;
     fn error(&self) -> f64;
+    fn minus(&self, other: f64) -> f64;
     fn offset_from(&self, n: u64) -> (f64, f64);
 }
 
@@ -121,7 +127,10 @@ impl<R: Extended> OrbitIn<R> {
     }
 }
 
-/// Distance of a speed from nπ, relative to the speed, within which 100 bits of nπ do not decide its side.
+/// Distance of a speed from nπ, relative to the speed, within which its side counts as undecided.
+///
+/// The stored nπ errs by at most 2⁻¹⁰⁵ = 2.5·10⁻³² of itself (docs/theory.md, Lemma 65). 10⁻²⁹ is 400 times as much. All
+/// arithmetics use the same nπ. A larger value leaves more orbits undecided, those that come so near to an nπ.
 const BITS_OF_N_PI: f64 = 1e-29;
 
 impl<R: Extended + Send> Orbit for OrbitIn<R> {
@@ -161,6 +170,10 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
 
     fn error(&self) -> f64 {
         self.error
+    }
+
+    fn minus(&self, other: f64) -> f64 {
+        (self.speed - R::from(other)).nearest()
     }
 
     fn offset_from(&self, n: u64) -> (f64, f64) {

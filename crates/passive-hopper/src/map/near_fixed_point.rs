@@ -10,7 +10,7 @@ use crate::landing::local_flight::NearFixedPoint;
 use crate::landing::next_landing::next_landing;
 use crate::map::extended_hop::{Start, extended_hop};
 use crate::map::lift_off_map::LiftOffMap;
-use crate::map::limits::LARGEST_PLAIN_SPEED;
+use crate::map::limits::{LARGEST_PLAIN_SPEED, SHORT_FLIGHT};
 use crate::model::fixed_points::{alpha_star, exact_alpha_star, n_pi};
 use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 
@@ -24,11 +24,6 @@ const SMALL_LOSS: f64 = 1.0 / 16.0;
 /// Smallest |δ| other than 0. Here t³ ∝ δ, the smallest term of δ(t), is 10⁸ times the smallest normal number, so that no
 /// factor of the local functions underflows (docs/theory.md, Lemma 73). Further down the terms would lose digits.
 const SMALLEST_OFFSET: f64 = 1e-300;
-
-/// A second flight that is shorter than this is not followed by a sudden lift-off, whatever the rounding of its landing
-/// (docs/theory.md, Lemma 75). The lemma needs τ < α*_1 = 4.49. The error of δ′ is derived for flights shorter than 1
-/// (Theorem 74); the landings of longer ones are decided with their error bound.
-const SHORT_FLIGHT: f64 = 1.0;
 
 /// A hop near a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq)]

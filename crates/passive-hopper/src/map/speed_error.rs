@@ -8,7 +8,7 @@
 //!   |F(ξ) − F(α)| ≤ |∂F/∂α| g + g² + second order          |ξ − α| ≤ g
 //! ```
 //!
-//! docs/theory.md, Section 15, states what is proved of this bound.
+//! docs/theory.md, Lemma 78: the first order is proved, the second is an estimate.
 
 use crate::kernel::scalar::hop::MassFactors;
 use crate::landing::flight_derivative::{FlightDerivative, Variation};
@@ -22,6 +22,13 @@ const SECOND_ORDER: f64 = 8.0;
 
 /// Largest q. Beyond it the expansion is not used, and the orbit is followed in longer arithmetic.
 const LARGEST_CHANGE: f64 = 1.0 / 64.0;
+
+/// Rounding error of the slope, in ulps of the sizes of its terms, for each flight. The coefficients of a flight's derivative
+/// err by less than 32 ulps (docs/theory.md, Theorem 60); 64 leaves room for the sums. It is an estimate as well. It does
+/// not contain the error of the phase in the sines, 4ετ. In `f64` the second order is larger than that, because the error of
+/// the speed is at least its rounding. In longer arithmetic it is neglected; it matters only if the slope cancels to a part
+/// 4ετ of its terms. A larger value makes no visible difference: this term is 10⁻¹⁴ of the bound, unless the slope cancels.
+const SLOPE_ULPS: f64 = 64.0;
 
 /// Bound on |F(ξ) − F(α)| for |ξ − α| ≤ `error`, to second order, from the `landings` of the hop from `alpha`. `None` if
 /// the error is too large for the expansion.
@@ -65,7 +72,6 @@ pub(crate) fn change_of_square(
     let flights = landings.len() as f64;
     let second_order = SECOND_ORDER * flights * change * sizes + error * bend;
     let bound = error * (slope + error + 2.0 * mu * second_order);
-    // The slope is computed in `f64`, to some ulps of its terms.
-    let rounding = 64.0 * flights * f64::EPSILON * error * (alpha + mu * sizes);
+    let rounding = SLOPE_ULPS * flights * f64::EPSILON * error * (alpha + mu * sizes);
     (bound + rounding).is_finite().then_some(bound + rounding)
 }

@@ -170,7 +170,10 @@ const fn doublings(words: usize) -> u32 {
 }
 
 impl<const W: usize> From<f64> for Long<W> {
-    /// Exact for finite numbers. Other values give zero; no caller passes them.
+    /// Exact for finite numbers. There is no infinity and no NaN in this format: both give zero.
+    ///
+    /// Speeds, mass ratios and the `f64` roots that start a search are finite. Only the reciprocal of zero passes an
+    /// infinity; the quotient is then zero.
     fn from(value: f64) -> Self {
         if value == 0.0 || !value.is_finite() {
             return Self::ZERO;
