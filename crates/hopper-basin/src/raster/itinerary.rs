@@ -120,7 +120,8 @@ mod tests {
             for part in [0.1, 0.5, 0.9] {
                 let (between, orbit) = follow(a + part * (b - a));
                 assert!(between.agrees_with(&first) || between.laps == NO_LAPS, "{a} {b}");
-                assert_eq!(orbit.len(), from.len());
+                // An orbit whose error grows too large is followed no further.
+                assert!(orbit.len() == from.len() || between.laps == NO_LAPS, "{a} {b}");
                 for ((low, high), at) in from.iter().zip(&to).zip(orbit) {
                     let error = low.1.max(high.1) + at.1;
                     let (low, high) = (low.0.min(high.0), low.0.max(high.0));

@@ -35,10 +35,10 @@ impl HopWithin {
     pub(crate) fn from_kernel(BoundedNext { speed, error }: BoundedNext) -> Option<Self> {
         if speed > 0.0 {
             Some(HopWithin::Next { speed, error })
-        } else if speed == BoundedNext::GROUNDED {
-            Some(HopWithin::Grounded)
+        } else if speed <= BoundedNext::INCONCLUSIVE {
+            Some(HopWithin::Inconclusive)
         } else {
-            (speed == BoundedNext::INCONCLUSIVE).then_some(HopWithin::Inconclusive)
+            (speed <= BoundedNext::GROUNDED).then_some(HopWithin::Grounded)
         }
     }
 }
