@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{HopWithin, LiftOffMap, MassRatio, alpha_star};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -68,6 +68,26 @@ fn speed() -> impl Strategy<Value = Option<f64>> {
     ]
 }
 
+/// `hops_within` has the bits of `hop_within`, with the errors assigned to the speeds cyclically.
+fn check_hops_within(ratios: &[f64], speeds: &[Option<f64>], errors: &[f64]) {
+    let maps: Vec<_> =
+        ratios.iter().map(|&m| LiftOffMap::new(MassRatio::new(m).unwrap())).collect();
+    let entry = |speed: &Option<f64>, &error: &f64| match *speed {
+        Some(speed) => HopWithin::Next { speed, error },
+        None => HopWithin::Grounded,
+    };
+    let hops: Vec<_> = speeds.iter().zip(errors.iter().cycle()).map(|(s, e)| entry(s, e)).collect();
+    let mut found: Vec<_> = maps.iter().cycle().zip(hops.iter().copied()).collect();
+    LiftOffMap::hops_within(&mut found);
+    for ((map, found), hop) in found.iter().zip(&hops) {
+        let expected = match *hop {
+            HopWithin::Next { speed, error } => map.hop_within(speed, error),
+            other => other,
+        };
+        assert_eq!(*found, expected, "M = {}, {hop:?}", map.mass_ratio().value());
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
@@ -85,6 +105,17 @@ proptest! {
         speeds in proptest::collection::vec(speed(), 0..700),
     ) {
         check_images_of_pairs(&exponents.into_iter().map(|e| 10f64.powf(e)).collect::<Vec<_>>(), &speeds);
+    }
+
+    #[test]
+    fn hops_within_are_the_single_hops(
+        exponents in proptest::collection::vec(-4.0..2.5f64, 1..9),
+        speeds in proptest::collection::vec(speed(), 0..700),
+        errors in proptest::collection::vec(
+            prop_oneof![Just(0.0), (-16.0..-5.0f64).prop_map(|e| 10f64.powf(e))], 1..9),
+    ) {
+        let ratios: Vec<_> = exponents.into_iter().map(|e| 10f64.powf(e)).collect();
+        check_hops_within(&ratios, &speeds, &errors);
     }
 }
 

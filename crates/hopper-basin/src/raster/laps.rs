@@ -24,17 +24,6 @@ struct LapsOfHump {
     falling: (f64, f64),
     /// The end of the last lap. From here to α*_{n+1} there is no proof.
     end: f64,
-    /// Bounds on the relative slope |α′ (dα′/dα)/α| on the three laps.
-    slopes: [f64; 3],
-}
-
-/// A lap at one mass ratio.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Lap {
-    /// The number of the lap, different for all laps and less than 2^[`ID_BITS`].
-    pub(crate) id: u8,
-    /// A bound on the relative slope |α′ (dα′/dα)/α| on the lap.
-    pub(crate) slope: f64,
 }
 
 /// The laps at one mass ratio.
@@ -76,23 +65,24 @@ impl Laps {
         Ok(Some(Laps { humps: humps.collect::<Result<_, Error>>()? }))
     }
 
-    /// The lap that contains all speeds within `error` of `alpha`; `None` if the interval of these speeds reaches an
+    /// The number of the lap that contains all speeds within `error` of `alpha`, different for all laps and less than
+    /// 2^[`ID_BITS`]; `None` if the interval of these speeds reaches an
     /// end of a lap, or lies outside all laps.
     #[inline]
-    pub(crate) fn lap(&self, alpha: f64, error: f64) -> Option<Lap> {
+    pub(crate) fn lap(&self, alpha: f64, error: f64) -> Option<u8> {
         let distance = error + DISTANCE_FROM_ENDS * alpha;
         // As in the index of traps: α*_n ∈ (nπ, (n+1)π), so that ⌊α/π⌋ is the index of the largest α*_n ≤ α, or one
         // more. If the hump ⌊α/π⌋ has no entry, the code also treats ⌊α/π⌋ as one more.
         let floor = (alpha * FRAC_1_PI) as usize;
         let above = self.humps.get(floor).is_none_or(|hump| alpha < hump.star);
         let n = floor - usize::from(above).min(floor);
-        let LapsOfHump { star, falling: (maximum, minimum), end, slopes } = *self.humps.get(n)?;
+        let LapsOfHump { star, falling: (maximum, minimum), end } = *self.humps.get(n)?;
         let which = usize::from(alpha > maximum) + usize::from(alpha > minimum);
         let inside = (alpha - star > distance)
             & ((alpha - maximum).abs() > distance)
             & ((alpha - minimum).abs() > distance)
             & (end - alpha > distance);
-        inside.then_some(Lap { id: (3 * n + which) as u8, slope: slopes[which] })
+        inside.then_some((3 * n + which) as u8)
     }
 }
 
@@ -105,17 +95,10 @@ impl LapsOfHump {
         let contact_end = (n + 1) as f64 * PI;
         let end = window.map_or(contact_end, |window| window.part.right);
         let falling = hump.falling(mu)?;
-        // On the hump α′ (dα′/dα)/α = 1 − 4μW with 0 ≤ W ≤ max W: at most 1 where it is positive, and at most
-        // 4μ max W − 1 in size where it is negative.
-        let hump_slope = (4.0 * mu * hump.largest_w() - 1.0).max(1.0);
-        // The last lap includes the window. The bounds of windows exceed 1, so that they hold on the hump as well.
-        let last_slope = window.map_or(1.0, |window| window.steepest);
-        let first_slope = if falling.is_some() { hump_slope } else { last_slope };
         Ok(LapsOfHump {
             star: hump.star.value(),
             falling: falling.unwrap_or((f64::INFINITY, f64::INFINITY)),
             end,
-            slopes: [first_slope, hump_slope, last_slope],
         })
     }
 }

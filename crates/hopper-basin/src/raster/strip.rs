@@ -18,7 +18,7 @@ use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
-use passive_hopper::{LiftOffMap, alpha_star, index_below};
+use passive_hopper::{HopWithin, LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
 
 /// At first every 16th speed is followed.
@@ -56,10 +56,10 @@ struct Orbits<'a> {
     all: Vec<Followed>,
     /// The orbits that have not ended, as indices of `all`.
     index: Vec<u32>,
-    /// The maps and current speeds of these orbits.
-    hops: Vec<(&'a LiftOffMap, Option<f64>)>,
-    /// The speeds of these orbits before the last hop; NaN for orbits that have not hopped.
-    before: Vec<f64>,
+    /// The maps and current speeds of these orbits, with bounds on their errors.
+    hops: Vec<(&'a LiftOffMap, HopWithin)>,
+    /// The speeds of these orbits before the last hop, with their errors; NaN for orbits that have not hopped.
+    before: Vec<(f64, f64)>,
     /// The number of hops of the oldest orbit.
     count: usize,
     /// For each of these orbits, the interval of known fate that contains its speed; used by `retire` only.
@@ -164,7 +164,7 @@ impl Strip<'_> {
         if !with_laps || self.columns[column].laps.is_none() {
             // No two itineraries would agree. Each orbit is followed alone.
             for at in hump.start.max(self.lower)..hump.end {
-                self.label_alone(column, at);
+                self.start(column, at as u32, (at as u32, at as u32));
             }
             return;
         }
@@ -184,9 +184,9 @@ impl Strip<'_> {
         let map = self.columns[column].fates.map();
         let orbits = &mut self.orbits;
         orbits.index.push(orbits.all.len() as u32);
-        orbits.hops.push((map, Some(self.speeds[at as usize])));
+        orbits.hops.push((map, HopWithin::Next { speed: self.speeds[at as usize], error: 0.0 }));
         // NaN equals no speed, so that an orbit that has not hopped does not seem to repeat its speed.
-        orbits.before.push(f64::NAN);
+        orbits.before.push((f64::NAN, f64::NAN));
         let (column, itinerary) = (column as u32, Itinerary::START);
         orbits.all.push(Followed { column, at, left, right, itinerary });
     }
@@ -195,14 +195,13 @@ impl Strip<'_> {
     fn hop(&mut self) {
         let Orbits { all, index, hops, before, .. } = &mut self.orbits;
         before.clear();
-        before.extend(hops.iter().map(|hop| hop.1.unwrap_or(f64::NAN)));
-        // An orbit whose hop has an error keeps its speed. `ends` sees that the speed is repeated, and classifies the
-        // orbit alone, which gives the error or the reason.
-        let _ = LiftOffMap::images_of_pairs(hops);
-        for ((&at, hop), &alpha) in index.iter().zip(hops.iter()).zip(before.iter()) {
+        before.extend(hops.iter().map(|hop| speed_and_error(&hop.1)));
+        LiftOffMap::hops_within(hops);
+        for (&at, &alpha) in index.iter().zip(before.iter()) {
             let Followed { column, itinerary, .. } = &mut all[at as usize];
-            if let Some(laps) = &self.columns[*column as usize].laps {
-                itinerary.hop(alpha, hop.1, laps, hop.0);
+            match &self.columns[*column as usize].laps {
+                Some(laps) => itinerary.hop(alpha, laps),
+                None => itinerary.give_up(),
             }
         }
         self.orbits.count += 1;
@@ -216,16 +215,16 @@ impl Strip<'_> {
         found.clear();
         let orbits = index[first..].iter().zip(&hops[first..]).zip(&before[first..]);
         found.extend(orbits.map(|((&at, hop), before)| {
-            let alpha = hop.1.unwrap_or(f64::NAN);
+            let (alpha, _) = speed_and_error(&hop.1);
             let found = self.intervals.find(all[at as usize].column as usize, alpha);
-            // An orbit that repeats its speed, or whose hop had an error, is left to `ends`.
-            if alpha == *before { NO_INTERVAL } else { found }
+            // An orbit that repeats its speed is left to `ends`.
+            if alpha == before.0 { NO_INTERVAL } else { found }
         }));
         let mut kept = first;
         for from in first..self.orbits.index.len() {
             let at = self.orbits.index[from];
             let hop = self.orbits.hops[from];
-            if self.ends(at, (self.orbits.before[from], hop.1), self.orbits.found[from - first]) {
+            if self.ends(at, (self.orbits.before[from].0, hop.1), self.orbits.found[from - first]) {
                 self.orbits.ended.push(at);
             } else {
                 // LISTS: `before` is not compacted, only shortened. Until the next hop fills it again, only the entries
@@ -241,35 +240,44 @@ impl Strip<'_> {
 
     /// Whether an orbit has ended; if so, labels it and completes its itinerary.
     #[inline]
-    fn ends(&mut self, at: u32, (before, speed): (f64, Option<f64>), found: u32) -> bool {
-        if found != NO_INTERVAL {
-            let known = self.intervals.get(found);
-            self.end_in(at, speed.unwrap_or(f64::NAN), known);
-            return true;
-        }
-        let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
-        let column = &mut self.columns[*column as usize];
-        if !itinerary.is_certain() {
-            self.end_alone(at);
-            return true;
-        }
-        let Some(alpha) = speed else {
-            column.labels[*start as usize] = HopperFate::GROUNDED;
-            return true;
+    fn ends(&mut self, at: u32, (before, hop): (f64, HopWithin), found: u32) -> bool {
+        let (alpha, error) = match hop {
+            HopWithin::Next { speed, error } => (speed, error),
+            HopWithin::Grounded => {
+                let Followed { column, at: start, itinerary, .. } =
+                    &mut self.orbits.all[at as usize];
+                itinerary.end_on_ground();
+                self.columns[*column as usize].labels[*start as usize] = HopperFate::GROUNDED;
+                return true;
+            }
+            HopWithin::Inconclusive => {
+                self.end_alone(at);
+                return true;
+            }
         };
-        if alpha != before && alpha > 0.0 && self.orbits.count <= HOP_BUDGET {
+        if found != NO_INTERVAL {
+            let (known, ends) = self.intervals.get(found);
+            if is_inside(alpha, error, ends) {
+                self.end_in(at, &known);
+                return true;
+            }
+        }
+        let column = &self.columns[self.orbits.all[at as usize].column as usize];
+        if alpha != before && self.orbits.count <= HOP_BUDGET {
             // The table of intervals misses parts of traps.
             match column.trap(alpha) {
                 None => return false,
-                Some(trap) if u64::from(trap.0.label) != HopperFate::LARGEST_LABEL => {
-                    self.end_in(at, alpha, trap);
+                Some((known, ends)) if is_inside(alpha, error, ends) => {
+                    self.end_in(at, &known);
                     return true;
                 }
-                // All indices from 65 000 up share this label in the generic traps, but not in `HopperFate`.
+                // The end of the trap lies within the error: the next speeds decide.
+                Some((_, ends)) if ends.0 <= ends.1 => return false,
+                // A trap that is not in the index.
                 Some(_) => {}
             }
         }
-        // The orbit repeats its speed, has no valid speed, or has used up its budget of hops.
+        // The orbit repeats its speed or has used up its budget of hops.
         self.end_alone(at);
         true
     }
@@ -293,16 +301,12 @@ impl Strip<'_> {
         self.label_alone(column, start);
     }
 
-    /// Ends an orbit that has reached `alpha` in an interval of known fate.
+    /// Ends an orbit that has reached an interval of known fate.
     #[inline]
-    fn end_in(&mut self, at: u32, alpha: f64, (known, ends): (KnownFate, (f64, f64))) {
+    fn end_in(&mut self, at: u32, known: &KnownFate) {
         let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
-        itinerary.end_in(alpha, &known.itinerary, ends);
-        if itinerary.is_certain() {
-            self.columns[*column as usize].labels[*start as usize] = known.label;
-        } else {
-            self.end_alone(at);
-        }
+        itinerary.end_in(&known.itinerary);
+        self.columns[*column as usize].labels[*start as usize] = known.label;
     }
 
     /// Closes or halves the gaps beside all orbits that have ended, and repeats this as long as newly started orbits
@@ -331,4 +335,23 @@ impl Strip<'_> {
             self.retire(first);
         }
     }
+}
+
+/// The current speed of an orbit and its error; NaN if the orbit has ended.
+#[inline]
+fn speed_and_error(hop: &HopWithin) -> (f64, f64) {
+    match *hop {
+        HopWithin::Next { speed, error } => (speed, error),
+        _ => (f64::NAN, f64::NAN),
+    }
+}
+
+/// KNOWN: whether all speeds within `error` of `alpha` lie in the interval.
+#[inline]
+fn is_inside(alpha: f64, error: f64, (left, right): (f64, f64)) -> bool {
+    /// More than the rounding of the differences.
+    const ROUND_UP: f64 = 1.0 + 4.0 * f64::EPSILON;
+    // A speed without an error may be an end. The differences are then not negative exactly inside.
+    let error = ROUND_UP * error;
+    (alpha - left >= error) & (right - alpha >= error)
 }

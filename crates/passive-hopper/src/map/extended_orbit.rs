@@ -4,10 +4,10 @@
 //! the error of its start, which the hop propagates by its slope (`speed_error.rs`).
 
 use crate::error::Error;
+use crate::kernel::scalar::bounded_next::ROUND_UP;
 use crate::kernel::scalar::hop::MassFactors;
 use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::map::extended_hop::{ExtendedMasses, StartIn};
-use crate::map::hop_within::ROUND_UP;
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::speed_error::change_of_square;
 use crate::model::fixed_points::{fixed_point_in, n_pi};
@@ -157,7 +157,7 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
             return Ok(ExtendedStep::Grounded);
         }
         let next = hop.next_speed_squared.sqrt();
-        // As in `HopWithin::from_square`.
+        // As in `BoundedSquare::next`.
         let least = (square - error).max(0.0).sqrt();
         self.error = ROUND_UP * (error / (next.nearest() + least)) + R::EPSILON * next.nearest();
         self.speed = next;

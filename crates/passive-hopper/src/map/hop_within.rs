@@ -3,7 +3,8 @@
 //! The kernel's bound is tried first. It adds absolute values, and costs little more than the hop. The bound of
 //! `speed_error.rs` has the signs of the true derivative, and costs several hops.
 
-use crate::kernel::scalar::hop::{BoundedSquare, kernel_hop_within};
+use crate::kernel::scalar::bounded_next::{BoundedNext, BoundedSquare};
+use crate::kernel::scalar::hop_from_interval::kernel_hop_within;
 use crate::landing::error_bound::ErrorBound;
 use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
@@ -29,23 +30,18 @@ pub enum HopWithin {
 }
 
 impl HopWithin {
-    /// From α′² and the bound on its error.
-    pub(crate) fn from_square(square: f64, error: f64) -> Self {
-        if !(square.abs() > error) {
-            return HopWithin::Inconclusive;
+    /// From the kernel's α′; `None` if the kernel has none.
+    #[inline(always)]
+    pub(crate) fn from_kernel(BoundedNext { speed, error }: BoundedNext) -> Option<Self> {
+        if speed > 0.0 {
+            Some(HopWithin::Next { speed, error })
+        } else if speed <= BoundedNext::INCONCLUSIVE {
+            Some(HopWithin::Inconclusive)
+        } else {
+            (speed <= BoundedNext::GROUNDED).then_some(HopWithin::Grounded)
         }
-        if square < 0.0 {
-            return HopWithin::Grounded;
-        }
-        // |α̂′ − α′| = |F̂ − F|/(α̂′ + α′), with α′ ≥ √(F̂ − error), and an ulp for the root.
-        let speed = square.sqrt();
-        let least = (square - error).sqrt();
-        HopWithin::Next { speed, error: error / (speed + least) * ROUND_UP + f64::EPSILON * speed }
     }
 }
-
-/// More than the roundings of the quotient above.
-pub(crate) const ROUND_UP: f64 = 1.0 + 8.0 * f64::EPSILON;
 
 impl LiftOffMap {
     /// The hop of all speeds within `error` of `alpha`, in `f64`. With `error` = 0 it is the hop of `alpha` alone.
@@ -61,18 +57,17 @@ impl LiftOffMap {
     ///
     /// A wrong speed gives [`HopWithin::Inconclusive`].
     pub fn hop_within(&self, alpha: f64, error: f64) -> HopWithin {
-        match kernel_hop_within(alpha, error, self.factors) {
-            Some(BoundedSquare { square, error }) => HopWithin::from_square(square, error),
-            None => self.signed_hop_within(alpha, error),
-        }
+        kernel_hop_within(alpha, error, self.factors)
+            .and_then(|found| HopWithin::from_kernel(found.next()))
+            .unwrap_or_else(|| self.signed_hop_within(alpha, error))
     }
 
     /// As [`hop_within`](Self::hop_within), with the signs of the derivative: the error hardly grows where the map's slope
     /// is near 1. It takes some microseconds.
     pub fn signed_hop_within(&self, alpha: f64, error: f64) -> HopWithin {
-        self.signed_square_within(alpha, error).map_or(HopWithin::Inconclusive, |found| {
-            HopWithin::from_square(found.square, found.error)
-        })
+        self.signed_square_within(alpha, error)
+            .and_then(|found| HopWithin::from_kernel(found.next()))
+            .unwrap_or(HopWithin::Inconclusive)
     }
 
     fn signed_square_within(&self, alpha: f64, error: f64) -> Option<BoundedSquare> {

@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::kernel::batch::hop_block::HopBlock;
 use crate::kernel::batch::rows::BLOCK;
 use crate::kernel::scalar::hop::kernel_hop;
+use crate::map::hop_within::HopWithin;
 use crate::map::lift_off_map::LiftOffMap;
 
 /// Fewer hops than this are computed one by one.
@@ -53,6 +54,44 @@ impl LiftOffMap {
     /// As for [`images`](Self::images).
     pub fn images_of_pairs(hops: &mut [(&LiftOffMap, Option<f64>)]) -> Result<(), Error> {
         images(hops, |hop| *hop.0, |hop| hop.1, |hop| &mut hop.1)
+    }
+
+    /// Replaces each `Next` by its hop under the map beside it, with the bits of [`hop_within`](Self::hop_within). All other
+    /// entries stay as they are.
+    ///
+    /// ```
+    /// use passive_hopper::{HopWithin, LiftOffMap, MassRatio};
+    /// let map = LiftOffMap::new(MassRatio::new(0.2)?);
+    /// let start = HopWithin::Next { speed: 5.5, error: 1e-12 };
+    /// let mut hops = [(&map, start), (&map, HopWithin::Grounded)];
+    /// LiftOffMap::hops_within(&mut hops);
+    /// assert_eq!(hops.map(|hop| hop.1), [map.hop_within(5.5, 1e-12), HopWithin::Grounded]);
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    pub fn hops_within(hops: &mut [(&LiftOffMap, HopWithin)]) {
+        if hops.len() < FEW {
+            for (map, hop) in hops {
+                if let HopWithin::Next { speed, error } = *hop {
+                    *hop = map.hop_within(speed, error);
+                }
+            }
+            return;
+        }
+        HopBlock::of_this_thread(|block| {
+            for entries in hops.chunks_mut(BLOCK) {
+                // An entry without a speed enters the block with 0, as in `images`.
+                let from = |&(map, hop): &(&LiftOffMap, HopWithin)| match hop {
+                    HopWithin::Next { speed, error } => (speed, error, map.factors),
+                    _ => (0.0, 0.0, map.factors),
+                };
+                block.hop_within(entries, from, |(map, hop), found| {
+                    if let HopWithin::Next { speed, error } = *hop {
+                        *hop = HopWithin::from_kernel(found)
+                            .unwrap_or_else(|| map.signed_hop_within(speed, error));
+                    }
+                });
+            }
+        });
     }
 }
 

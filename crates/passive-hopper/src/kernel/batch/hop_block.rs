@@ -14,9 +14,14 @@ use crate::kernel::batch::hop_rows::HopRows;
 use crate::kernel::batch::later_flights::{FlightEnds, FlightList};
 use crate::kernel::batch::rows::BLOCK;
 use crate::kernel::batch::simd;
+use crate::kernel::scalar::bounded_next::BoundedNext;
 use crate::kernel::scalar::hop::MassFactors;
+use crate::kernel::scalar::hop_from_interval::error_in_range;
 use crate::landing::first_flight_table::{FirstFlightTable, TABLES, TablePosition, fixed_points};
 use std::cell::Cell;
+
+/// The loop over the first flights, with or without the errors of the speeds.
+type FirstFlights = fn(&mut HopRows, &[&FirstFlightTable; TABLES], &mut FlightList, usize);
 
 /// The arrays of a block.
 pub(crate) struct HopBlock {
@@ -59,21 +64,52 @@ impl HopBlock {
             let (alpha, MassFactors { mu, kappa }) = from(entry);
             (self.hops.alpha[at], self.hops.mu[at], self.hops.kappa[at]) = (alpha, mu, kappa);
         }
-        simd::find_positions(&mut self.hops, fixed_points(), count);
-        self.first_flights(count);
-        let mut current = 0;
-        while !self.lists[current].is_empty() {
-            self.later_flights(current);
-            current = 1 - current;
-        }
+        self.flights(count, simd::first_flights);
         simd::end_hops(&mut self.hops, count);
         for (entry, &next) in entries.iter_mut().zip(&self.hops.next) {
             to(entry, next);
         }
     }
 
+    /// As [`hop`](Self::hop), for all speeds within an error of a speed. `from` gives the speed, the error and the mass
+    /// factors; an error that is too large gives [`BoundedNext::NONE`].
+    #[inline]
+    pub(crate) fn hop_within<H>(
+        &mut self,
+        entries: &mut [H],
+        from: impl Fn(&H) -> (f64, f64, MassFactors),
+        mut to: impl FnMut(&mut H, BoundedNext),
+    ) {
+        let (count, fixed_points) = (entries.len().min(BLOCK), fixed_points());
+        for (at, entry) in entries.iter().take(count).enumerate() {
+            let (alpha, error, MassFactors { mu, kappa }) = from(entry);
+            // The speed 0 has no place in the tables.
+            let in_range = error_in_range(alpha, error, fixed_points);
+            self.hops.alpha[at] = if in_range { alpha } else { 0.0 };
+            self.hops.start_error[at] = error;
+            (self.hops.mu[at], self.hops.kappa[at]) = (mu, kappa);
+        }
+        self.flights(count, simd::first_flights_within);
+        simd::end_hops_within(&mut self.hops, count);
+        let found = self.hops.next.iter().zip(&self.hops.next_error);
+        for (entry, (&speed, &error)) in entries.iter_mut().zip(found) {
+            to(entry, BoundedNext { speed, error });
+        }
+    }
+
+    /// All flights of the hops.
+    fn flights(&mut self, count: usize, first: FirstFlights) {
+        simd::find_positions(&mut self.hops, fixed_points(), count);
+        self.first_flights(count, first);
+        let mut current = 0;
+        while !self.lists[current].is_empty() {
+            self.later_flights(current);
+            current = 1 - current;
+        }
+    }
+
     /// The first flights, and the list of the second flights.
-    fn first_flights(&mut self, count: usize) {
+    fn first_flights(&mut self, count: usize, first: FirstFlights) {
         let HopBlock { hops, lists: [list, _], .. } = self;
         // Builds the missing tables before the loop: the loop has no branch for a missing table.
         let mut tables = FirstFlightTable::all();
@@ -87,7 +123,7 @@ impl HopBlock {
             }
         }
         list.clear();
-        simd::first_flights(hops, &tables, list, count);
+        first(hops, &tables, list, count);
     }
 
     /// The flights of the list `current`; the flights after them go to the other list.

@@ -3,6 +3,7 @@
 use crate::kernel::batch::later_flights::{FlightEnds, FlightList};
 use crate::kernel::batch::rows::{BLOCK, LANES, Row, ZERO};
 use crate::kernel::scalar::hop::{FlightSums, MOST_FLIGHTS, state_after_first};
+use crate::kernel::scalar::hop_from_interval::{square_error_from_start, state_error_from_start};
 use crate::kernel::scalar::later_flight::later_flight;
 use crate::landing::first_flight_table::{
     FirstFlight, FirstFlightTable, FixedPoints, Piece, TABLES, TablePosition, polynomial,
@@ -28,6 +29,12 @@ pub(crate) struct HopRows {
     closing_speed: Row,
     /// α′; negative for a grounded hopper, zero if the general solver must decide.
     pub(crate) next: Row,
+    /// Bound on the error of α; used and set by the loops with bounds only, as are the next two.
+    pub(crate) start_error: Row,
+    /// Bound on the part of the error of α′² that comes directly from the error of α.
+    direct: Row,
+    /// Bound on the error of α′.
+    pub(crate) next_error: Row,
 }
 
 impl HopRows {
@@ -44,6 +51,9 @@ impl HopRows {
         flights: ZERO,
         closing_speed: ZERO,
         next: ZERO,
+        start_error: ZERO,
+        direct: ZERO,
+        next_error: ZERO,
     };
 
     /// Adds the ends of the flights in `range` of `list` to their hops, and adds the flights after them to `next`.
@@ -115,8 +125,10 @@ fn polynomials(coefficients: [&Piece; LANES], at: &[f64; LANES]) -> [f64; LANES]
 /// groups of eight this takes 5 % less time a hop than in a plain loop over the speeds. A transposition of the
 /// coefficients by hand in AVX-512 registers would save another 4 % (the README has the measurement). The gain does not
 /// justify 60 lines of unsafe code.
+///
+/// With `WITHIN` the errors of the speeds are propagated through the first flight. α − h is then needed for all landings.
 #[inline(always)]
-pub(crate) fn first_flights(
+pub(crate) fn first_flights<const WITHIN: bool>(
     hops: &mut HopRows,
     tables: &[&FirstFlightTable; TABLES],
     list: &mut FlightList,
@@ -132,6 +144,10 @@ pub(crate) fn first_flights(
     let (is_sudden, _) = hops.sudden.as_chunks::<LANES>();
     let (squares, _) = hops.closing_speeds_squared.as_chunks_mut::<LANES>();
     let (closing_speeds, _) = hops.closing_speed.as_chunks_mut::<LANES>();
+    let (alphas, _) = hops.alpha.as_chunks::<LANES>();
+    let (mus, _) = hops.mu.as_chunks::<LANES>();
+    let (start_errors, _) = hops.start_error.as_chunks::<LANES>();
+    let (directs, _) = hops.direct.as_chunks_mut::<LANES>();
     for group in 0..count.div_ceil(LANES).min(BLOCK / LANES) {
         let mut coefficients = [tables[0].of_closing_speed(0); LANES];
         for k in 0..LANES {
@@ -143,6 +159,21 @@ pub(crate) fn first_flights(
             squares[group][k] = closing_speed[k] * closing_speed[k];
         }
         closing_speeds[group] = closing_speed;
+        if WITHIN {
+            for k in 0..LANES {
+                let table = tables[interval[group][k] as usize % TABLES];
+                coefficients[k] = table.of_beyond(piece[group][k]);
+            }
+            let beyond = polynomials(coefficients, &at[group]);
+            for k in 0..LANES {
+                let (alpha, beyond) = (alphas[group][k], beyond[k]);
+                let half_time = alpha - beyond;
+                let first = FirstFlight { half_time, beyond, closing_speed: closing_speed[k] };
+                let (error, mu) = (start_errors[group][k], mus[group][k]);
+                let sudden = is_sudden[group][k] == 1;
+                directs[group][k] = square_error_from_start(&first, alpha, error, mu, sudden);
+            }
+        }
         for (k, &is_sudden) in is_sudden[group].iter().enumerate() {
             sudden[length % BLOCK] = (group * LANES + k) as u16;
             length += is_sudden as usize;
@@ -150,13 +181,14 @@ pub(crate) fn first_flights(
     }
     for group in sudden[..length.next_multiple_of(LANES).min(BLOCK)].as_chunks::<LANES>().0 {
         let (mut alpha, mut closing_speed, mut at) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
-        let mut kappa = [0.0; LANES];
+        let (mut kappa, mut error) = ([0.0; LANES], [0.0; LANES]);
         let mut coefficients = [tables[0].of_beyond(0); LANES];
         for (k, &hop) in group.iter().enumerate() {
             let hop = usize::from(hop) % BLOCK;
             (alpha[k], closing_speed[k], at[k]) =
                 (hops.alpha[hop], hops.closing_speed[hop], hops.at[hop]);
             kappa[k] = hops.kappa[hop];
+            error[k] = hops.start_error[hop];
             coefficients[k] =
                 tables[hops.interval[hop] as usize % TABLES].of_beyond(hops.piece[hop]);
         }
@@ -164,7 +196,11 @@ pub(crate) fn first_flights(
         let states: [_; LANES] = std::array::from_fn(|k| {
             let (alpha, beyond, closing_speed) = (alpha[k], beyond[k], closing_speed[k]);
             let first = FirstFlight { half_time: alpha - beyond, beyond, closing_speed };
-            state_after_first(&first, alpha, kappa[k])
+            let mut state = state_after_first(&first, alpha, kappa[k]);
+            if WITHIN {
+                state.error += state_error_from_start(&first, alpha, error[k], kappa[k]);
+            }
+            state
         });
         for k in 0..length.min(LANES) {
             list.push(group[k], &states[k], kappa[k]);
@@ -195,5 +231,25 @@ pub(crate) fn end_hops(hops: &mut HopRows, count: usize) {
         let root = if hops_again { hop.next_speed_squared } else { 0.0 }.sqrt();
         let speed = if hops_again { root } else { -1.0 };
         next[k] = if decided { speed } else { 0.0 };
+    }
+}
+
+/// As [`end_hops`], with bounds on the errors of the next speeds.
+#[inline(always)]
+pub(crate) fn end_hops_within(hops: &mut HopRows, count: usize) {
+    let count = count.next_multiple_of(LANES).min(BLOCK); // whole vectors (I6)
+    let (alpha, mu) = (&hops.alpha[..count], &hops.mu[..count]);
+    let (squares, error) = (&hops.closing_speeds_squared[..count], &hops.error[..count]);
+    let (flights, direct) = (&hops.flights[..count], &hops.direct[..count]);
+    let (next, next_error) = (&mut hops.next[..count], &mut hops.next_error[..count]);
+    for k in 0..count {
+        let sums = FlightSums {
+            closing_speeds_squared: squares[k],
+            error: error[k],
+            half_time: 0.0, // not used in a batch
+            flights: flights[k],
+        };
+        let found = sums.within(alpha[k], mu[k], direct[k]).next();
+        (next[k], next_error[k]) = (found.speed, found.error);
     }
 }

@@ -22,7 +22,7 @@ fn has_avx512() -> bool {
 /// `$body` and all functions that it calls are `#[inline(always)]`. Otherwise they would not be compiled with these
 /// instructions.
 macro_rules! for_widest_vectors {
-    ($(#[$about:meta])* $name:ident = $body:path, ($($argument:ident: $of:ty),*)) => {
+    ($(#[$about:meta])* $name:ident = $body:expr, ($($argument:ident: $of:ty),*)) => {
         $(#[$about])*
         pub(crate) fn $name($($argument: $of),*) {
             #[cfg(target_arch = "x86_64")]
@@ -57,8 +57,18 @@ for_widest_vectors!(
 );
 for_widest_vectors!(
     /// See [`hop_rows::first_flights`].
-    first_flights = hop_rows::first_flights,
+    first_flights = hop_rows::first_flights::<false>,
     (hops: &mut HopRows, tables: &[&FirstFlightTable; TABLES], list: &mut FlightList, count: usize)
+);
+for_widest_vectors!(
+    /// See [`hop_rows::first_flights`].
+    first_flights_within = hop_rows::first_flights::<true>,
+    (hops: &mut HopRows, tables: &[&FirstFlightTable; TABLES], list: &mut FlightList, count: usize)
+);
+for_widest_vectors!(
+    /// See [`hop_rows::end_hops_within`].
+    end_hops_within = hop_rows::end_hops_within,
+    (hops: &mut HopRows, count: usize)
 );
 for_widest_vectors!(
     /// See [`later_flights::land_below_pi`].

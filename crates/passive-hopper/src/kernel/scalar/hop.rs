@@ -1,5 +1,6 @@
 //! One hop: the first flight from its table, later flights one after the other, and the decision on α′².
 
+use crate::kernel::scalar::bounded_next::BoundedSquare;
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::later_flight::{FlightEnd, later_flight};
 use crate::landing::error_bound::LANDING_ULPS;
@@ -89,6 +90,17 @@ impl FlightSums {
     }
 }
 
+impl FlightSums {
+    /// α′² with a bound on its error, for a hop whose start has an error that changes α′² by at most `direct`, apart from its
+    /// part through later flights.
+    #[inline(always)]
+    pub(crate) fn within(&self, alpha: f64, mu: f64, direct: f64) -> BoundedSquare {
+        let (hop, _) = self.end(alpha, mu);
+        let error = self.error_of_square(alpha, mu) + direct;
+        BoundedSquare { square: hop.next_speed_squared, error }
+    }
+}
+
 impl DecidedHop {
     /// α′, or `None` if the hopper is grounded.
     #[inline(always)]
@@ -99,8 +111,7 @@ impl DecidedHop {
 
 /// The state after a sudden first landing: x′ = 2h (α − h), V′ = (α − h) − h + κΓ.
 ///
-/// The table gives α − h without a difference of large numbers. Therefore x′ keeps its digits. The errors of x′ and V′ are
-/// below 12 ulps of the size (docs/theory.md, Lemma 61).
+/// The table gives α − h to an ulp of α − h. Therefore x′ keeps its digits next to α*_n, where it vanishes.
 #[inline(always)]
 pub(crate) fn state_after_first(first: &FirstFlight, alpha: f64, kappa: f64) -> GroundState {
     let FirstFlight { half_time: h, beyond, closing_speed } = *first;
@@ -151,74 +162,4 @@ pub(crate) fn watched_kernel_hop(
     }
     let (hop, decided) = sums.end(alpha, mu);
     decided.then_some(hop)
-}
-
-/// α′² and a bound on its error.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BoundedSquare {
-    /// α′², negative if the hopper is grounded.
-    pub(crate) square: f64,
-    pub(crate) error: f64,
-}
-
-/// Largest error of a speed in [`kernel_hop_within`], relative to 1 + α.
-///
-/// Tables end 10⁻⁷ π from nπ and 2⁻¹³ from α*_n: all speeds within the error of a tabled speed have the same kind of first
-/// landing. Within 2⁻²⁷ the derivatives of the first flight change by less than a thousandth, since they grow like
-/// δ^{−2/3} towards δ = 0, and 2⁻²⁷/2⁻¹³ = 6·10⁻⁵. As 1 + α ≤ 102, the error is at most 3.1·10⁻⁹, below 2⁻²⁷ = 7.5·10⁻⁹.
-const LARGEST_SPEED_ERROR: f64 = 3e-11;
-
-/// A factor for the change of the derivatives of the first flight within the error g, and for the g² of
-/// docs/theory.md, Lemma 78, part 1: (2αg + g²)/(2αg) = 1 + g/(2α), and g/(2α) < 10⁻⁶ since α ≥ 2⁻¹³ in the tables.
-const DERIVATIVE_CHANGE: f64 = 1.01;
-
-/// The hop of all speeds within `error` of `alpha`: α′² and a bound on its error; `None` if a landing is inconclusive, or
-/// if the speed or the error lies outside the kernel's range.
-///
-/// On the contact part dF/dα = 2α (1 − 4μW) with 0 ≤ W = D (h − α) ≤ (h + ½)(h − α) (docs/theory.md, Lemma 26). In a window
-/// D ≤ h, since SC ≥ 0, and with b = α − h and h′ = dh/dα = D/Γ
-///
-/// ```text
-///   dx′/dα = 2bh′ + 2h (1 − h′)      dV′/dα = 1 − 2h′ − 4κ α b h′      d(Γ²)/dα = −8αDb
-/// ```
-#[inline]
-pub(crate) fn kernel_hop_within(
-    alpha: f64,
-    error: f64,
-    MassFactors { mu, kappa }: MassFactors,
-) -> Option<BoundedSquare> {
-    if !(error <= LARGEST_SPEED_ERROR * (1.0 + alpha)) {
-        return None;
-    }
-    let position = TablePosition::of(alpha, fixed_points());
-    let first = position.first_flight(alpha)?;
-    let mut sums = FlightSums::of_first(&first);
-    let FirstFlight { half_time: h, beyond, closing_speed } = first;
-    let g = DERIVATIVE_CHANGE * error;
-    // The part of the error of α′² that comes directly from α, not through later flights.
-    let direct = if position.sudden == 1 {
-        let mut state = state_after_first(&first, alpha, kappa);
-        let rate = h / closing_speed; // at least h′
-        let excess = 2.0 * (beyond * rate + h * (1.0 + rate));
-        let velocity = 1.0 + 2.0 * rate + 4.0 * kappa * alpha * beyond * rate;
-        state.error += g * if excess > velocity { excess } else { velocity };
-        loop {
-            let end = later_flight(&state, kappa)?;
-            sums = sums.with(&end);
-            state = end.state;
-            if !(state.excess > 0.0) {
-                break;
-            }
-            if !(sums.flights < MOST_FLIGHTS) {
-                return None;
-            }
-        }
-        2.0 * alpha * (1.0 + 4.0 * mu * h * beyond)
-    } else {
-        let falling = 4.0 * mu * (h + 0.5) * -beyond - 1.0;
-        2.0 * alpha * if falling > 1.0 { falling } else { 1.0 }
-    };
-    let (hop, _) = sums.end(alpha, mu);
-    let error = sums.error_of_square(alpha, mu) + g * direct;
-    Some(BoundedSquare { square: hop.next_speed_squared, error })
 }
