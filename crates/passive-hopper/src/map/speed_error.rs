@@ -91,14 +91,17 @@ mod tests {
             (12.122_335_839_410_708, 62.834_019_476_662_8, 1.985_687_607_994_052e-5),
         ] {
             let map = LiftOffMap::new(MassRatio::new(m).unwrap());
-            let HopWithin::Next { speed, error: bound } = map.signed_hop_within(alpha, error)
-            else {
-                continue; // no bound is claimed
-            };
-            for k in -8..=8 {
-                let start = alpha + 0.999 * error * f64::from(k) / 8.0;
-                let next = map.image(start).unwrap().unwrap();
-                assert!((next - speed).abs() <= bound, "M = {m}, from {start}: {next}");
+            for (error, decided) in [(error, false), (1e-5 * error, true)] {
+                let found = map.signed_hop_within(alpha, error);
+                let HopWithin::Next { speed, error: bound } = found else {
+                    assert!(!decided, "M = {m}, α = {alpha}: {found:?}");
+                    continue; // no bound is claimed
+                };
+                for k in -8..=8 {
+                    let start = alpha + 0.999 * error * f64::from(k) / 8.0;
+                    let next = map.image(start).unwrap().unwrap();
+                    assert!((next - speed).abs() <= bound, "M = {m}, from {start}: {next}");
+                }
             }
         }
     }
