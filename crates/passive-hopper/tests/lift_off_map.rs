@@ -49,6 +49,26 @@ fn hard_decisions_are_right() {
     check_hops(include_str!("data/hops_hard_verdicts.jsonl"));
 }
 
+/// Speeds just above nπ, where x′ of a landing is as small as the rounding of V. These hops once gave 37.461 and 54.61. The
+/// values have 60 and 100 equal digits in the generator of the references.
+#[test]
+fn small_stretches_after_a_landing_do_not_change_the_branch() {
+    for (m, alpha, sudden, next) in [
+        (5.698_491_118_684_765, 53.407_075_111_026_49, 1, 26.489_000_894_171_255_258_81),
+        (3.993_312_777_579_258_3, 91.106_186_954_104, 3, 30.452_309_399_070_653_163_66),
+    ] {
+        let map = map(m);
+        let bounded = map.bounded_hop(alpha).unwrap();
+        assert_eq!(map.hop(alpha).unwrap(), bounded.hop, "M = {m}");
+        assert_eq!(map.landings(alpha).unwrap().len(), sudden + 1, "M = {m}");
+        assert_eq!(bounded.hop.sudden, sudden, "M = {m}");
+        let (found, error) = (bounded.hop.next.unwrap(), bounded.next_error.unwrap());
+        // Half an ulp for the literal.
+        assert!((found - next).abs() <= error + 0.5 * f64::EPSILON * next, "M = {m}: {found}");
+        assert!(error < 1e-6, "M = {m}: {error:e}");
+    }
+}
+
 /// Decisions for which 53 bits do not suffice: α is one rounding away from a change of branch.
 #[test]
 fn decisions_within_one_rounding_of_a_change_of_branch_are_right() {

@@ -3,6 +3,7 @@
 use crate::evidence::compared::Compared;
 use crate::evidence::solver::Solver;
 use crate::kernel::scalar::half_angle::{HalfAngle, SINE_ULPS};
+use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
 use crate::precision::real::{Extended, Real};
@@ -16,12 +17,20 @@ pub struct SineErrors {
     pub cos: Compared,
 }
 
+/// The kernel reduces arguments below 2²⁰ exactly (`HalfAngle::at`).
+const KERNEL_ARGUMENTS: f64 = 1_048_576.0;
+
+/// More than half the time of flight of the fastest hop. Far beyond, the reduction by a multiple of π, which is an `f64`,
+/// leaves a large argument, and the series of a sine has as many terms.
+const LARGEST_ARGUMENT: f64 = 2.0 * LARGEST_LIFT_OFF_SPEED;
+
 /// The errors of sin `x` and cos `x` as `solver` computes them, against `reference`.
 ///
 /// The bounds are: for the kernel 2 ulps, for 0 < x < 2²⁰; for the general solver half an ulp; for an arithmetic with
 /// relative error e its e (1 + |x|), since it subtracts a multiple of π that is right to e of its size.
 ///
-/// `None` unless `reference` is a longer arithmetic than `solver`, and for an `x` that is not finite.
+/// `None` unless `reference` is a longer arithmetic than `solver`, and for an `x` outside the domain of `solver`: 0 < x < 2²⁰
+/// for the kernel, |x| ≤ 2⁴⁴ for the other ways.
 ///
 /// ```
 /// use passive_hopper::{Solver, sine_errors};
@@ -30,7 +39,11 @@ pub struct SineErrors {
 /// assert_eq!(sine_errors(10.0, Solver::Bits256, Solver::Bits106), None);
 /// ```
 pub fn sine_errors(x: f64, solver: Solver, reference: Solver) -> Option<SineErrors> {
-    if reference <= solver || !x.is_finite() {
+    let in_domain = match solver {
+        Solver::Kernel => x > 0.0 && x < KERNEL_ARGUMENTS,
+        _ => x.abs() <= LARGEST_ARGUMENT,
+    };
+    if reference <= solver || !in_domain {
         return None;
     }
     match reference {
@@ -93,5 +106,24 @@ mod tests {
         assert!(sine_errors(3.0, Solver::General, Solver::Bits106).unwrap().sin.error > 0.0);
         assert_eq!(sine_errors(f64::NAN, Solver::General, Solver::Bits106), None);
         assert_eq!(sine_errors(1.0, Solver::Bits256, Solver::Bits256), None);
+    }
+
+    /// At 10⁵⁰ the series of the longer arithmetics would have 10³³ terms.
+    #[test]
+    fn arguments_outside_the_domain_give_nothing() {
+        let outside = [f64::NAN, f64::INFINITY, -1e300, 1e50, LARGEST_ARGUMENT.next_up()];
+        for x in outside {
+            for solver in [Solver::Kernel, Solver::General, Solver::Bits106, Solver::Bits512] {
+                assert_eq!(sine_errors(x, solver, Solver::Bits1024), None, "{x} {solver:?}");
+            }
+        }
+        for x in [0.0, -1.0, KERNEL_ARGUMENTS] {
+            assert_eq!(sine_errors(x, Solver::Kernel, Solver::Bits256), None, "{x}");
+            assert!(sine_errors(x, Solver::General, Solver::Bits256).is_some(), "{x}");
+        }
+        for x in [LARGEST_ARGUMENT, -LARGEST_ARGUMENT] {
+            let found = sine_errors(x, Solver::General, Solver::Bits256).unwrap();
+            assert!(found.sin.ratio() <= 1.0 && found.cos.ratio() <= 1.0, "{x}");
+        }
     }
 }
