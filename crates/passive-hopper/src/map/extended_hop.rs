@@ -216,7 +216,8 @@ pub(crate) fn watched_hop_with<R: Extended>(
     let speed = alpha.nearest();
     // The bound is absolute. At an offset from a fixed point the time of the first flight and the state after it have
     // small relative errors instead, and a short second flight keeps them (docs/theory.md, Lemma 73 and Theorem 74, to
-    // first order in the rounding; Section 12). There the propagated error is neglected; an offset far below the spacing of the arithmetic would otherwise never be precise.
+    // first order in the rounding; Section 12). There the propagated error is neglected; an offset far below the spacing
+    // of the arithmetic would otherwise never be precise.
     let relative = matches!(start, Start::Offset { .. })
         && match hop.landings.as_slice() {
             [_] => true,
