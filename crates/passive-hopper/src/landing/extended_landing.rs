@@ -33,10 +33,15 @@ const RESIDUAL_ULPS: f64 = 8.0;
 /// Part by which a rounded end of the bracket, nπ or α*_n, is moved outwards: more than its rounding error of an ulp.
 const ROUNDED_END: f64 = 2.0 * f64::EPSILON;
 
-/// The ends of the interval that holds the root, in the arithmetic `R`. Where the end is V itself, V has all its bits.
+/// The ends of the interval that holds the root, in the arithmetic `R`. Where one end is V itself, V has all its bits.
+///
+/// Both ends may round to V, as for α = π in `f64`. Then both are moved outwards: V(h) increases there, too.
 fn bracket<R: Extended>(root: &HalfTimeRoot, v: R) -> (R, R) {
-    let end = |end: f64, part: f64| if end == v.nearest() { v } else { R::from(end * part) };
     let (left, right) = root.bracket;
+    let speed = v.nearest();
+    let end = |end: f64, part: f64| {
+        if end == speed && left != right { v } else { R::from(end * part) }
+    };
     (end(left, 1.0 - ROUNDED_END), end(right, 1.0 + ROUNDED_END))
 }
 
@@ -60,8 +65,9 @@ impl<R: Extended> ExtendedLanding<R> {
             }
             let slope = half.start_speed_slope(x);
             let newton = (slope.nearest() > 0.0).then(|| h - residual / slope);
-            let inside = newton
-                .filter(|&next| (next - left).nearest() > 0.0 && (right - next).nearest() > 0.0);
+            // Relative to h: the difference itself may be below the smallest `f64`.
+            let positive = |difference: R| (difference / h).nearest() > 0.0;
+            let inside = newton.filter(|&next| positive(next - left) && positive(right - next));
             settled = last;
             if last && inside.is_none() {
                 break; // the root to the last bit, or a double root, where no step is needed
