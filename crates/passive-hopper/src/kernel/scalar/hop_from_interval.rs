@@ -36,7 +36,8 @@ pub(crate) fn error_in_range(alpha: f64, error: f64, fixed_points: &FixedPoints)
     let (_, interval) = nearest_integer(alpha_over_pi - 0.5);
     let delta = alpha - fixed_points[interval as usize % TABLES];
     let (nearest, _) = nearest_integer(alpha_over_pi);
-    // nπ is 10⁻⁷π away or more, and a third of the distance (in units of 1 instead of π) leaves room for the rounding of α/π.
+    // The distance of nπ, divided by π: two thirds of the distance are left for the rounding of α/π. The table refuses speeds
+    // within 10⁻⁷π of nπ.
     let from_n_pi = (alpha_over_pi - nearest).abs();
     (error <= LARGEST_SPEED_ERROR)
         & (error <= LARGEST_PART_OF_DISTANCE * delta.abs())
