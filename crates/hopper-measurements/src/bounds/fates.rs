@@ -20,6 +20,8 @@ const MOST_HOPS: usize = 60;
 
 /// One orbit in so many is followed in 106 and in 512 bits. A hop in 512 bits takes milliseconds.
 const ONE_IN: u64 = 8;
+/// Most orbits of a class that are followed in 512 bits: some minutes for all classes.
+const MOST_EXTENDED_ORBITS: u64 = 300;
 
 /// A bound of the next speed: the kernel's, or the one with the signs of the derivative.
 type Within = fn(&LiftOffMap, f64, f64) -> HopWithin;
@@ -82,9 +84,9 @@ pub(crate) fn measure(count: u64) -> Result<Vec<Measured>, Error> {
     }
     for (class, start) in STARTS {
         let at = |k: u64| start([0, 1, 2].map(|which| part(k, which)));
-        let tally = collect(count.div_ceil(ONE_IN), |tally, k| {
-            follow_extended(at(k), |ratio| tally.add(ratio, k))
-        })?;
+        let orbits = count.div_ceil(ONE_IN).min(MOST_EXTENDED_ORBITS);
+        let tally =
+            collect(orbits, |tally, k| follow_extended(at(k), |ratio| tally.add(ratio, k)))?;
         let text = |k| format!("(M, α) = {:?}", at(k));
         measured.push(tally.measured("orbit in 106 bits", "Lemma 78", class, text));
     }

@@ -53,7 +53,7 @@ const HOPS_PER_SINE: u64 = 10;
 /// Hops for each input of a class of expansions, most of which are compared in 512 bits.
 const HOPS_PER_EXPANSION: u64 = 1000;
 /// Hops for each trap and each orbit of a class.
-const HOPS_PER_ORBIT: u64 = 100;
+const HOPS_PER_ORBIT: u64 = 1000;
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
