@@ -29,9 +29,9 @@ where
             {
                 earliest = Some((time, index));
             }
-            Some(FirstCrossing::Grazing { time, value })
-                if grazing.is_none_or(|(first, ..)| time < first) =>
-            {
+            Some(
+                FirstCrossing::Touch { time, value } | FirstCrossing::Undecided { time, value },
+            ) if grazing.is_none_or(|(first, ..)| time < first) => {
                 grazing = Some((time, value, index));
             }
             // A later crossing, a later grazing, or none.

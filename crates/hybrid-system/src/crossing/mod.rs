@@ -12,9 +12,9 @@
 //! `under_bounds` chooses between the first two. `bracketed_root` refines a change of sign, `step_past_root` moves the
 //! result to the far side of the surface, and `closest_approach` describes a grazing.
 
+mod bounded;
 mod bracketed_root;
 mod certainty;
-mod closest_approach;
 mod earliest;
 mod enclosure;
 mod enclosure_search;
@@ -28,6 +28,7 @@ mod same_instant;
 mod sampled;
 mod step_past_root;
 mod under_bounds;
+mod zero_search;
 mod zero_test;
 
 pub use bracketed_root::bracketed_root;

@@ -11,24 +11,19 @@
 //! These are statements (2) and (3) of [mathematics](crate::mathematics). Statements (4) and (5) tell how the function
 //! leaves a start at zero.
 
-use super::bracketed_root::bracketed_root;
-use super::closest_approach::closest_approach;
+use super::bounded::{Bounded, Leave};
+use super::enclosure::Enclosure;
 use super::first_crossing::FirstCrossing;
 use super::quasi_polynomial::QuasiPolynomial;
-use super::step_past_root::step_past_root;
+use super::zero_search::{ZeroSearch, first_crossing};
 use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
 
-/// A value is clear of rounding if it exceeds its rounding error by this factor. The factor is used only to find the
-/// end of an interval that rounding hides, for the report of a grazing. A larger number makes the reported interval
-/// longer, not the search less certain.
-const CLEAR: f64 = 4.0;
-
-/// A monotone interval that ends within rounding of a zero is extended by this multiple of rounding/|g′|. From −rounding to
-/// +rounding takes twice rounding/|g′|. Twice that, because the slope at the end may be smaller than at the middle. With
-/// a smaller multiple the zero would more often lie at an end of two intervals, and neither test would show it.
-const EXTENSION: f64 = 4.0;
+/// An interval is hidden if the function is within rounding of zero at its middle, and changes by no more than this many
+/// rounding errors on it. A smaller number needs shorter intervals; a larger one hides zeros that shorter intervals
+/// show.
+const HIDDEN: f64 = 4.0;
 
 /// Highest order of a zero at the start that is tested. The test cases go to order 8; the limit only bounds the array
 /// of lower terms. A zero of higher order is [`Error::UndecidedSign`].
@@ -53,7 +48,7 @@ impl QuasiPolynomial {
     /// assert_eq!(g.first_crossing(Direction::Either, 9.0)?, back);
     /// // (t − 1)² touches zero.
     /// let g = QuasiPolynomial::polynomial(&[1.0, -2.0, 1.0]);
-    /// assert!(matches!(g.first_crossing(Direction::Either, 9.0)?, FirstCrossing::Grazing { .. }));
+    /// assert!(matches!(g.first_crossing(Direction::Either, 9.0)?, FirstCrossing::Touch { .. }));
     /// # Ok::<(), hybrid_system::Error>(())
     /// ```
     ///
@@ -84,31 +79,72 @@ impl QuasiPolynomial {
         if self.stays_away(horizon) {
             return Ok(FirstCrossing::Never);
         }
-        let Some(start) = self.leave_start(horizon, start_error)? else {
-            return Ok(FirstCrossing::Never);
-        };
-        Search::new(self).run(start, direction, horizon)
+        let bounded = Search::new(self);
+        let (value, rounding) = (self.value(0.0), self.rounding(0.0));
+        let at = Enclosure::around(value, rounding);
+        let mut search = ZeroSearch::new(direction, (0.0, value), at, start_error, None);
+        first_crossing(&bounded, &mut search, horizon, MOST_INTERVALS)
+    }
+}
+/// A quasi-polynomial with its first two derivatives.
+struct Search<'a> {
+    function: &'a QuasiPolynomial,
+    slope: QuasiPolynomial,
+    bend: QuasiPolynomial,
+}
+
+impl<'a> Search<'a> {
+    fn new(function: &'a QuasiPolynomial) -> Self {
+        let slope = function.derivative();
+        let bend = slope.derivative();
+        Search { function, slope, bend }
+    }
+}
+
+impl Bounded for Search<'_> {
+    fn value(&self, time: f64) -> f64 {
+        self.function.value(time)
     }
 
-    /// A time up to which the function has no zero after its start, and its sign until then; `None` if the function is
-    /// zero everywhere.
-    ///
-    /// A derivative within its rounding error counts as zero. As long as such derivatives could outweigh the first
-    /// derivative that does not count as zero, the function must stay within its own rounding error.
-    fn leave_start(&self, horizon: f64, start_error: f64) -> Result<Option<(f64, f64)>, Error> {
-        let start_hidden = self.rounding(0.0) + start_error;
-        let mut derivative = self.clone();
+    fn at(&self, time: f64) -> Result<Enclosure, Error> {
+        Ok(Enclosure::around(self.function.value(time), self.function.rounding(time)))
+    }
+
+    fn test(&self, left: f64, right: f64, level: f64) -> Result<ZeroTest, Error> {
+        let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
+        // All bounds hold for times of size up to `right`, and so on the whole interval.
+        let bend = self.bend.bound(right);
+        let (value, slope) = (self.function.value(middle) - level, self.slope.value(middle));
+        let (rounding, slope_rounding) =
+            (self.function.rounding(right), self.slope.rounding(right));
+        let reach = (slope.abs() + slope_rounding) * radius + 0.5 * bend * radius * radius;
+        Ok(if value.abs() > reach + rounding {
+            ZeroTest::NoZero { sign: value.signum() }
+        } else if slope.abs() > bend * radius + slope_rounding {
+            ZeroTest::Monotone { slope }
+        } else if value.abs() <= rounding && reach <= HIDDEN * rounding {
+            ZeroTest::Hidden
+        } else {
+            ZeroTest::Undecided
+        })
+    }
+
+    fn leave(&self, from: f64, until: f64, error: f64) -> Result<Leave, Error> {
+        let function = self.function;
+        let horizon = until;
+        let start_hidden = function.rounding(from) + error;
+        let mut derivative = function.clone();
         let mut factorial = 1.0; // k!
         let mut lower = [0.0; HIGHEST_ORDER as usize + 1]; // ≥ |g⁽ʲ⁾(0)|/j!
         for order in 0..=HIGHEST_ORDER {
-            let value = derivative.value(0.0);
+            let value = derivative.value(from);
             let next = derivative.derivative();
-            let rounding = derivative.rounding(0.0) + if order == 0 { start_error } else { 0.0 };
+            let rounding = derivative.rounding(from) + if order == 0 { error } else { 0.0 };
             if value.abs() <= rounding {
                 // If g⁽ᵏ⁺¹⁾ ≡ 0, no derivative is left to decide. If g itself is within rounding up to the horizon, g
                 // counts as zero everywhere.
-                if next.bound(horizon) == 0.0 && self.bound(horizon) <= start_hidden {
-                    return Ok(None);
+                if next.bound(horizon) == 0.0 && function.bound(horizon) <= start_hidden {
+                    return Ok(Leave::Stays);
                 }
                 lower[order as usize] = (value.abs() + rounding) / factorial;
                 derivative = next;
@@ -116,14 +152,15 @@ impl QuasiPolynomial {
                 continue;
             }
             if order == 0 {
-                return Ok(Some((0.0, value.signum())));
+                return Ok(Leave::To { time: from, side: value.signum() });
             }
             // (4): with c = g⁽ᵏ⁾(0)/k! and |g⁽ᵏ⁺¹⁾| ≤ M on [0, t], |c| ≥ 2 M t/(k+1)! leaves at least ½|c|tᵏ of the
             // leading term. Halving t from the horizon finds such a time.
             let leading = value.abs() / factorial;
-            let mut time = horizon;
+            let mut time = horizon - from;
             while time > 0.0
-                && !(leading > 2.0 * next.bound(time) * time / (factorial * f64::from(order + 1)))
+                && !(leading
+                    > 2.0 * next.bound(from + time) * time / (factorial * f64::from(order + 1)))
             {
                 time *= 0.5;
             }
@@ -141,137 +178,23 @@ impl QuasiPolynomial {
                 .sum();
             // `time` is 0 only for a horizon of zero, where no time is searched.
             if clear >= time && time > 0.0 || reached > start_hidden {
-                return Err(Error::UndecidedSign { order, value });
+                return Ok(Leave::Hidden);
             }
-            return Ok(Some((time, value.signum())));
+            return Ok(Leave::To { time: from + time, side: value.signum() });
         }
-        Err(Error::UndecidedSign { order: HIGHEST_ORDER, value: 0.0 })
-    }
-}
-
-/// A quasi-polynomial with its first two derivatives.
-struct Search<'a> {
-    function: &'a QuasiPolynomial,
-    slope: QuasiPolynomial,
-    bend: QuasiPolynomial,
-}
-
-impl<'a> Search<'a> {
-    fn new(function: &'a QuasiPolynomial) -> Self {
-        let slope = function.derivative();
-        let bend = slope.derivative();
-        Search { function, slope, bend }
+        Ok(Leave::Hidden)
     }
 
-    /// The tests at the head of this file. `slope` in the result is g′(m).
-    fn test(&self, left: f64, right: f64) -> ZeroTest {
-        let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
-        // All bounds hold for times of size up to `right`, and so on the whole interval.
-        let bend = self.bend.bound(right);
-        let (value, slope) = (self.function.value(middle), self.slope.value(middle));
-        let slope_rounding = self.slope.rounding(right);
-        let reach = (slope.abs() + slope_rounding) * radius + 0.5 * bend * radius * radius;
-        if value.abs() > reach + self.function.rounding(right) {
-            ZeroTest::NoZero { sign: value.signum() }
-        } else if slope.abs() > bend * radius + slope_rounding {
-            ZeroTest::Monotone { slope }
-        } else {
-            ZeroTest::Undecided
-        }
-    }
-
-    /// Tests intervals from left to right.
-    ///
-    /// Invariant: there is no crossing in (0, left], and the function has `sign` just after `left`. The rest is divided
-    /// into intervals; `ends` holds their right ends, the nearest one last.
-    fn run(
-        &self,
-        (start, mut sign): (f64, f64),
-        direction: Direction,
-        horizon: f64,
-    ) -> Result<FirstCrossing, Error> {
-        let mut left = start;
-        let mut ends = vec![horizon];
-        for _ in 0..MOST_INTERVALS {
-            let Some(&right) = ends.last() else { return Ok(FirstCrossing::Never) };
-            if left >= right {
-                ends.pop();
-                continue;
-            }
-            match self.test(left, right) {
-                ZeroTest::NoZero { sign: now } if now != sign && direction.admits(sign, now) => {
-                    // Rounding hid the zero from both tests. The zero lies where the two intervals meet.
-                    return Ok(FirstCrossing::At { time: left, rising: sign < 0.0 });
-                }
-                ZeroTest::NoZero { sign: now } => (left, sign) = (right, now),
-                ZeroTest::Monotone { slope } => {
-                    let end = self.extended(right, slope, horizon);
-                    let value = self.function.value(end);
-                    // A value within rounding does not prove a change of side: the next interval decides. The last
-                    // interval has no next one.
-                    let clear = value.abs() > self.function.rounding(end) || right >= horizon;
-                    if slope * sign < 0.0 && value * sign < 0.0 && clear {
-                        if direction.admits(sign, -sign) {
-                            let time = self.root(left, end, sign)?;
-                            // `end` may lie beyond the horizon.
-                            return Ok(if time <= horizon {
-                                FirstCrossing::At { time, rising: sign < 0.0 }
-                            } else {
-                                FirstCrossing::Never
-                            });
-                        }
-                        sign = -sign;
-                        left = end;
-                    } else {
-                        left = right;
-                    }
-                }
-                ZeroTest::Undecided => {
-                    let middle = left + 0.5 * (right - left);
-                    let width = right - left;
-                    // The change of g by its bend, ½Br² = Bw²/8, is far below rounding: a shorter interval has the same
-                    // rounding and cannot pass either test. This happens next to a touch.
-                    let hidden =
-                        self.bend.bound(right) * width * width < self.function.rounding(right);
-                    if !(hidden || middle <= left || middle >= right) {
-                        ends.push(middle);
-                        continue;
-                    }
-                    let value = |time: f64| self.function.value(time);
-                    let clear =
-                        |time: f64| value(time).abs() > CLEAR * self.function.rounding(time);
-                    let (time, value) =
-                        closest_approach(value, clear, sign, (left, width, horizon));
-                    return Ok(FirstCrossing::Grazing { time, value });
-                }
+    fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
+        let here = self.at(time)?.magnitude();
+        let slope = self.slope.value(time).abs() - self.slope.rounding(right);
+        let mut error = right - left;
+        for _ in 0..2 {
+            let slowest = slope - self.bend.bound(right) * error;
+            if slowest > 0.0 {
+                error = error.min(here / slowest);
             }
         }
-        Err(Error::NoConvergence { left, right: horizon, iterations: MOST_INTERVALS })
-    }
-
-    /// The end of a monotone interval, moved right if the function is within rounding of zero there, so that a zero at
-    /// the end of an interval belongs to this interval.
-    fn extended(&self, right: f64, slope: f64, horizon: f64) -> f64 {
-        let rounding = self.function.rounding(right);
-        if self.function.value(right).abs() > rounding {
-            return right;
-        }
-        let end = right + EXTENSION * rounding / slope.abs();
-        match self.test(right, end) {
-            // The end may lie beyond the horizon. The caller drops a crossing there.
-            ZeroTest::Monotone { .. } | ZeroTest::Undecided => end.max(right.min(horizon)),
-            ZeroTest::NoZero { .. } => right,
-        }
-    }
-
-    /// The only zero of a monotone stretch that begins on the side of `sign`.
-    fn root(&self, left: f64, right: f64, sign: f64) -> Result<f64, Error> {
-        let value = |time: f64| self.function.value(time);
-        // Within rounding the left end may have the other sign already: then it is the zero.
-        if value(left) * sign <= 0.0 {
-            return Ok(left);
-        }
-        let root = bracketed_root(value, left, right)?;
-        Ok(step_past_root(root, right, |time| !(value(time) * sign > 0.0)))
+        Ok(error)
     }
 }

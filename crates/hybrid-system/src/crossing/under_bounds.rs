@@ -1,10 +1,12 @@
 //! One guard for which the model gives bounds.
 
+use super::bounded::Bounded;
 use super::enclosure_search::EnclosedGuard;
 use super::first_crossing::FirstCrossing;
 use super::guard_rounding::guard_rounding;
 use super::guarded_flow::GuardedFlow;
 use super::step_past_root::step_past_root;
+use super::zero_search::{ZeroSearch, first_crossing};
 use crate::error::Error;
 use crate::guard::Guard;
 
@@ -47,9 +49,16 @@ where
         return Ok(None);
     }
     let enclosure = |order, times| flow.enclosure(surface, order, times);
-    let found = EnclosedGuard { value, enclosure }.first_crossing(direction, horizon, start_error);
+    let guard = EnclosedGuard { value, enclosure };
+    let mut search =
+        ZeroSearch::new(direction, (0.0, value(0.0)), guard.at(0.0)?, start_error, None);
+    let found = first_crossing(&guard, &mut search, horizon, MOST_INTERVALS);
     found.map(moved).map(Some)
 }
+
+/// Most intervals that are tested: a limit for a search that would not end. Enclosures that are too wide for any
+/// decision reach it. The search then ends with [`Error::NoConvergence`].
+const MOST_INTERVALS: usize = 1_000_000;
 
 /// The most ulps by which a crossing is moved, in steps of 1, 2, 4, … 2²⁷ ulps.
 ///
