@@ -1,24 +1,29 @@
 //! The first zero of a [`QuasiPolynomial`], with certainty.
 //!
-//! On an interval with middle m and half length r, and |g″| ≤ B on it,
+//! On an interval with middle m and half length r, and |g‴| ≤ C on it,
 //!
 //! ```text
-//!   |g(m)|  > |g′(m)| r + ½ B r² + rounding    no zero on the interval
-//!   |g′(m)| > B r + rounding                   g is monotone: a zero if and only if its sign changes
-//!   else                                       the interval is halved
+//!   |g(m)|  > |g′(m)| r + ½|g″(m)| r² + C r³/6 + rounding    no zero on the interval
+//!   |g′(m)| > |g″(m)| r + ½ C r² + rounding                  g is monotone: a zero if and only if its sign changes
+//!   else                                                     the interval is halved
 //! ```
 //!
-//! These are statements (2) and (3) of [mathematics](crate::mathematics). Statements (4) and (5) tell how the function
-//! leaves a start at zero.
+//! These are statements (2) and (3) of [mathematics](crate::mathematics), with |g″| ≤ |g″(m)| + C r. Statements (4) and (5)
+//! tell how the function leaves a start at zero.
 
 use super::bounded::{Bounded, Leave};
 use super::enclosure::Enclosure;
 use super::first_crossing::FirstCrossing;
+use super::quasi_layers::{Layers, Size};
 use super::quasi_polynomial::QuasiPolynomial;
-use super::zero_search::{ZeroSearch, first_crossing};
+use super::zero_search::{Found, ZeroSearch};
 use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
+
+/// Relative margin on the half length of an interval. Two differences and a product round by ε/2 each; 4ε is more than
+/// these roundings together. A larger margin would only make the tests slightly weaker.
+const RADIUS_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// An interval is hidden if the function is within rounding of zero at its middle, and changes by no more than this many
 /// rounding errors on it. A smaller number needs shorter intervals; a larger one hides zeros that shorter intervals
@@ -27,12 +32,10 @@ const HIDDEN: f64 = 4.0;
 
 /// Highest order of a zero at the start that is tested. The test cases go to order 8; the limit only bounds the array
 /// of lower terms. A zero of higher order is [`Error::UndecidedSign`].
-const HIGHEST_ORDER: u32 = 16;
+const HIGHEST_ORDER: usize = 16;
 
-/// Most intervals that are tested: a limit for a search that takes too long. Every oscillation up to the horizon takes
-/// several intervals, so that a very long horizon reaches the limit. The search then ends with
-/// [`Error::NoConvergence`].
-const MOST_INTERVALS: usize = 1_000_000;
+/// Derivatives that the tests on an interval use.
+const SEARCHED_DERIVATIVES: usize = 3;
 
 impl QuasiPolynomial {
     /// The first crossing of zero strictly after time zero, up to `horizon`, in one direction.
@@ -53,148 +56,206 @@ impl QuasiPolynomial {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NotFinite`] for coefficients that are not finite; [`Error::BadLimit`] unless `horizon` is finite
-    /// and not negative; [`Error::UndecidedSign`] if rounding hides the side to which the function leaves zero;
-    /// [`Error::NoConvergence`] after a million intervals.
+    /// [`Error::NotFinite`] for coefficients that are not finite, or a function that overflows up to the horizon;
+    /// [`Error::BadLimit`] unless `horizon` is finite and not negative; [`Error::UndecidedSign`] if rounding hides the side
+    /// to which the function leaves zero; [`Error::IntervalBudget`] after a million intervals.
     pub fn first_crossing(
         &self,
         direction: Direction,
         horizon: f64,
     ) -> Result<FirstCrossing, Error> {
-        self.first_crossing_from(direction, horizon, 0.0)
+        self.first_crossing_within(direction, horizon, MOST_INTERVALS)
     }
 
-    /// As [`first_crossing`](Self::first_crossing), for a function whose value at the start may be wrong by
-    /// `start_error`.
-    pub(crate) fn first_crossing_from(
+    /// As [`first_crossing`](Self::first_crossing), with another budget of intervals. Every oscillation up to the crossing
+    /// takes several intervals.
+    ///
+    /// # Errors
+    /// As for `first_crossing`; [`Error::IntervalBudget`] after this number of intervals.
+    pub fn first_crossing_within(
         &self,
         direction: Direction,
         horizon: f64,
-        start_error: f64,
+        intervals: usize,
     ) -> Result<FirstCrossing, Error> {
-        self.check()?;
         if !(horizon >= 0.0 && horizon.is_finite()) {
             return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
         }
-        if self.stays_away(horizon) {
+        let bounded = BoundedQuasiPolynomial::new(self, horizon)?;
+        if bounded.stays_away(horizon) {
             return Ok(FirstCrossing::Never);
         }
-        let bounded = Search::new(self);
-        let (value, rounding) = (self.value(0.0), self.rounding(0.0));
-        let at = Enclosure::around(value, rounding);
-        let mut search = ZeroSearch::new(direction, (0.0, value), at, start_error, None);
-        first_crossing(&bounded, &mut search, horizon, MOST_INTERVALS)
+        let start = (0.0, bounded.value(0.0));
+        let mut search = ZeroSearch::new(direction, start, bounded.at(0.0)?, 0.0, None);
+        let mut budget = intervals;
+        Ok(match search.advance(&bounded, horizon, true, &mut budget)? {
+            Found::Crossing { time, rising, .. } => FirstCrossing::At { time, rising },
+            Found::Touch { time, .. } => FirstCrossing::Touch { time, value: self.value(time) },
+            Found::Undecided { time, .. } => {
+                FirstCrossing::Undecided { time, value: self.value(time) }
+            }
+            Found::Nothing => FirstCrossing::Never,
+            Found::BudgetEnded => {
+                return Err(Error::IntervalBudget { time: search.time(), horizon, intervals });
+            }
+        })
     }
 }
-/// A quasi-polynomial with its first two derivatives.
-struct Search<'a> {
+
+/// A quasi-polynomial with its derivatives, as a source of bounds.
+///
+/// The function that is searched is g without its largest exponential factor: it has the same zeros and signs.
+pub(crate) struct BoundedQuasiPolynomial<'a> {
     function: &'a QuasiPolynomial,
-    slope: QuasiPolynomial,
-    bend: QuasiPolynomial,
+    layers: Layers,
+    horizon: f64,
 }
 
-impl<'a> Search<'a> {
-    fn new(function: &'a QuasiPolynomial) -> Self {
-        let slope = function.derivative();
-        let bend = slope.derivative();
-        Search { function, slope, bend }
+impl<'a> BoundedQuasiPolynomial<'a> {
+    /// For times from 0 to `horizon`.
+    pub(crate) fn new(function: &'a QuasiPolynomial, horizon: f64) -> Result<Self, Error> {
+        let layers = Layers::new(function, horizon, SEARCHED_DERIVATIVES)?;
+        Ok(BoundedQuasiPolynomial { function, layers, horizon })
+    }
+
+    /// True if one comparison shows that there is no zero up to `time`.
+    pub(crate) fn stays_away(&self, time: f64) -> bool {
+        self.layers.stays_away(self.layers.in_units(time))
     }
 }
 
-impl Bounded for Search<'_> {
+impl Bounded for BoundedQuasiPolynomial<'_> {
     fn value(&self, time: f64) -> f64 {
-        self.function.value(time)
+        let [value] = self.layers.values(0, self.layers.in_units(time));
+        value
     }
 
     fn at(&self, time: f64) -> Result<Enclosure, Error> {
-        Ok(Enclosure::around(self.function.value(time), self.function.rounding(time)))
+        let time = self.layers.in_units(time);
+        let ([value], [size]) = (self.layers.values(0, time), self.layers.sizes(0, time, time));
+        if !value.is_finite() {
+            return Err(Error::NotFinite { at: time * self.layers.unit(), value });
+        }
+        Ok(Enclosure::around(value, size.rounding))
     }
 
     fn test(&self, left: f64, right: f64, level: f64) -> Result<ZeroTest, Error> {
-        let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
-        // All bounds hold for times of size up to `right`, and so on the whole interval.
-        let bend = self.bend.bound(right);
-        let (value, slope) = (self.function.value(middle) - level, self.slope.value(middle));
-        let (rounding, slope_rounding) =
-            (self.function.rounding(right), self.slope.rounding(right));
-        let reach = (slope.abs() + slope_rounding) * radius + 0.5 * bend * radius * radius;
-        Ok(if value.abs() > reach + rounding {
+        let (left, right) = (self.layers.in_units(left), self.layers.in_units(right));
+        let middle = left + 0.5 * (right - left);
+        let radius = (right - middle).max(middle - left) * (1.0 + RADIUS_MARGIN);
+        let [value, slope, bend] = self.layers.values(0, middle);
+        let [of_value, of_slope, of_bend, third] = self.layers.sizes(0, left, right);
+        let value = value - level;
+        let bend = bend.abs() + of_bend.rounding;
+        let turn = (bend + 0.5 * third.bound * radius) * radius + of_slope.rounding;
+        let half_turn = (0.5 * bend + third.bound * radius / 6.0) * radius + of_slope.rounding;
+        let reach = (slope.abs() + half_turn) * radius;
+        // With bounds that overflow, or with NaN, all comparisons are false, and shorter intervals follow.
+        Ok(if value.abs() > reach + of_value.rounding {
             ZeroTest::NoZero { sign: value.signum() }
-        } else if slope.abs() > bend * radius + slope_rounding {
+        } else if slope.abs() > turn {
             ZeroTest::Monotone { slope }
-        } else if value.abs() <= rounding && reach <= HIDDEN * rounding {
+        } else if value.abs() <= of_value.rounding && reach <= HIDDEN * of_value.rounding {
             ZeroTest::Hidden
         } else {
             ZeroTest::Undecided
         })
     }
 
+    /// A derivative within its rounding error counts as zero. As long as such derivatives could outweigh the first
+    /// derivative that does not count as zero, the function must stay within its own rounding error.
     fn leave(&self, from: f64, until: f64, error: f64) -> Result<Leave, Error> {
-        let function = self.function;
-        let horizon = until;
-        let start_hidden = function.rounding(from) + error;
-        let mut derivative = function.clone();
-        let mut factorial = 1.0; // k!
-        let mut lower = [0.0; HIGHEST_ORDER as usize + 1]; // ≥ |g⁽ʲ⁾(0)|/j!
-        for order in 0..=HIGHEST_ORDER {
-            let value = derivative.value(from);
-            let next = derivative.derivative();
-            let rounding = derivative.rounding(from) + if order == 0 { error } else { 0.0 };
-            if value.abs() <= rounding {
-                // If g⁽ᵏ⁺¹⁾ ≡ 0, no derivative is left to decide. If g itself is within rounding up to the horizon, g
-                // counts as zero everywhere.
-                if next.bound(horizon) == 0.0 && function.bound(horizon) <= start_hidden {
-                    return Ok(Leave::Stays);
-                }
-                lower[order as usize] = (value.abs() + rounding) / factorial;
-                derivative = next;
-                factorial *= f64::from(order + 1);
-                continue;
+        match leave(&self.layers, SEARCHED_DERIVATIVES - 1, (from, until), error) {
+            Some(found) => Ok(found),
+            // A zero of high order needs more derivatives.
+            None => {
+                let layers = Layers::new(self.function, self.horizon, HIGHEST_ORDER + 1)?;
+                Ok(leave(&layers, HIGHEST_ORDER, (from, until), error).unwrap_or(Leave::Hidden))
             }
-            if order == 0 {
-                return Ok(Leave::To { time: from, side: value.signum() });
-            }
-            // (4): with c = g⁽ᵏ⁾(0)/k! and |g⁽ᵏ⁺¹⁾| ≤ M on [0, t], |c| ≥ 2 M t/(k+1)! leaves at least ½|c|tᵏ of the
-            // leading term. Halving t from the horizon finds such a time.
-            let leading = value.abs() / factorial;
-            let mut time = horizon - from;
-            while time > 0.0
-                && !(leading
-                    > 2.0 * next.bound(from + time) * time / (factorial * f64::from(order + 1)))
-            {
-                time *= 0.5;
-            }
-            // (5): from `clear` on, each of the lower terms (fewer than k) is at most |c|tᵏ/(2k): together they are
-            // less than ½|c|tᵏ.
-            let ratio = 2.0 * f64::from(order) / leading;
-            let clear = (1..order as usize)
-                .map(|j| pxfm::f_pow(ratio * lower[j], 1.0 / (f64::from(order) - j as f64)))
-                .fold(0.0, f64::max);
-            // Before `clear`, |g| is at most this sum; 2|c|tᵏ bounds the leading term with its remainder.
-            let reached: f64 = (1..=order as usize)
-                .map(|j| if j < order as usize { lower[j] } else { 2.0 * leading })
-                .enumerate()
-                .map(|(j, term)| term * pxfm::f_pow(clear, (j + 1) as f64))
-                .sum();
-            // `time` is 0 only for a horizon of zero, where no time is searched.
-            if clear >= time && time > 0.0 || reached > start_hidden {
-                return Ok(Leave::Hidden);
-            }
-            return Ok(Leave::To { time: from + time, side: value.signum() });
         }
-        Ok(Leave::Hidden)
     }
 
+    /// By the mean value theorem, |time − zero| ≤ |g(time)| / min |g′|, where the minimum is taken over the interval that can
+    /// hold the zero: at first all of it, then less.
     fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
         let here = self.at(time)?.magnitude();
-        let slope = self.slope.value(time).abs() - self.slope.rounding(right);
-        let mut error = right - left;
+        let unit = |time: f64| self.layers.in_units(time);
+        let [slope, bend] = self.layers.values(1, unit(time));
+        let [of_slope, of_bend, third] = self.layers.sizes(1, unit(left), unit(right));
+        let mut error = unit(right) - unit(left);
         for _ in 0..2 {
-            let slowest = slope - self.bend.bound(right) * error;
+            let turn = (bend.abs() + of_bend.rounding + third.bound * error) * error;
+            let slowest = slope.abs() - of_slope.rounding - turn;
             if slowest > 0.0 {
                 error = error.min(here / slowest);
             }
         }
-        Ok(error)
+        Ok(error * self.layers.unit())
     }
+}
+
+/// How the function leaves its zero at `from`; `None` if the derivatives up to `highest` do not decide. The list must have
+/// one derivative more.
+fn leave(
+    layers: &Layers,
+    highest: usize,
+    (from, until): (f64, f64),
+    error: f64,
+) -> Option<Leave> {
+    let (from, until) = (layers.in_units(from), layers.in_units(until));
+    let mut factorial = 1.0; // k!
+    let mut lower = [0.0; HIGHEST_ORDER + 1]; // ≥ |g⁽ʲ⁾|/j! at the start
+    let mut start_hidden = 0.0;
+    for order in 0..=highest {
+        let ([value], [size]) = (layers.values(order, from), layers.sizes(order, from, from));
+        let rounding = size.rounding + if order == 0 { error } else { 0.0 };
+        if order == 0 {
+            start_hidden = rounding;
+        }
+        let next = |time: f64| -> f64 {
+            let [Size { bound, .. }] = layers.sizes(order + 1, from, from + time);
+            bound
+        };
+        if value.abs() <= rounding {
+            // If g⁽ᵏ⁺¹⁾ ≡ 0, no derivative is left to decide. If g itself is within rounding up to the end, g counts as
+            // zero everywhere.
+            let [whole] = layers.sizes(0, from, until);
+            if next(until - from) == 0.0 && whole.bound <= start_hidden {
+                return Some(Leave::Stays);
+            }
+            lower[order] = (value.abs() + rounding) / factorial;
+            factorial *= (order + 1) as f64;
+            continue;
+        }
+        let side = value.signum();
+        if order == 0 {
+            return Some(Leave::To { time: from * layers.unit(), side });
+        }
+        // (4): with c = g⁽ᵏ⁾/k! and |g⁽ᵏ⁺¹⁾| ≤ M on the next t, |c| ≥ 2 M t/(k+1)! leaves at least ½|c|tᵏ of the leading
+        // term. Halving t finds such a time.
+        let leading = (value.abs() - rounding) / factorial;
+        let mut time = until - from;
+        while time > 0.0 && !(leading > 2.0 * next(time) * time / (factorial * (order + 1) as f64)) {
+            time *= 0.5;
+        }
+        // (5): from `clear` on, each of the lower terms (fewer than k) is at most |c|tᵏ/(2k): together they are less than
+        // ½|c|tᵏ.
+        let ratio = 2.0 * order as f64 / leading;
+        let clear = (1..order)
+            .map(|j| pxfm::f_pow(ratio * lower[j], 1.0 / (order - j) as f64))
+            .fold(0.0, f64::max);
+        // Before `clear`, |g| is at most this sum; 2|c|tᵏ bounds the leading term with its remainder.
+        let reached: f64 = (1..=order)
+            .map(|j| if j < order { lower[j] } else { 2.0 * leading })
+            .enumerate()
+            .map(|(j, term)| term * pxfm::f_pow(clear, (j + 1) as f64))
+            .sum();
+        // The conditions are false for NaN.
+        return Some(if clear < time && reached <= start_hidden {
+            Leave::To { time: (from + time) * layers.unit(), side }
+        } else {
+            Leave::Hidden
+        });
+    }
+    None
 }
