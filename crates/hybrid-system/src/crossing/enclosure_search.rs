@@ -39,6 +39,16 @@ where
     V: Fn(f64) -> f64,
     E: Fn(u32, (f64, f64)) -> Option<Enclosure>,
 {
+    /// The side to which the guard leaves its zero at the start, ±1. The value at the start is zero with this `error`.
+    pub(crate) fn side_after_zero(&self, horizon: f64, error: f64) -> Result<f64, Error> {
+        match self.leave(0.0, horizon, error)? {
+            Leave::To { side, .. } => Ok(side),
+            Leave::Stays | Leave::Hidden => {
+                Err(Error::UndecidedSign { order: 0, value: (self.value)(0.0) })
+            }
+        }
+    }
+
     /// The model's enclosure, if there is one; an error unless it is an interval.
     fn enclosed(&self, order: u32, times: (f64, f64)) -> Result<Option<Enclosure>, Error> {
         match (self.enclosure)(order, times) {

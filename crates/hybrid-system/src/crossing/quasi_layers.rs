@@ -82,7 +82,8 @@ impl Layers {
         if !(horizon / unit).is_finite() {
             return Err(Error::NotFinite { at: horizon, value: function.value(horizon) });
         }
-        let largest = terms.iter().map(|term| term.sigma).max_by(|a, b| a.value.total_cmp(&b.value));
+        let largest =
+            terms.iter().map(|term| term.sigma).max_by(|a, b| a.value.total_cmp(&b.value));
         let common = largest.unwrap_or_default();
         let mut layers = Layers {
             unit,
@@ -91,7 +92,8 @@ impl Layers {
             coefficients: Vec::with_capacity(coefficients_in(terms) * (derivatives + 1)),
         };
         for term in terms {
-            let sigma = if term.sigma == common { Rounded::default() } else { term.sigma + -common };
+            let sigma =
+                if term.sigma == common { Rounded::default() } else { term.sigma + -common };
             layers.kinds.push(Kind { sigma: sigma.shifted(unit), omega: term.omega.shifted(unit) });
             layers.push(in_units(&term.cos, unit), in_units(&term.sin, unit));
         }
@@ -117,7 +119,11 @@ impl Layers {
         time / self.unit
     }
 
-    fn push(&mut self, cos: impl IntoIterator<Item = Rounded>, sin: impl IntoIterator<Item = Rounded>) {
+    fn push(
+        &mut self,
+        cos: impl IntoIterator<Item = Rounded>,
+        sin: impl IntoIterator<Item = Rounded>,
+    ) {
         let start = self.coefficients.len();
         self.coefficients.extend(cos);
         let middle = self.coefficients.len();
@@ -178,7 +184,8 @@ impl Layers {
             for (layer, sum) in sums.iter_mut().enumerate() {
                 let Place { cos, sin: _, end } = self.place(first + layer, term);
                 let numbers = (end - cos + self.kinds.len()) as f64;
-                let relative = f64::EPSILON * (roundings + ROUNDINGS_PER_COEFFICIENT * numbers) + moved;
+                let relative =
+                    f64::EPSILON * (roundings + ROUNDINGS_PER_COEFFICIENT * numbers) + moved;
                 let (size, error) = self.size(self.place(first + layer, term), right);
                 sum.bound += factor * size;
                 sum.rounding += factor * (relative * size + error);
@@ -203,9 +210,11 @@ impl Layers {
     /// For an oscillation about a large constant one comparison decides, however many periods it has. The search by
     /// intervals would need several intervals for each period.
     pub(crate) fn stays_away(&self, time: f64) -> bool {
-        let is_polynomial = |kind: &Kind| kind.sigma == Rounded::default() && kind.omega == Rounded::default();
+        let is_polynomial =
+            |kind: &Kind| kind.sigma == Rounded::default() && kind.omega == Rounded::default();
         let constant = self.kinds.iter().position(is_polynomial).map(|term| self.place(0, term));
-        let constant = constant.and_then(|Place { cos, sin, .. }| self.coefficients[cos..sin].first());
+        let constant =
+            constant.and_then(|Place { cos, sin, .. }| self.coefficients[cos..sin].first());
         let [Size { bound, rounding }] = self.sizes(0, 0.0, time);
         // The bound contains the constant itself once: |c| > bound − |c|.
         constant.is_some_and(|c| 2.0 * c.value.abs() > bound + rounding)
@@ -236,7 +245,8 @@ fn unit_of_time(terms: &[Term], horizon: f64) -> f64 {
         }
         for list in [&term.cos, &term.sin] {
             for (j, c) in list.iter().enumerate().skip(1) {
-                largest = largest.min((COEFFICIENT_EXPONENT - exponent(c.value)).div_euclid(j as i32));
+                largest =
+                    largest.min((COEFFICIENT_EXPONENT - exponent(c.value)).div_euclid(j as i32));
             }
         }
     }

@@ -99,6 +99,11 @@ impl QuasiPolynomial {
         QuasiPolynomial { terms: self.terms.iter().map(Term::derivative).collect() }
     }
 
+    /// g′(0).
+    pub(super) fn slope_at_start(&self) -> Rounded {
+        self.terms.iter().fold(Rounded::default(), |sum, term| sum + term.slope_at_start())
+    }
+
     /// An error if a coefficient, a rate or a frequency is not finite.
     pub(crate) fn check(&self) -> Result<(), Error> {
         for term in &self.terms {

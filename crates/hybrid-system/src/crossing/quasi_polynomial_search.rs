@@ -16,6 +16,7 @@ use super::enclosure::Enclosure;
 use super::first_crossing::FirstCrossing;
 use super::quasi_layers::{Layers, Size};
 use super::quasi_polynomial::QuasiPolynomial;
+use super::search_request::MOST_INTERVALS;
 use super::zero_search::{Found, ZeroSearch};
 use super::zero_test::ZeroTest;
 use crate::error::Error;
@@ -99,6 +100,23 @@ impl QuasiPolynomial {
                 return Err(Error::IntervalBudget { time: search.time(), horizon, intervals });
             }
         })
+    }
+
+    /// The side to which the function leaves its zero at the start, ±1; `None` if it is zero everywhere. The value at the
+    /// start is zero with this `error`.
+    pub(crate) fn side_after_zero(&self, horizon: f64, error: f64) -> Result<Option<f64>, Error> {
+        // The usual case, order 1, needs no bounds.
+        let slope = self.slope_at_start();
+        if slope.value.abs() > slope.error {
+            return Ok(Some(slope.value.signum()));
+        }
+        let bounded = BoundedQuasiPolynomial::new(self, horizon)?;
+        let error = error.max(bounded.at(0.0)?.magnitude());
+        match bounded.leave(0.0, horizon, error)? {
+            Leave::To { side, .. } => Ok(Some(side)),
+            Leave::Stays => Ok(None),
+            Leave::Hidden => Err(Error::UndecidedSign { order: 1, value: slope.value }),
+        }
     }
 }
 
@@ -196,12 +214,7 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
 
 /// How the function leaves its zero at `from`; `None` if the derivatives up to `highest` do not decide. The list must have
 /// one derivative more.
-fn leave(
-    layers: &Layers,
-    highest: usize,
-    (from, until): (f64, f64),
-    error: f64,
-) -> Option<Leave> {
+fn leave(layers: &Layers, highest: usize, (from, until): (f64, f64), error: f64) -> Option<Leave> {
     let (from, until) = (layers.in_units(from), layers.in_units(until));
     let mut factorial = 1.0; // k!
     let mut lower = [0.0; HIGHEST_ORDER + 1]; // ≥ |g⁽ʲ⁾|/j! at the start
@@ -227,6 +240,9 @@ fn leave(
             factorial *= (order + 1) as f64;
             continue;
         }
+        if !value.is_finite() {
+            return Some(Leave::Hidden);
+        }
         let side = value.signum();
         if order == 0 {
             return Some(Leave::To { time: from * layers.unit(), side });
@@ -235,7 +251,8 @@ fn leave(
         // term. Halving t finds such a time.
         let leading = (value.abs() - rounding) / factorial;
         let mut time = until - from;
-        while time > 0.0 && !(leading > 2.0 * next(time) * time / (factorial * (order + 1) as f64)) {
+        while time > 0.0 && !(leading > 2.0 * next(time) * time / (factorial * (order + 1) as f64))
+        {
             time *= 0.5;
         }
         // (5): from `clear` on, each of the lower terms (fewer than k) is at most |c|tᵏ/(2k): together they are less than

@@ -62,6 +62,12 @@ impl Term {
         Term { sigma: self.sigma, omega: self.omega, cos, sin }
     }
 
+    /// The derivative at time zero: p₁ + σp₀ + ωq₀.
+    pub(crate) fn slope_at_start(&self) -> Rounded {
+        let at = |list: &[Rounded], k: usize| list.get(k).copied().unwrap_or_default();
+        at(&self.cos, 1) + self.sigma * at(&self.cos, 0) + self.omega * at(&self.sin, 0)
+    }
+
     /// The product of two terms. By the addition theorems, with a = ω₁t and b = ω₂t,
     ///
     /// ```text
@@ -82,7 +88,10 @@ impl Term {
         // ½(x ± y)
         let half = |x: &[Rounded], y: &[Rounded], sign: f64| {
             let mut sum: Vec<_> = x.iter().map(|c| c.shifted(0.5)).collect();
-            add_to(&mut sum, y.iter().map(|c| if sign < 0.0 { -c.shifted(0.5) } else { c.shifted(0.5) }));
+            add_to(
+                &mut sum,
+                y.iter().map(|c| if sign < 0.0 { -c.shifted(0.5) } else { c.shifted(0.5) }),
+            );
             sum
         };
         let difference = Term {
@@ -118,7 +127,9 @@ pub(crate) fn slopes(
         let from_other = if factor == zero { 0 } else { other.len() };
         (0..from_slope.max(from_own).max(from_other))
             .map(|k| {
-                at(own, k + 1) * Rounded::exact((k + 1) as f64) + sigma * at(own, k) + factor * at(other, k)
+                at(own, k + 1) * Rounded::exact((k + 1) as f64)
+                    + sigma * at(own, k)
+                    + factor * at(other, k)
             })
             .collect()
     };

@@ -35,7 +35,8 @@ impl Rounded {
     pub(crate) fn shifted(self, power: f64) -> Self {
         let value = self.value * power;
         let error = self.error * power;
-        let underflow = value.abs() < f64::MIN_POSITIVE && self.value != 0.0 || error < f64::MIN_POSITIVE && self.error > 0.0;
+        let underflow = value.abs() < f64::MIN_POSITIVE && self.value != 0.0
+            || error < f64::MIN_POSITIVE && self.error > 0.0;
         Rounded { value, error: if underflow { error + SMALLEST } else { error } }
     }
 }

@@ -18,7 +18,6 @@
 use super::bounded::{Bounded, Leave};
 use super::bracketed_root::root_beyond;
 use super::enclosure::Enclosure;
-use super::first_crossing::FirstCrossing;
 use super::golden_section::golden_section_minimum;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
@@ -339,26 +338,6 @@ impl ZeroSearch {
 fn is_clear(value: &Enclosure) -> bool {
     let error = 0.5 * (value.high - value.low);
     value.widened((CLEAR - 1.0) * error).sign().is_some()
-}
-
-/// The result of a search on one stretch from the start to `horizon`, with this budget of intervals.
-pub(crate) fn first_crossing(
-    function: &impl Bounded,
-    search: &mut ZeroSearch,
-    horizon: f64,
-    intervals: usize,
-) -> Result<FirstCrossing, Error> {
-    let mut budget = intervals;
-    Ok(match search.advance(function, horizon, true, &mut budget)? {
-        Found::Crossing { time, rising, .. } => FirstCrossing::At { time, rising },
-        Found::Touch { time, value, .. } => FirstCrossing::Touch { time, value },
-        Found::Undecided { time, value } => FirstCrossing::Undecided { time, value },
-        Found::Nothing => FirstCrossing::Never,
-        Found::BudgetEnded => {
-            let left = search.time();
-            return Err(Error::NoConvergence { left, right: horizon, iterations: intervals });
-        }
-    })
 }
 
 /// Time and value at which the function is closest to zero on the part of a hidden interval that lies between `from`
