@@ -163,4 +163,31 @@ pub enum Error {
         /// The components of the state.
         state: Vec<f64>,
     },
+    /// A model without a vector field where one is needed.
+    #[error("mode {mode} has no vector field: implement HybridSystem::vector_field")]
+    NoVectorField {
+        /// Name of the mode.
+        mode: String,
+    },
+    /// A vector of another dimension than the state.
+    #[error("{what} has {found} components, and the state has {expected}")]
+    Dimension {
+        /// The vector.
+        what: &'static str,
+        /// Number of components of the state.
+        expected: usize,
+        /// Number of components of the vector.
+        found: usize,
+    },
+    /// An integration cannot go on: the field is infinite or NaN just after this state, however short the step.
+    #[error(
+        "the field is not finite just after time {time}, where the last state is {state:?}: let an event end the arc \
+         before, or limit its time"
+    )]
+    FieldNotFinite {
+        /// Time of the last state.
+        time: f64,
+        /// Its components.
+        state: Vec<f64>,
+    },
 }

@@ -117,10 +117,11 @@ pub use guard::{Direction, Guard};
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
+    integrated_states,
 };
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
-pub use state::State;
+pub use state::{State, StateVector};
 pub use system::{HybridSystem, Reset, VectorField};
 pub use zeno::ZenoLimit;
 

@@ -9,7 +9,7 @@ use crate::state::State;
 use crate::system::VectorField;
 
 /// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
-/// mode without closed form.
+/// mode without closed form. A negative time leads backward.
 ///
 /// If the integration fails before `time`, all components are NaN. [`Arc::state`](crate::Arc::state) and executions
 /// return such a state as an error; [`Integration`] gives the reason.
@@ -23,21 +23,62 @@ pub fn integrated_flow<T, const N: usize>(
 where
     T: VectorField<N> + ?Sized,
 {
-    let state = || {
-        if !(time >= 0.0) {
-            return Err(Error::BadLimit { what: "the time of a flow", value: time });
+    let mut after = *start;
+    let flow =
+        integrated_states(system, mode, start, &[time], tolerances, |_, state| after = *state);
+    if flow.is_ok() { after } else { State::repeat(f64::NAN) }
+}
+
+/// The states at many times along ẋ = f(x), in one integration: `visit` gets each time with its state, in the order of
+/// the times.
+///
+/// The times are in one order, from zero on: 0 ≤ t₀ ≤ t₁ ≤ …, or 0 ≥ t₀ ≥ t₁ ≥ … for the flow backward in time. The last
+/// state is the end of a step, the others are values of interpolants, with errors like those of the steps.
+///
+/// # Errors
+/// [`Error::BadLimit`] for times that are not finite or not in order, and the errors of [`Integration`].
+pub fn integrated_states<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    start: &State<N>,
+    times: &[f64],
+    tolerances: Tolerances,
+    mut visit: impl FnMut(f64, &State<N>),
+) -> Result<(), Error>
+where
+    T: VectorField<N> + ?Sized,
+{
+    let Some(&end) = times.last() else { return Ok(()) };
+    let field = |_: f64, state: &State<N>| system.vector_field(mode, state);
+    let mut before = 0.0;
+    for &time in times {
+        // Each time lies between the one before and the end.
+        if !(time.is_finite() && between(before, time, end)) {
+            return Err(Error::BadLimit { what: "a time that is not in order", value: time });
         }
-        if time == 0.0 {
-            return Ok(*start);
+        before = time;
+    }
+    let mut times = times.iter().copied().peekable();
+    while let Some(time) = times.next_if_eq(&0.0) {
+        visit(time, start);
+    }
+    if times.peek().is_none() {
+        return Ok(());
+    }
+    let mut integration = Integration::new(field, start, tolerances)?.autonomous().until(end)?;
+    while !integration.ended() {
+        integration.step()?;
+        let (from, to) = integration.interval();
+        while let Some(time) = times.next_if(|&time| between(from, time, to)) {
+            visit(time, &integration.at(time)?);
         }
-        let field = |_: f64, state: &State<N>| system.vector_field(mode, state);
-        let mut integration = Integration::new(field, start, tolerances)?;
-        while integration.interval().1 < time {
-            integration.step()?;
-        }
-        integration.directly_at(time)
-    };
-    state().unwrap_or_else(|_: Error| State::repeat(f64::NAN))
+    }
+    Ok(())
+}
+
+/// True if `x` lies between `a` and `b`, in either order.
+fn between(a: f64, x: f64, b: f64) -> bool {
+    (a <= x && x <= b) || (b <= x && x <= a)
 }
 
 /// The first crossing of a guard of `mode` along ẋ = f(x): the value that

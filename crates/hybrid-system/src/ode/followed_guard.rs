@@ -128,7 +128,7 @@ impl FollowedGuard {
     /// The first crossing on a step, no later than `until`.
     pub(super) fn crossing<const N: usize>(
         &mut self,
-        step: &Step<N>,
+        step: &Step<State<N>>,
         until: f64,
         guard: impl Fn(&State<N>) -> f64,
     ) -> Result<StepOutcome, Error> {

@@ -12,14 +12,16 @@ mod followed_guard;
 mod integration;
 mod inverse_root;
 mod polynomial_test;
+mod rows;
 mod schemes;
 mod search;
 mod step;
+mod steps;
 mod tolerances;
 mod variation;
 mod vector;
 
-pub use flow::{integrated_crossing, integrated_flow};
+pub use flow::{integrated_crossing, integrated_flow, integrated_states};
 pub use integration::Integration;
 pub use tolerances::Tolerances;
 pub use variation::{Linearized, integrated_jacobian};

@@ -44,7 +44,10 @@ where
     }
     let mut first_step = f64::INFINITY;
     loop {
-        let integration = Integration::new(&field, start, tolerances)?.starting_with(first_step);
+        let integration = Integration::new(&field, start, tolerances)?
+            .autonomous()
+            .until(horizon)?
+            .starting_with(first_step);
         let rate = field(0.0, start);
         match search_once(system, mode, start, horizon, &rate, integration)? {
             SearchOutcome::Finished(crossing) => return Ok(crossing),
@@ -78,7 +81,7 @@ fn search_once<T, F, const N: usize>(
     start: &State<N>,
     horizon: f64,
     rate: &State<N>,
-    mut integration: Integration<F, N>,
+    mut integration: Integration<F, State<N>>,
 ) -> Result<SearchOutcome<T::Surface, N>, Error>
 where
     T: HybridSystem<N> + ?Sized,
@@ -98,6 +101,10 @@ where
         *followed = Some(FollowedGuard::new(guard.direction, start, rate, value(guard.surface))?);
     }
     while integration.interval().1 < horizon {
+        // The state stays for ever, and no guard changes.
+        if integration.at_rest() {
+            break;
+        }
         integration.step()?;
         // In the common case neither the stages of the interpolant nor the polynomial of a guard are computed.
         let all_stay_away = followed.iter().zip(guards).all(|(followed, guard)| {
@@ -107,7 +114,7 @@ where
         if all_stay_away {
             continue;
         }
-        let step = integration.last_step();
+        let step = integration.last_step()?;
         let until = step.to.min(horizon);
         let mut first: Option<(f64, T::Surface)> = None;
         let mut grazing: Option<(f64, f64, T::Surface)> = None;
@@ -153,8 +160,8 @@ where
 /// the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing is searched
 /// again next to the old one.
 fn polished<F, const N: usize>(
-    integration: &mut Integration<F, N>,
-    step: &Step<N>,
+    integration: &mut Integration<F, State<N>>,
+    step: &Step<State<N>>,
     time: f64,
     until: f64,
     guard: impl Fn(&State<N>) -> f64,
