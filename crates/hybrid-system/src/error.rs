@@ -212,4 +212,15 @@ pub enum Error {
         /// The budget.
         intervals: usize,
     },
+    /// An integration cannot go on: the field is infinite or NaN just after this state, however short the step.
+    #[error(
+        "the field is not finite just after time {time}, where the last state is {state:?}: let an event end the arc \
+         before, or limit its time"
+    )]
+    FieldNotFinite {
+        /// Time of the last state.
+        time: f64,
+        /// Its components.
+        state: Vec<f64>,
+    },
 }
