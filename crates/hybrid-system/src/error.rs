@@ -199,4 +199,28 @@ pub enum Error {
         /// The components of the state.
         state: Vec<f64>,
     },
+    /// A search under bounds reached its budget of intervals.
+    #[error(
+        "no zero up to time {time}; the search up to {horizon} needs more than {intervals} intervals: set a larger \
+         budget, or a shorter horizon"
+    )]
+    IntervalBudget {
+        /// The time up to which there is no zero.
+        time: f64,
+        /// The horizon of the search.
+        horizon: f64,
+        /// The budget.
+        intervals: usize,
+    },
+    /// An integration cannot go on: the field is infinite or NaN just after this state, however short the step.
+    #[error(
+        "the field is not finite just after time {time}, where the last state is {state:?}: let an event end the arc \
+         before, or limit its time"
+    )]
+    FieldNotFinite {
+        /// Time of the last state.
+        time: f64,
+        /// Its components.
+        state: Vec<f64>,
+    },
 }

@@ -121,6 +121,7 @@ pub use guard::{Direction, Guard, Role, Touch};
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
+    integrated_states,
 };
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
