@@ -154,18 +154,21 @@ where
         Ok(Leave::Hidden)
     }
 
-    /// By the mean value theorem, |time − zero| ≤ |g(time)| / min |g′|. The first minimum is taken over the whole interval,
-    /// the second one over the part of it that can hold the zero.
+    /// With the rate s at `time` and e = 2|g(time)|/s: if |g′| ≥ s/2 within e of `time`, g reaches zero within e. Else the
+    /// interval is the bound.
     fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
         let here = self.around(0, time)?.magnitude();
-        let mut error = right - left;
-        for _ in 0..2 {
-            let times = ((time - error).max(left), (time + error).min(right));
-            let Some(slopes) = self.enclosed(1, times)? else { break };
-            if slopes.sign().is_some() {
-                error = error.min(here / slopes.low.abs().min(slopes.high.abs()));
-            }
+        let slope = self.around(1, time)?;
+        let error = 2.0 * here / slope.low.abs().min(slope.high.abs());
+        let times = ((time - error).max(left), (time + error).min(right));
+        // The first condition is false for NaN, and for a model that gives no slopes.
+        if times.0 <= times.1
+            && let Some(slopes) = self.enclosed(1, times)?
+            && slopes.sign().is_some()
+            && slopes.low.abs().min(slopes.high.abs()) * error >= here
+        {
+            return Ok(error.min(right - left));
         }
-        Ok(error)
+        Ok(right - left)
     }
 }

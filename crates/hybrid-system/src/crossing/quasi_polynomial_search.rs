@@ -193,22 +193,23 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
         }
     }
 
-    /// By the mean value theorem, |time − zero| ≤ |g(time)| / min |g′|, where the minimum is taken over the interval that can
-    /// hold the zero: at first all of it, then less.
+    /// With s ≤ |g′(time)| and e = 2|g(time)|/s: if g′ changes by no more than s/2 within e of `time`, then |g′| ≥ s/2 there,
+    /// and g reaches zero within e. Else the interval is the bound.
     fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
         let here = self.at(time)?.magnitude();
-        let unit = |time: f64| self.layers.in_units(time);
-        let [slope, bend] = self.layers.values(1, unit(time));
-        let [of_slope, of_bend, third] = self.layers.sizes(1, unit(left), unit(right));
-        let mut error = unit(right) - unit(left);
-        for _ in 0..2 {
-            let turn = (bend.abs() + of_bend.rounding + third.bound * error) * error;
-            let slowest = slope.abs() - of_slope.rounding - turn;
-            if slowest > 0.0 {
-                error = error.min(here / slowest);
-            }
+        let time = self.layers.in_units(time);
+        let [slope, bend] = self.layers.values(1, time);
+        let [of_slope] = self.layers.sizes(1, time, time);
+        let slowest = slope.abs() - of_slope.rounding;
+        let error = 2.0 * here / slowest;
+        let [of_bend, third] = self.layers.sizes(2, (time - error).max(0.0), time + error);
+        let turn = (bend.abs() + of_bend.rounding + third.bound * error) * error;
+        // The condition is false for NaN.
+        if slowest > 0.0 && turn <= 0.5 * slowest {
+            Ok((error * self.layers.unit()).min(right - left))
+        } else {
+            Ok(right - left)
         }
-        Ok(error * self.layers.unit())
     }
 }
 
