@@ -3,53 +3,61 @@
 use super::integration::Integration;
 use super::search::search;
 use super::tolerances::Tolerances;
-use crate::crossing::Crossing;
+use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
-use crate::state::State;
-use crate::system::VectorField;
+use crate::state::{State, StateVector};
+use crate::system::HybridSystem;
 
 /// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
 /// mode without closed form. A negative time leads backward.
 ///
 /// If the integration fails before `time`, all components are NaN. [`Arc::state`](crate::Arc::state) and executions
-/// return such a state as an error; [`Integration`] gives the reason.
-pub fn integrated_flow<T, const N: usize>(
+/// return such a state as an error; [`integrated_states`] gives the reason.
+pub fn integrated_flow<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,
-    start: &State<N>,
+    start: &T::State,
     time: f64,
     tolerances: Tolerances,
-) -> State<N>
-where
-    T: VectorField<N> + ?Sized,
-{
-    let mut after = *start;
-    let flow =
-        integrated_states(system, mode, start, &[time], tolerances, |_, state| after = *state);
-    if flow.is_ok() { after } else { State::repeat(f64::NAN) }
+) -> T::State {
+    let mut after = None;
+    let flow = visit_states(system, mode, start, &[time], tolerances, |state| after = Some(state));
+    match (flow, after) {
+        (Ok(()), Some(after)) => after,
+        _ => start.from_fn_like(|_| f64::NAN),
+    }
 }
 
-/// The states at many times along ẋ = f(x), in one integration: `visit` gets each time with its state, in the order of
-/// the times.
+/// The states at many times along ẋ = f(x), in one integration: the value that
+/// [`HybridSystem::flow_at`](crate::HybridSystem::flow_at) returns in a mode without closed form.
 ///
 /// The times are in one order, from zero on: 0 ≤ t₀ ≤ t₁ ≤ …, or 0 ≥ t₀ ≥ t₁ ≥ … for the flow backward in time. The last
 /// state is the end of a step, the others are values of interpolants, with errors like those of the steps.
 ///
 /// # Errors
-/// [`Error::BadLimit`] for times that are not finite or not in order, and the errors of [`Integration`].
-pub fn integrated_states<T, const N: usize>(
+/// [`Error::BadLimit`] for times that are not finite or not in order, [`Error::NoVectorField`] for a mode without field,
+/// and the errors of [`Integration`].
+pub fn integrated_states<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,
-    start: &State<N>,
+    start: &T::State,
     times: &[f64],
     tolerances: Tolerances,
-    mut visit: impl FnMut(f64, &State<N>),
-) -> Result<(), Error>
-where
-    T: VectorField<N> + ?Sized,
-{
+) -> Result<Vec<T::State>, Error> {
+    let mut states = Vec::with_capacity(times.len());
+    visit_states(system, mode, start, times, tolerances, |state| states.push(state))?;
+    Ok(states)
+}
+
+fn visit_states<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+    start: &T::State,
+    times: &[f64],
+    tolerances: Tolerances,
+    mut visit: impl FnMut(T::State),
+) -> Result<(), Error> {
     let Some(&end) = times.last() else { return Ok(()) };
-    let field = |_: f64, state: &State<N>| system.vector_field(mode, state);
     let mut before = 0.0;
     for &time in times {
         // Each time lies between the one before and the end.
@@ -59,18 +67,22 @@ where
         before = time;
     }
     let mut times = times.iter().copied().peekable();
-    while let Some(time) = times.next_if_eq(&0.0) {
-        visit(time, start);
+    while times.next_if_eq(&0.0).is_some() {
+        visit(start.clone());
     }
     if times.peek().is_none() {
         return Ok(());
     }
+    if system.vector_field(mode, start).is_none() {
+        return Err(Error::NoVectorField { mode: format!("{mode:?}") });
+    }
+    let field = field_of(system, mode);
     let mut integration = Integration::new(field, start, tolerances)?.autonomous().until(end)?;
     while !integration.ended() {
         integration.step()?;
         let (from, to) = integration.interval();
         while let Some(time) = times.next_if(|&time| between(from, time, to)) {
-            visit(time, &integration.at(time)?);
+            visit(integration.at(time)?);
         }
     }
     Ok(())
@@ -100,14 +112,13 @@ fn between(a: f64, x: f64, b: f64) -> bool {
 /// struct Ball { drag: f64 }
 /// const TOLERANCES: Tolerances = Tolerances::both(1e-12);
 ///
-/// impl VectorField<2> for Ball {
-///     fn vector_field(&self, _: (), x: &State<2>) -> State<2> {
-///         Vector2::new(x[1], -1.0 - self.drag * x[1] * x[1].abs())
-///     }
-/// }
-/// impl HybridSystem<2> for Ball {
+/// impl HybridSystem for Ball {
+///     type State = State<2>;
 ///     type Mode = ();
 ///     type Surface = ();
+///     fn vector_field(&self, _: (), x: &State<2>) -> Option<State<2>> {
+///         Some(Vector2::new(x[1], -1.0 - self.drag * x[1] * x[1].abs()))
+///     }
 ///     fn flow(&self, mode: (), x: &State<2>, t: f64) -> State<2> {
 ///         integrated_flow(self, mode, x, t, TOLERANCES)
 ///     }
@@ -117,18 +128,18 @@ fn between(a: f64, x: f64, b: f64) -> bool {
 ///     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
 ///         x[0]
 ///     }
-///     fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+///     fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), State<2>> {
 ///         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.8 * x[1]) }
 ///     }
 ///     fn first_crossing(
-///         &self, mode: (), x: &State<2>, horizon: f64, _: Option<f64>,
-///     ) -> Result<Option<Crossing<(), 2>>, Error> {
-///         integrated_crossing(self, mode, x, horizon, TOLERANCES)
+///         &self, mode: (), x: &State<2>, search: &Search<()>,
+///     ) -> Result<NextEvent<(), State<2>>, Error> {
+///         integrated_crossing(self, mode, x, search, TOLERANCES)
 ///     }
 /// }
 ///
 /// let start = Vector2::new(2.0, 0.0);
-/// let landing = Ball { drag: 0.5 }.first_crossing((), &start, 9.0, None)?.expect("it falls");
+/// let landing = Ball { drag: 0.5 }.first_crossing((), &start, &Search::up_to(9.0))?.crossing().expect("it falls");
 /// // From height h the ball lands with v² = (1 − e^(−2kh))/k.
 /// assert!((landing.state[1].powi(2) - 2.0 * (1.0 - (-2f64).exp())).abs() < 1e-11);
 /// # Ok::<(), Error>(())
@@ -141,12 +152,23 @@ pub fn integrated_crossing<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     start: &State<N>,
-    horizon: f64,
+    request: &Search<T::Surface>,
     tolerances: Tolerances,
-) -> Result<Option<Crossing<T::Surface, N>>, Error>
+) -> Result<NextEvent<T::Surface, State<N>>, Error>
 where
-    T: VectorField<N> + ?Sized,
+    T: HybridSystem<State = State<N>> + ?Sized,
 {
-    let field = |_: f64, state: &State<N>| system.vector_field(mode, state);
-    search(system, mode, start, horizon, field, tolerances)
+    let field = field_of(system, mode);
+    search(system, mode, start, request, field, tolerances)
+}
+
+/// f of a mode. Its components are NaN where the model gives no field.
+fn field_of<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+) -> impl Fn(f64, &T::State) -> T::State + '_ {
+    move |_, state| {
+        let outside = || state.from_fn_like(|_| f64::NAN);
+        system.vector_field(mode, state).unwrap_or_else(outside)
+    }
 }
