@@ -95,6 +95,8 @@ pub(crate) struct ZeroSearch {
     /// The error of `level`.
     level_error: f64,
     hidden: Option<Hidden>,
+    /// The last crossing was found before the function had left its start clearly.
+    left_hidden: bool,
 }
 
 impl ZeroSearch {
@@ -109,6 +111,7 @@ impl ZeroSearch {
             level: 0.0,
             level_error: 0.0,
             hidden: None,
+            left_hidden: false,
         }
     }
 
@@ -156,10 +159,11 @@ impl ZeroSearch {
         self.side.filter(|_| !self.leaving && self.hidden.is_none())
     }
 
-    /// True if the function has not left the zero it started at.
+    /// True if the last crossing was found on the first interval that showed a side after the start at zero: rounding
+    /// hid how the function left its start, and that it came back.
     #[cfg(feature = "ode")]
-    pub(crate) fn is_leaving(&self) -> bool {
-        self.leaving
+    pub(crate) fn left_hidden(&self) -> bool {
+        self.left_hidden
     }
 
     /// Searches up to `until`. At the `horizon` no later stretch follows: a zero there, within rounding, is a crossing.
@@ -298,6 +302,7 @@ impl ZeroSearch {
             self.pass(function, right, side)?;
             return Ok(touch);
         }
+        self.left_hidden = self.leaving;
         let found = if self.direction.admits(side, sign) {
             // A stretch before this one is not known any more.
             let after = self.clear.max(from);
