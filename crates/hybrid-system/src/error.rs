@@ -163,4 +163,16 @@ pub enum Error {
         /// The components of the state.
         state: Vec<f64>,
     },
+    /// A list of preset times that does not rise.
+    #[error(
+        "preset time number {index} is {time}, after {before}: the times must be finite and rise strictly"
+    )]
+    BadClock {
+        /// Position in the list, from 0.
+        index: usize,
+        /// The time.
+        time: f64,
+        /// The time before it; −∞ for the first one.
+        before: f64,
+    },
 }

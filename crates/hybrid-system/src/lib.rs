@@ -93,6 +93,7 @@
 //! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
 mod arc;
+mod clock;
 mod crossing;
 mod error;
 mod execution;
@@ -104,9 +105,11 @@ mod sensitivity;
 mod simultaneous;
 mod state;
 mod system;
+mod time_sum;
 mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
+pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
     Certainty, Crossing, Enclosure, FirstCrossing, QuasiPolynomial, bracketed_root,
     golden_section_minimum,
