@@ -102,6 +102,7 @@ mod guard;
 mod ode;
 mod searched;
 mod sensitivity;
+mod series_fit;
 mod simultaneous;
 mod state;
 mod system;
