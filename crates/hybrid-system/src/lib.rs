@@ -15,8 +15,9 @@
 //! | [`Enclosure`] | bounds on a guard, given by the model |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
+//! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
-//! | [`VectorField`], `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
+//! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
 //! | [`bracketed_root`], [`golden_section_minimum`] | Brent's method between two values of opposite sign; the minimum of a function of one variable |
@@ -32,7 +33,8 @@
 //!
 //! struct Ball { restitution: f64 }
 //!
-//! impl HybridSystem<2> for Ball {
+//! impl HybridSystem for Ball {
+//!     type State = State<2>;
 //!     type Mode = ();
 //!     type Surface = Floor;
 //!     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -44,7 +46,7 @@
 //!     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
 //!         x[0]
 //!     }
-//!     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
+//!     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), State<2>> {
 //!         Reset::Jump { mode: (), state: Vector2::new(0.0, -self.restitution * x[1]) }
 //!     }
 //! }
@@ -93,8 +95,10 @@
 //! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
 mod arc;
+mod chain;
 mod clock;
 mod crossing;
+mod durations;
 mod error;
 mod execution;
 mod guard;
@@ -103,7 +107,8 @@ mod ode;
 mod searched;
 mod sensitivity;
 mod series_fit;
-mod simultaneous;
+mod sliding;
+mod start_rule;
 mod state;
 mod system;
 mod time_sum;
@@ -112,20 +117,21 @@ mod zeno;
 pub use arc::{Arc, ArcEnd, Event};
 pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
-    Certainty, Crossing, Enclosure, FirstCrossing, QuasiPolynomial, bracketed_root,
-    golden_section_minimum,
+    Certainty, Crossing, Enclosure, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
+    Search, bracketed_root, golden_section_minimum,
 };
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
-pub use guard::{Direction, Guard};
+pub use guard::{Direction, Guard, Role, Touch};
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
 };
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
-pub use state::State;
-pub use system::{HybridSystem, Reset, VectorField};
+pub use sliding::Sliding;
+pub use state::{State, StateVector};
+pub use system::{HybridSystem, Reset, default_search};
 pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]

@@ -37,7 +37,7 @@ impl TimeSum {
     }
 
     /// The nearest double.
-    pub(crate) fn value(self) -> f64 {
+    pub(crate) const fn value(self) -> f64 {
         self.high
     }
 
@@ -47,6 +47,11 @@ impl TimeSum {
         let (high, low) = fast_two_sum(sum, self.low + rest);
         // The rest of an infinite sum is ∞ − ∞.
         if high.is_finite() { TimeSum { high, low } } else { TimeSum::new(self.high + duration) }
+    }
+
+    /// The duration from this time to the time `later`, rounded once or twice.
+    pub(crate) fn until(self, later: f64) -> f64 {
+        TimeSum::new(later).since(self)
     }
 
     /// The duration from `earlier` to this time, rounded once or twice.
