@@ -223,4 +223,16 @@ pub enum Error {
         /// Its components.
         state: Vec<f64>,
     },
+    /// A list of preset times that does not rise.
+    #[error(
+        "preset time number {index} is {time}, after {before}: the times must be finite and rise strictly"
+    )]
+    BadClock {
+        /// Position in the list, from 0.
+        index: usize,
+        /// The time.
+        time: f64,
+        /// The time before it; −∞ for the first one.
+        before: f64,
+    },
 }

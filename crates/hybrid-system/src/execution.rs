@@ -129,7 +129,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The next arc. The state of the execution moves to the end of the arc.
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
-        if let Some(limit) = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, false) {
+        if let Some(limit) = self.at.history.zeno_limit(false) {
             return Ok(self.zeno_arc(limit));
         }
         // The time of an event at the limit may be rounded up beyond it.
@@ -142,7 +142,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 | Error::UndecidedSign { .. }
                 | Error::Grazing { .. }),
             ) => {
-                let limit = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, true);
+                let limit = self.at.history.zeno_limit(true);
                 return limit.map(|limit| self.zeno_arc(limit)).ok_or(hidden);
             }
             found => found?,
@@ -290,7 +290,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         self.at.initial = false;
         match after {
             Some((mode, state)) => {
-                self.at.history.push(duration, state.clone());
+                self.at.history.push(duration, time_error, time, state.clone());
                 (self.at.mode, self.at.state) = (mode, state);
             }
             None => {
@@ -376,18 +376,17 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
     /// gives a mode.
     fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
-        let now = self.at.time.value();
-        if limit.time > self.limits.time {
+        let horizon = self.at.time.until(self.limits.time).max(0.0);
+        if limit.remainder > horizon {
             self.stop = Some(Stop::TimeLimit);
             let certainty = Certainty::Exact;
-            return self
-                .new_arc((self.limits.time - now).max(0.0), ArcEnd::TimeLimit { certainty });
+            return self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
         }
         let after = self.system.rest(self.at.mode, &limit.state);
-        let (time, state) = (limit.time, limit.state.clone());
+        let (remainder, state) = (limit.remainder, limit.state.clone());
         let end = ArcEnd::Zeno { limit, after: after.clone() };
-        let arc = self.new_arc((time - now).max(0.0), end);
-        self.at.time = TimeSum::new(time);
+        let arc = self.new_arc(remainder, end);
+        self.at.time = self.at.time.plus(remainder);
         self.at.jump += 1;
         self.at.initial = false;
         self.at.history.clear();

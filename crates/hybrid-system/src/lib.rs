@@ -15,6 +15,7 @@
 //! | [`Enclosure`] | bounds on a guard, given by the model |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
+//! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
@@ -95,7 +96,9 @@
 
 mod arc;
 mod chain;
+mod clock;
 mod crossing;
+mod durations;
 mod error;
 mod execution;
 mod guard;
@@ -103,6 +106,7 @@ mod guard;
 mod ode;
 mod searched;
 mod sensitivity;
+mod series_fit;
 mod sliding;
 mod start_rule;
 mod state;
@@ -111,6 +115,7 @@ mod time_sum;
 mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
+pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
     Certainty, Crossing, Enclosure, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
     Search, bracketed_root, golden_section_minimum,
