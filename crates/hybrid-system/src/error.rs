@@ -235,4 +235,30 @@ pub enum Error {
         /// The time before it; −∞ for the first one.
         before: f64,
     },
+    /// A sliding motion that starts beside its surface.
+    #[error(
+        "a sliding motion cannot start beside its surface {surface}: the guard is {value:e}, and its rounding error \
+         is below {largest:e}; start in a free mode"
+    )]
+    OffSurface {
+        /// Name of the surface.
+        surface: String,
+        /// The value of its guard.
+        value: f64,
+        /// The largest value that counts as zero.
+        largest: f64,
+    },
+    /// A sliding motion that has more than one continuation.
+    #[error(
+        "the motion along surface {surface} is not unique from time {time} of its arc on: {reason}; the model must \
+         have a mode for it"
+    )]
+    SlidingNotUnique {
+        /// Name of the surface.
+        surface: String,
+        /// Time since the start of the arc.
+        time: f64,
+        /// The reason.
+        reason: &'static str,
+    },
 }

@@ -159,7 +159,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                     return Ok(self.arc_without_event(horizon, None, certainty));
                 }
                 if crossing.kind == EventKind::AtStart
-                    && let Some(sliding) = self.sliding(crossing.surface)?
+                    && let Some(sliding) = self.sliding(crossing.surface)
                 {
                     return Ok(self.sliding_arc(sliding));
                 }
@@ -344,17 +344,19 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     }
 
     /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
-    fn sliding(
-        &self,
-        surface: T::Surface,
-    ) -> Result<Option<Sliding<T::Mode, T::Surface, T::State>>, Error> {
+    fn sliding(&self, surface: T::Surface) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
+        let last = self.at.chain.last();
+        // A crossing of another surface says nothing about the distance from this one.
+        let of_last = |arrival: &&Arrival<T::Surface, T::State>| {
+            last.is_some_and(|(_, surface)| surface == arrival.surface())
+        };
         let at = AtOnce {
             mode: self.at.mode,
             surface,
             state: &self.at.state,
             time: self.at.time.value(),
-            last: self.at.chain.last(),
-            before: self.at.arrival.as_ref().map(Arrival::before),
+            last,
+            before: self.at.arrival.as_ref().filter(of_last).map(Arrival::before),
         };
         sliding_point(self.system, &at)
     }

@@ -131,6 +131,8 @@ pub use ode::{
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use sliding::Sliding;
+#[cfg(feature = "ode")]
+pub use sliding::{Filippov, FilippovMode, FilippovSurface};
 pub use state::{State, StateVector};
 pub use system::{HybridSystem, Reset, default_search};
 pub use zeno::ZenoLimit;
