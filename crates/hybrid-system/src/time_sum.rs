@@ -2,6 +2,7 @@
 
 /// A time as the sum of two doubles, high + low with |low| ≤ ½ ulp(high): some 106 bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct TimeSum {
     high: f64,
     low: f64,

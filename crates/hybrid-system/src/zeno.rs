@@ -62,6 +62,7 @@ const LONGEST_LAST_ARC: f64 = 1e-3;
 
 /// The last arcs: their durations, and the states after them, the newest last.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct History<X> {
     durations: [f64; KEPT],
     states: [Option<X>; KEPT],
@@ -79,6 +80,12 @@ impl<X: StateVector> History<X> {
         self.states.rotate_left(1);
         (self.durations[KEPT - 1], self.states[KEPT - 1]) = (duration, Some(after));
         self.arcs = (self.arcs + 1).min(KEPT);
+    }
+
+    /// True if all components of its states are finite.
+    #[cfg(feature = "serde")]
+    pub(crate) fn is_finite(&self) -> bool {
+        self.states.iter().flatten().all(StateVector::is_finite)
     }
 
     pub(crate) fn clear(&mut self) {
