@@ -243,9 +243,8 @@ impl Durations {
             let marked = (0..MARKS - FEWEST_PERIODS).filter_map(|dropped| {
                 let number = MARKS.min(self.marked).checked_sub(dropped)?.min(USUAL_PERIODS);
                 let periods = self.marked_periods(period, dropped, number)?;
-                let fit = geometric(&periods, HIDDEN_SPREAD).or_else(|| {
-                    power_law(&periods).filter(|fit| fit.order <= LARGEST_ORDER)
-                })?;
+                let fit = geometric(&periods, HIDDEN_SPREAD)
+                    .or_else(|| power_law(&periods).filter(|fit| fit.order <= LARGEST_ORDER))?;
                 self.accepted(fit, &periods, period, LARGEST_REMAINDER)
             });
             recent.chain(marked).min_by(|a, b| a.error.total_cmp(&b.error))

@@ -261,4 +261,23 @@ pub enum Error {
         /// The reason.
         reason: &'static str,
     },
+    /// Two guards of one mode have the same surface: their events could not be told apart.
+    #[error("surface {surface} has two guards in one mode: give each of them a name of its own")]
+    SurfaceTwice {
+        /// Name of the surface.
+        surface: String,
+    },
+    /// Guards of different modes have the same surface and different functions.
+    #[error(
+        "surface {surface} has two guard functions, with values {first} and {second} at one state: give each of them a \
+         name of its own, or use the same function"
+    )]
+    TwoGuardFunctions {
+        /// Name of the surface.
+        surface: String,
+        /// The value of one function at the start of an arc.
+        first: f64,
+        /// The value of another one there.
+        second: f64,
+    },
 }

@@ -4,17 +4,14 @@ use super::directional::slope_along;
 use super::filippov_modes::GuardTable;
 use super::rates::sizes;
 use super::sliding_field::{onto_surface, sliding_field};
-use crate::ode::Tolerances;
 use crate::crossing::guard_rounding;
+use crate::ode::Tolerances;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 
 /// ∇g of a surface of the model.
-type Gradient<T> = fn(
-    &T,
-    <T as HybridSystem>::Surface,
-    &<T as HybridSystem>::State,
-) -> <T as HybridSystem>::State;
+type Gradient<T> =
+    fn(&T, <T as HybridSystem>::Surface, &<T as HybridSystem>::State) -> <T as HybridSystem>::State;
 
 pub struct Filippov<T: HybridSystem> {
     pub(super) system: T,

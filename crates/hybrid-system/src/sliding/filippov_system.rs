@@ -5,7 +5,7 @@ use super::detection::same_surface;
 use super::filippov::{Filippov, Sides};
 use super::filippov_modes::{FilippovMode, FilippovSurface};
 use super::sliding_point::Sliding;
-use crate::crossing::{Crossing, Enclosure, NextEvent, QuasiPolynomial, Search, Leaving};
+use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
 use crate::ode::{integrated_crossing, integrated_flow};
@@ -101,8 +101,7 @@ impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippo
         &self,
         sliding: &Sliding<Self::Mode, Self::Surface, T::State>,
     ) -> Option<(Self::Mode, T::State)> {
-        let (FilippovMode::Free(below), FilippovMode::Free(above)) =
-            (sliding.below, sliding.above)
+        let (FilippovMode::Free(below), FilippovMode::Free(above)) = (sliding.below, sliding.above)
         else {
             return None;
         };
@@ -265,7 +264,9 @@ impl<T: HybridSystem<State = State<N>>, const N: usize> Filippov<T> {
                         after_crossing(self, (sides, partner), other, &crossing.state)
                             .map_err(|reason| not_unique(crossing.time, reason.0))?;
                     }
-                    FilippovSurface::Tangent { .. } if self.both_tangent(sides, &crossing.state) => {
+                    FilippovSurface::Tangent { .. }
+                        if self.both_tangent(sides, &crossing.state) =>
+                    {
                         return Err(not_unique(crossing.time, "both fields are tangent"));
                     }
                     FilippovSurface::Tangent { .. } => {}
