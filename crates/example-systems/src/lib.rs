@@ -6,4 +6,6 @@
 //!
 //! A system that is needed in only one place is in the `examples` folder of its crate.
 
+pub mod eccentric_cylinder;
+pub mod forced_oscillator;
 pub mod valve;
