@@ -109,8 +109,8 @@ impl EccentricCylinder {
         let (sin, cos) = f_sincos(phi);
         let lever = self.eccentricity * sin;
         let inertia = self.radius_of_gyration * self.radius_of_gyration;
-        let impulse = -(1.0 + self.restitution) * (x[1] - lever * x[3])
-            / (1.0 + lever * lever / inertia);
+        let impulse =
+            -(1.0 + self.restitution) * (x[1] - lever * x[3]) / (1.0 + lever * lever / inertia);
         Vector4::new(
             1.0 - self.eccentricity * cos,
             x[1] + impulse,

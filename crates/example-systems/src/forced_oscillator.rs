@@ -70,7 +70,7 @@ impl ForcedOscillator {
     }
 }
 
-impl Linearized for ForcedOscillator {
+impl Linearized<5> for ForcedOscillator {
     fn field_jacobian(&self, _: (), z: &State<5>) -> SMatrix<f64, 5, 5> {
         let (x, y) = (z[0], z[2]);
         let forcing = self.amplitude * self.frequency * f_cos(self.frequency * z[4]);

@@ -5,10 +5,10 @@
 //! with samples and by integration, and its exact result is known.
 
 use hybrid_system::{
-    Error, Guard, HybridSystem, NextEvent, QuasiPolynomial, Reset, Search, State,
-    Tolerances, Touch, default_search, integrated_crossing, integrated_flow,
+    Error, Guard, HybridSystem, NextEvent, QuasiPolynomial, Reset, Search, State, Tolerances,
+    Touch, default_search, integrated_crossing, integrated_flow,
 };
-use nalgebra::{SVector, vector};
+use nalgebra::SVector;
 
 /// Tolerances of the integrated runs. The flows are polynomials of degree two, which every step gives exactly.
 const TOLERANCES: Tolerances = Tolerances::both(1e-10);
@@ -124,7 +124,7 @@ pub const SECOND_PAIR: u8 = 1;
 /// Newton's cradle: three equal elastic balls on a line. Positions x₁ ≤ x₂ ≤ x₃, without the diameters; velocities.
 /// Balls that meet swap their velocities.
 pub const CRADLE: Scene<6> = Scene {
-    field: |_, x| vector![x[3], x[4], x[5], 0.0, 0.0, 0.0],
+    field: |_, x| State::from([x[3], x[4], x[5], 0.0, 0.0, 0.0]),
     second: uniform,
     guards: &[&[Guard::falling(FIRST_PAIR), Guard::falling(SECOND_PAIR)]],
     plane: |surface| {
@@ -143,7 +143,7 @@ pub const CRADLE: Scene<6> = Scene {
 
 /// Ball 1 comes with velocity 1. Balls 2 and 3 touch.
 pub fn cradle_start() -> State<6> {
-    vector![-1.0, 0.0, 0.0, 1.0, 0.0, 0.0]
+    State::from([-1.0, 0.0, 0.0, 1.0, 0.0, 0.0])
 }
 
 /// The floor below the lower ball.
@@ -154,19 +154,19 @@ pub const BETWEEN: u8 = 1;
 /// A ball on top of another one, elastic, under gravity 1. The lower ball has twice the mass. State: heights y₁ ≤ y₂,
 /// without the diameters; velocities.
 pub const STACK: Scene<4> = Scene {
-    field: |_, x| vector![x[2], x[3], -1.0, -1.0],
-    second: |_| vector![-1.0, -1.0, 0.0, 0.0],
+    field: |_, x| State::from([x[2], x[3], -1.0, -1.0]),
+    second: |_| State::from([-1.0, -1.0, 0.0, 0.0]),
     guards: &[&[Guard::falling(FLOOR), Guard::falling(BETWEEN)]],
     plane: |surface| match surface {
-        FLOOR => (vector![1.0, 0.0, 0.0, 0.0], 0.0),
-        _ => (vector![-1.0, 1.0, 0.0, 0.0], 0.0),
+        FLOOR => (State::from([1.0, 0.0, 0.0, 0.0]), 0.0),
+        _ => (State::from([-1.0, 1.0, 0.0, 0.0]), 0.0),
     },
     reset: |_, surface, x| match surface {
-        FLOOR => (0, vector![x[0], x[1], -x[2], x[3]]),
+        FLOOR => (0, State::from([x[0], x[1], -x[2], x[3]])),
         // Both velocities are mirrored at that of the centre of mass.
         _ => {
             let center = (2.0 * x[2] + x[3]) / 3.0;
-            (0, vector![x[0], x[1], 2.0 * center - x[2], 2.0 * center - x[3]])
+            (0, State::from([x[0], x[1], 2.0 * center - x[2], 2.0 * center - x[3]]))
         }
     },
     by: By::Signal,
@@ -179,23 +179,25 @@ pub const ABOVE: u8 = 1;
 
 /// A relay with a drift: ẋ = −sgn x + 0.3, ẏ = 1 above and −1 below. The state is left where the surface is crossed.
 pub const RELAY: Scene<2> = Scene {
-    field: |mode, _| if mode == BELOW { vector![1.3, -1.0] } else { vector![-0.7, 1.0] },
+    field: |mode, _| {
+        if mode == BELOW { State::from([1.3, -1.0]) } else { State::from([-0.7, 1.0]) }
+    },
     second: uniform,
     guards: &[&[Guard::rising(0)], &[Guard::falling(0)]],
-    plane: |_| (vector![1.0, 0.0], 0.0),
+    plane: |_| (State::from([1.0, 0.0]), 0.0),
     reset: |mode, _, x| (if mode == BELOW { ABOVE } else { BELOW }, *x),
     by: By::Signal,
 };
 
 /// The same relay with resets that put x to 0 exactly.
 pub const SNAPPING_RELAY: Scene<2> = Scene {
-    reset: |mode, _, x| (if mode == BELOW { ABOVE } else { BELOW }, vector![0.0, x[1]]),
+    reset: |mode, _, x| (if mode == BELOW { ABOVE } else { BELOW }, State::from([0.0, x[1]])),
     ..RELAY
 };
 
 /// ẋ = 1 in six modes. Each of the first five leaves at x = 1, by a surface of its own. The sixth has no guard.
 pub const FIVE_MODES: Scene<1> = Scene {
-    field: |_, _| vector![1.0],
+    field: |_, _| State::from([1.0]),
     second: uniform,
     guards: &[
         &[Guard::rising(0)],
@@ -204,7 +206,7 @@ pub const FIVE_MODES: Scene<1> = Scene {
         &[Guard::rising(3)],
         &[Guard::rising(4)],
     ],
-    plane: |_| (vector![1.0], 1.0),
+    plane: |_| (State::from([1.0]), 1.0),
     reset: |mode, _, x| (mode + 1, *x),
     by: By::Signal,
 };
@@ -212,17 +214,17 @@ pub const FIVE_MODES: Scene<1> = Scene {
 /// ẋ = 1. Mode 0 is left at x = 1, mode 1 at x = ½: the jump into mode 1 leads beyond its surface.
 pub const PAST_GUARD: Scene<1> = Scene {
     guards: &[&[Guard::rising(0)], &[Guard::rising(1)]],
-    plane: |surface| (vector![1.0], if surface == 0 { 1.0 } else { 0.5 }),
+    plane: |surface| (State::from([1.0]), if surface == 0 { 1.0 } else { 0.5 }),
     ..FIVE_MODES
 };
 
 /// A ball over a floor at 0, under gravity 1, that keeps half of its speed. State: height and velocity.
 pub const BALL: Scene<2> = Scene {
-    field: |_, x| vector![x[1], -1.0],
-    second: |_| vector![-1.0, 0.0],
+    field: |_, x| State::from([x[1], -1.0]),
+    second: |_| State::from([-1.0, 0.0]),
     guards: &[&[Guard::falling(FLOOR)]],
-    plane: |_| (vector![1.0, 0.0], 0.0),
-    reset: |_, _, x| (0, vector![x[0].max(0.0), -0.5 * x[1]]),
+    plane: |_| (State::from([1.0, 0.0]), 0.0),
+    reset: |_, _, x| (0, State::from([x[0].max(0.0), -0.5 * x[1]])),
     by: By::Signal,
 };
 
@@ -235,15 +237,15 @@ pub const ZERO: u8 = 1;
 /// puts x to 5.
 pub const LEAP: Scene<1> = Scene {
     guards: &[&[Guard::rising(TOP), Guard::falling(ZERO)]],
-    plane: |surface| (vector![1.0], if surface == TOP { 15.0 } else { 0.0 }),
-    reset: |_, surface, _| (0, vector![if surface == TOP { -20.0 } else { 5.0 }]),
+    plane: |surface| (State::from([1.0]), if surface == TOP { 15.0 } else { 0.0 }),
+    reset: |_, surface, _| (0, State::from([if surface == TOP { -20.0 } else { 5.0 }])),
     ..FIVE_MODES
 };
 
 /// The same with an observer at x = 0. Its reset changes nothing.
 pub const WATCHED_LEAP: Scene<1> = Scene {
     guards: &[&[Guard::rising(TOP), Guard::either(ZERO).observer()]],
-    reset: |_, surface, x| (0, if surface == TOP { vector![-20.0] } else { *x }),
+    reset: |_, surface, x| (0, if surface == TOP { State::from([-20.0]) } else { *x }),
     ..LEAP
 };
 
@@ -251,7 +253,7 @@ pub const WATCHED_LEAP: Scene<1> = Scene {
 /// beyond both surfaces.
 pub const ENDLESS: Scene<1> = Scene {
     guards: &[&[Guard::rising(0)], &[Guard::falling(1)]],
-    plane: |surface| (vector![1.0], if surface == 0 { 1.0 } else { 3.0 }),
+    plane: |surface| (State::from([1.0]), if surface == 0 { 1.0 } else { 3.0 }),
     reset: |mode, _, x| (1 - mode, *x),
     ..FIVE_MODES
 };
@@ -259,8 +261,8 @@ pub const ENDLESS: Scene<1> = Scene {
 /// A ball under gravity 1 below a ceiling at 2. State: height and velocity. A touch of the ceiling is an error.
 pub const CEILING: Scene<2> = Scene {
     guards: &[&[Guard::rising(0)]],
-    plane: |_| (vector![1.0, 0.0], 2.0),
-    reset: |_, _, x| (0, vector![x[0], -x[1]]),
+    plane: |_| (State::from([1.0, 0.0]), 2.0),
+    reset: |_, _, x| (0, State::from([x[0], -x[1]])),
     ..BALL
 };
 
@@ -274,5 +276,5 @@ pub const IGNORED_CEILING: Scene<2> =
 
 /// Thrown upwards with velocity 2, the ball just reaches the ceiling at t = 2.
 pub fn throw() -> State<2> {
-    vector![0.0, 2.0]
+    State::from([0.0, 2.0])
 }

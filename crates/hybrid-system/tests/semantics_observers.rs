@@ -106,9 +106,9 @@ fn all_crossings_are_found<G: Fn(&State<2>) -> f64>(guard_of: impl Fn([f64; 3]) 
             let system = Circle { guard, guards: [Guard::either(()).observer()], integrated };
             let limits = Limits::sampled(LENGTH, 1000, 0.02);
             let first = Vector2::new(start.cos(), start.sin());
-            let arcs: Result<Vec<_>, Error> =
-                Execution::new(&system, (), first, limits).collect();
-            let arcs = arcs.unwrap_or_else(|error| panic!("{:?}, {integrated}: {error}", [a, b, c]));
+            let arcs: Result<Vec<_>, Error> = Execution::new(&system, (), first, limits).collect();
+            let arcs =
+                arcs.unwrap_or_else(|error| panic!("{:?}, {integrated}: {error}", [a, b, c]));
             let found = arcs.iter().filter_map(Arc::event).count();
             assert_eq!(found, crossings, "{:?}, integrated: {integrated}", [a, b, c]);
         }

@@ -114,7 +114,8 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let elastic = EccentricCylinder { restitution: 1.0, ..CYLINDER };
     let rolling = EccentricCylinder { rolling_resistance: 0.1, ..CYLINDER };
     let (bouncing, kept, resting) = (arcs(&CYLINDER)?, arcs(&elastic)?, arcs(&rolling)?);
-    let contact = bouncing.iter().find(|arc| arc.mode == Mode::Contact).map_or(LONG, |arc| arc.time);
+    let contact =
+        bouncing.iter().find(|arc| arc.mode == Mode::Contact).map_or(LONG, |arc| arc.time);
 
     let mut svg = Svg::new(690.0, 450.0);
     draw_motion(&mut svg, &bouncing)?;
@@ -147,11 +148,9 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     });
     energy.axes(&mut svg, &ticks(energy.x, 4), &ticks(energy.y, 4), "time $t$", "energy $E$");
     svg.text(energy.left, energy.top - 9.0, Anchor::Start, 12.5, "energy");
-    for (time, value, label) in [
-        (8.0, 2.06, "$e$ = 1"),
-        (13.2, 1.06, "$e$ = 0.8"),
-        (14.6, 0.83, "with rolling resistance"),
-    ] {
+    for (time, value, label) in
+        [(8.0, 2.06, "$e$ = 1"), (13.2, 1.06, "$e$ = 0.8"), (14.6, 0.83, "with rolling resistance")]
+    {
         let at = energy.at((time, value));
         svg.text(at.0, at.1, Anchor::Start, 11.0, label);
     }

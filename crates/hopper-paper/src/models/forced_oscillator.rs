@@ -79,9 +79,16 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let plane = Frame::linear(52.0, 30.0, 280.0, 280.0, X, VELOCITY);
     svg.image(plane.left, plane.top, plane.width, plane.height, &png);
     plane.axes(&mut svg, &ticks(X, 4), &ticks(VELOCITY, 8), "$x$", "velocity $u$ = d$x$/d$t$");
-    svg.text(plane.left, plane.top - 10.0, Anchor::Start, 12.5, "the attractor in $y$ = 0, once a period");
+    svg.text(
+        plane.left,
+        plane.top - 10.0,
+        Anchor::Start,
+        12.5,
+        "the attractor in $y$ = 0, once a period",
+    );
 
-    let fates = Frame::linear(408.0, 30.0, 264.0, 280.0, (0.0, PERIODS as f64), (1e-12, 1e2)).log_y();
+    let fates =
+        Frame::linear(408.0, 30.0, 264.0, 280.0, (0.0, PERIODS as f64), (1e-12, 1e2)).log_y();
     let orbits = [distances(STARTS[0])?, distances(STARTS[1])?];
     fates.clipped(&mut svg, |svg| {
         for (orbit, color) in orbits.iter().zip(COLORS) {

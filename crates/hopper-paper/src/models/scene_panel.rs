@@ -1,17 +1,12 @@
 //! A panel that shows an execution: components against time, with events, resets and errors.
 
 use example_systems::scenes::Scene;
-use hybrid_system::{
-    Arc, ArcEnd, Error, EventKind, Execution, HybridSystem, Limits, State,
-};
+use hybrid_system::{Arc, ArcEnd, Error, EventKind, Execution, HybridSystem, Limits, State};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, ticks};
 
 /// The components, in order. They differ in lightness and in dashes.
-const CURVES: [Pen; 3] = [
-    Pen::solid("#10386e", 1.8),
-    Pen::solid("#d0702b", 1.8),
-    Pen::solid("#22a672", 1.8),
-];
+const CURVES: [Pen; 3] =
+    [Pen::solid("#10386e", 1.8), Pen::solid("#d0702b", 1.8), Pen::solid("#22a672", 1.8)];
 const RESET: Pen = Pen::dashed("#555", 1.0, "3 2.5");
 const SURFACE: Pen = Pen::solid("#777", 0.8);
 const FORBIDDEN: &str = "#e4e4e0";
@@ -94,9 +89,8 @@ impl Panel {
     }
 
     fn mark(&mut self, at: Point, marker: Marker) {
-        let near = |dot: &&mut (Point, usize, Marker)| {
-            (dot.0.0 - at.0).abs() < SAME_DOT * self.duration
-        };
+        let near =
+            |dot: &&mut (Point, usize, Marker)| (dot.0.0 - at.0).abs() < SAME_DOT * self.duration;
         match self.events.iter_mut().find(near) {
             Some(dot) => dot.1 += 1,
             None => self.events.push((at, 1, marker)),
@@ -122,7 +116,8 @@ impl Panel {
                 }
                 Err(Error::Grazing { time: elapsed, .. }) => {
                     self.motion(scene, (mode, time, &state), elapsed, components);
-                    self.errors.push((time + elapsed, scene.flow(mode, &state, elapsed)[components[0]]));
+                    self.errors
+                        .push((time + elapsed, scene.flow(mode, &state, elapsed)[components[0]]));
                 }
                 Err(_) => self.errors.push((time, state[components[0]])),
             }
