@@ -2,8 +2,8 @@
 //! package).
 
 use hybrid_system::{
-    Certainty, Crossing, Error, Event, Execution, Guard, HybridSystem, Limits, Reset, State,
-    Tolerances, VectorField, integrated_crossing, integrated_flow,
+    Crossing, Error, Event, Execution, Guard, HybridSystem, Limits, NextEvent, Reset, Search,
+    State, Tolerances, integrated_crossing, integrated_flow,
 };
 use nalgebra::{SVector, Vector2, Vector3};
 use return_map::Section;
@@ -47,20 +47,8 @@ pub struct Valve {
     pub flow_rate: f64,
 }
 
-impl VectorField<3> for Valve {
-    fn vector_field(&self, mode: Mode, y: &State<3>) -> State<3> {
-        match mode {
-            Mode::Open => Vector3::new(
-                y[1],
-                y[2] - LOAD - y[0] - DAMPING * y[1],
-                FILLING * (self.flow_rate - y[0] * y[2].sqrt()),
-            ),
-            Mode::Closed => Vector3::new(0.0, 0.0, FILLING * self.flow_rate),
-        }
-    }
-}
-
-impl HybridSystem<3> for Valve {
+impl HybridSystem for Valve {
+    type State = State<3>;
     type Mode = Mode;
     type Surface = Surface;
 
@@ -74,7 +62,12 @@ impl HybridSystem<3> for Valve {
     fn guards(&self, mode: Mode) -> &[Guard<Surface>] {
         match mode {
             Mode::Open => {
-                const { &[Guard::falling(Surface::Seat), Guard::falling(Surface::TurningPoint)] }
+                const {
+                    &[
+                        Guard::falling(Surface::Seat),
+                        Guard::falling(Surface::TurningPoint).observer(),
+                    ]
+                }
             }
             Mode::Closed => const { &[Guard::rising(Surface::Release)] },
         }
@@ -88,7 +81,7 @@ impl HybridSystem<3> for Valve {
         }
     }
 
-    fn reset(&self, _: Mode, surface: Surface, y: &State<3>) -> Reset<Mode, 3> {
+    fn reset(&self, _: Mode, surface: Surface, y: &State<3>) -> Reset<Mode, State<3>> {
         let state = match surface {
             Surface::Seat => Vector3::new(0.0, -RESTITUTION * y[1], y[2]),
             Surface::TurningPoint => *y,
@@ -106,22 +99,27 @@ impl HybridSystem<3> for Valve {
         &self,
         mode: Mode,
         y: &State<3>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<Surface, 3>>, Error> {
+        search: &Search<Surface>,
+    ) -> Result<NextEvent<Surface, State<3>>, Error> {
         match mode {
-            Mode::Open => integrated_crossing(self, mode, y, horizon, TOLERANCES),
+            Mode::Open => integrated_crossing(self, mode, y, search, TOLERANCES),
             Mode::Closed => {
                 let time = (LOAD - y[2]) / (FILLING * self.flow_rate);
                 let state = Vector3::new(0.0, 0.0, LOAD);
-                Ok((time <= horizon).then_some(Crossing {
-                    surface: Surface::Release,
-                    time: time.max(0.0),
-                    state,
-                    certainty: Certainty::Exact,
-                }))
+                let crossing = Crossing::exact(Surface::Release, time.max(0.0), state);
+                Ok((time <= search.horizon).then_some(crossing).into())
             }
         }
+    }
+    fn vector_field(&self, mode: Mode, y: &State<3>) -> Option<State<3>> {
+        Some(match mode {
+            Mode::Open => Vector3::new(
+                y[1],
+                y[2] - LOAD - y[0] - DAMPING * y[1],
+                FILLING * (self.flow_rate - y[0] * y[2].sqrt()),
+            ),
+            Mode::Closed => Vector3::new(0.0, 0.0, FILLING * self.flow_rate),
+        })
     }
 }
 
@@ -133,7 +131,7 @@ impl Section<Valve, 3, 2> for TurningPoints {
     fn point(&self, y: &SVector<f64, 2>) -> (Mode, State<3>) {
         (Mode::Open, Vector3::new(y[0], 0.0, y[1]))
     }
-    fn coordinates(&self, event: &Event<Mode, Surface, 3>) -> Option<SVector<f64, 2>> {
+    fn coordinates(&self, event: &Event<Mode, Surface, State<3>>) -> Option<SVector<f64, 2>> {
         (event.surface == Surface::TurningPoint)
             .then(|| Vector2::new(event.before[0], event.before[2]))
     }

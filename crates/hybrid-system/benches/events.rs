@@ -8,10 +8,10 @@ use nalgebra::Vector2;
 use std::hint::black_box;
 
 /// A harmonic oscillator whose zeros are events.
-struct Swing(Search);
+struct Swing(Bounds);
 
 #[derive(Clone, Copy, PartialEq)]
-enum Search {
+enum Bounds {
     QuasiPolynomial,
     Enclosure,
     Samples,
@@ -19,7 +19,8 @@ enum Search {
 
 const TOLERANCES: Tolerances = Tolerances::both(1e-10);
 
-impl HybridSystem<2> for Swing {
+impl HybridSystem for Swing {
+    type State = State<2>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -33,7 +34,7 @@ impl HybridSystem<2> for Swing {
         x[0]
     }
     fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<2>) -> Option<QuasiPolynomial> {
-        (self.0 == Search::QuasiPolynomial)
+        (self.0 == Bounds::QuasiPolynomial)
             .then(|| QuasiPolynomial::cosine(x[0], 1.0) + QuasiPolynomial::sine(x[1], 1.0))
     }
     fn guard_enclosure(
@@ -44,7 +45,7 @@ impl HybridSystem<2> for Swing {
         order: u32,
         (from, to): (f64, f64),
     ) -> Option<Enclosure> {
-        if self.0 != Search::Enclosure {
+        if self.0 != Bounds::Enclosure {
             return None;
         }
         // |x⁽ᵏ⁺¹⁾| is at most the amplitude: x⁽ᵏ⁾ changes by no more than amplitude · time. 1e-15 is for rounding.
@@ -52,7 +53,7 @@ impl HybridSystem<2> for Swing {
         let value = [middle[0], middle[1], -middle[0]].get(order as usize).copied()?;
         Some(Enclosure::around(value, x.norm() * (0.5 * (to - from) + 1e-15)))
     }
-    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: *x }
     }
 }
@@ -60,13 +61,8 @@ impl HybridSystem<2> for Swing {
 /// The same oscillator, integrated.
 struct Integrated;
 
-impl VectorField<2> for Integrated {
-    fn vector_field(&self, _: (), x: &State<2>) -> State<2> {
-        Vector2::new(x[1], -x[0])
-    }
-}
-
-impl HybridSystem<2> for Integrated {
+impl HybridSystem for Integrated {
+    type State = State<2>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, mode: (), x: &State<2>, t: f64) -> State<2> {
@@ -78,25 +74,27 @@ impl HybridSystem<2> for Integrated {
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: *x }
     }
     fn first_crossing(
         &self,
         mode: (),
         x: &State<2>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<(), 2>>, Error> {
-        integrated_crossing(self, mode, x, horizon, TOLERANCES)
+        search: &Search<()>,
+    ) -> Result<NextEvent<(), State<2>>, Error> {
+        integrated_crossing(self, mode, x, search, TOLERANCES)
+    }
+    fn vector_field(&self, _: (), x: &State<2>) -> Option<State<2>> {
+        Some(Vector2::new(x[1], -x[0]))
     }
 }
 
 fn zeros(criterion: &mut Criterion) {
     for (name, search) in [
-        ("quasi-polynomial", Search::QuasiPolynomial),
-        ("enclosure", Search::Enclosure),
-        ("samples", Search::Samples),
+        ("quasi-polynomial", Bounds::QuasiPolynomial),
+        ("enclosure", Bounds::Enclosure),
+        ("samples", Bounds::Samples),
     ] {
         criterion.bench_function(&format!("ten zeros of a swing: {name}"), |bencher| {
             let swing = Swing(search);

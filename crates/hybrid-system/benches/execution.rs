@@ -12,7 +12,8 @@ struct Floor;
 
 struct Ball;
 
-impl HybridSystem<2> for Ball {
+impl HybridSystem for Ball {
+    type State = State<2>;
     type Mode = ();
     type Surface = Floor;
     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -24,7 +25,7 @@ impl HybridSystem<2> for Ball {
     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
         x[0]
     }
-    fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: Vector2::new(0.0, -x[1]) }
     }
 }

@@ -1,50 +1,75 @@
 //! Arcs and events: the pieces of an execution.
 
-use crate::crossing::Certainty;
+use crate::crossing::{Certainty, EventKind};
 use crate::error::Error;
-use crate::state::State;
+use crate::sliding::Sliding;
+use crate::state::StateVector;
 use crate::system::HybridSystem;
 use crate::zeno::ZenoLimit;
 
 /// A jump between two arcs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Event<M, S, const N: usize> {
+pub struct Event<M, S, X> {
     /// The surface that was crossed.
     pub surface: S,
     /// Continuous time t of the event.
     pub time: f64,
+    /// The error of the duration of the arc before the event: a bound for closed forms, an estimate from the tolerances
+    /// for integrated flows. Errors of earlier events are not contained.
+    pub time_error: f64,
+    /// True if the limit on time lies within `time_error` of the event.
+    pub at_time_limit: bool,
     /// Number of jumps before this one, j.
     pub jump: usize,
     /// The state before the jump, x⁻.
-    pub before: State<N>,
+    pub before: X,
     /// Mode and state after the jump, (m⁺, x⁺); `None` if the execution ends here.
-    pub after: Option<(M, State<N>)>,
+    pub after: Option<(M, X)>,
+    /// A crossing, a touch, an event at once, or a preset time.
+    pub kind: EventKind,
     /// How certain it is that no event came before.
     pub certainty: Certainty,
 }
 
 /// How an arc ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum ArcEnd<M, S, const N: usize> {
+pub enum ArcEnd<M, S, X> {
     /// The arc ends in an event.
-    Event(Event<M, S, N>),
+    Event(Event<M, S, X>),
     /// The arc ends in a Zeno limit. It replaces infinitely many arcs, each shorter than the one before.
     Zeno {
         /// Time and state of the limit.
-        limit: ZenoLimit<N>,
+        limit: ZenoLimit<X>,
         /// Mode and state after the limit; `None` if the model gives none.
-        after: Option<(M, State<N>)>,
+        after: Option<(M, X)>,
     },
-    /// The arc reaches the limit on time, without an event. Whether an event may have been missed depends on how the
-    /// guards of the mode are searched, see [`Certainty`].
-    TimeLimit,
+    /// The arc ends on a surface at which the fields on both sides point.
+    Sliding {
+        /// The point, with the fields.
+        sliding: Sliding<M, S, X>,
+        /// Mode and state in which the execution continues; `None` if the model gives none.
+        after: Option<(M, X)>,
+    },
+    /// The arc reaches the limit on time, without an event.
+    TimeLimit {
+        /// How certain it is that there was no event.
+        certainty: Certainty,
+    },
     /// The arc does not end: no event follows, and there is no limit on time.
-    Never,
+    Never {
+        /// How certain it is that there is no event.
+        certainty: Certainty,
+    },
+    /// A budget of the search ended, without an event so far. The execution can go on.
+    Unfinished {
+        /// How certain it is that there was no event.
+        certainty: Certainty,
+    },
 }
 
 /// A piece of continuous motion in one mode, between two events.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Arc<M, S, const N: usize> {
+pub struct Arc<M, S, X> {
     /// The mode.
     pub mode: M,
     /// Continuous time t at which the arc starts.
@@ -52,35 +77,35 @@ pub struct Arc<M, S, const N: usize> {
     /// Number of jumps before the arc, j; (t, j) is the hybrid time.
     pub jump: usize,
     /// The state at the start.
-    pub start: State<N>,
+    pub start: X,
     /// Duration; infinite if the arc [never](ArcEnd::Never) ends.
     pub duration: f64,
     /// How it ends.
-    pub end: ArcEnd<M, S, N>,
+    pub end: ArcEnd<M, S, X>,
 }
 
-impl<M: Copy, S: Copy, const N: usize> Arc<M, S, N> {
+impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
     /// The state at `elapsed` time after the start of the arc, by the flow of `system`.
     ///
     /// # Errors
     /// [`Error::StateNotFinite`] where the flow is not defined.
-    pub fn state<T>(&self, system: &T, elapsed: f64) -> Result<State<N>, Error>
+    pub fn state<T>(&self, system: &T, elapsed: f64) -> Result<X, Error>
     where
-        T: HybridSystem<N, Mode = M, Surface = S>,
+        T: HybridSystem<State = X, Mode = M, Surface = S>,
     {
         let state = system.flow(self.mode, &self.start, elapsed);
-        if state.iter().all(|component| component.is_finite()) {
+        if state.is_finite() {
             return Ok(state);
         }
         let (time, jumps) = (self.time + elapsed, self.jump);
-        Err(Error::StateNotFinite { time, jumps, state: state.iter().copied().collect() })
+        Err(Error::StateNotFinite { time, jumps, state: state.components().to_vec() })
     }
 
     /// The event that ends the arc; `None` if the arc ends in another way.
-    pub fn event(&self) -> Option<&Event<M, S, N>> {
+    pub fn event(&self) -> Option<&Event<M, S, X>> {
         match &self.end {
             ArcEnd::Event(event) => Some(event),
-            ArcEnd::Zeno { .. } | ArcEnd::TimeLimit | ArcEnd::Never => None,
+            _ => None,
         }
     }
 }

@@ -100,12 +100,48 @@ pub enum Error {
         value: f64,
     },
     /// Too many events in a row without time passing.
-    #[error("{events} events in a row at time {time}: the resets lead back to each other")]
+    #[error(
+        "{events} events in a row at time {time}, and the resets lead back to each other: {cycle}. Let a reset move the \
+         state away from the surface, or declare a guard that only watches an observer"
+    )]
     TimelessChain {
         /// Time of the events.
         time: f64,
         /// Number of events.
         events: usize,
+        /// The last events, as mode ─surface→ mode, up to one period of the cycle.
+        cycle: String,
+    },
+    /// An execution starts beyond a surface, where its mode cannot flow.
+    #[error(
+        "the start is beyond the surface {surface} of mode {mode}: the guard is {value}, with a rounding error of \
+         {rounding}. Start on the other side, or declare the guard an observer"
+    )]
+    StartsBeyond {
+        /// Name of the mode.
+        mode: String,
+        /// Name of the surface.
+        surface: String,
+        /// Value of the guard.
+        value: f64,
+        /// Its rounding error.
+        rounding: f64,
+    },
+    /// A model without a vector field where one is needed.
+    #[error("mode {mode} has no vector field: implement HybridSystem::vector_field")]
+    NoVectorField {
+        /// Name of the mode.
+        mode: String,
+    },
+    /// A vector of another dimension than the state.
+    #[error("{what} has {found} components, and the state has {expected}")]
+    Dimension {
+        /// The vector.
+        what: &'static str,
+        /// Number of components of the state.
+        expected: usize,
+        /// Number of components of the vector.
+        found: usize,
     },
     /// A guard is crossed too slowly for a derivative: nearby orbits may miss the event.
     #[error(

@@ -1,33 +1,50 @@
 //! Executions: arcs and events in hybrid time, one after the other.
 
 use crate::arc::{Arc, ArcEnd, Event};
-use crate::crossing::{Certainty, Crossing};
+use crate::chain::Chain;
+use crate::crossing::{Certainty, Crossing, EventKind, MOST_INTERVALS, NextEvent, Search};
 use crate::error::Error;
-use crate::simultaneous::{also_at_surface, next_at_same_instant};
-use crate::state::State;
-use crate::system::{HybridSystem, Reset};
+use crate::guard::Role;
+use crate::sliding::{AtOnce, Sliding, sliding_point};
+use crate::start_rule::{Arrival, LeavingGuards, Start, start_of_arc};
+use crate::state::StateVector;
+use crate::system::{FlowFrom, HybridSystem, Reset};
+use crate::time_sum::TimeSum;
 use crate::zeno::{History, ZenoLimit};
 
 /// Limits of an execution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Largest continuous time; may be infinite if the model solves its own crossings.
+    /// Largest continuous time t; may be infinite if the model solves its own crossings.
     pub time: f64,
     /// Largest number of events.
     pub events: usize,
     /// The interval at which guards without bounds are sampled.
     pub sampling_interval: Option<f64>,
+    /// The most intervals that the search for one event tests under bounds.
+    pub intervals: usize,
+    /// The most steps of the integrated flow of one arc. After them the arc ends with
+    /// [`ArcEnd::Unfinished`](crate::ArcEnd::Unfinished), and the execution can go on.
+    pub steps: usize,
 }
 
 impl Limits {
     /// Limits for models whose guards need no samples.
     pub const fn new(time: f64, events: usize) -> Self {
-        Limits { time, events, sampling_interval: None }
+        Limits {
+            time,
+            events,
+            sampling_interval: None,
+            intervals: MOST_INTERVALS,
+            steps: usize::MAX,
+        }
     }
 
     /// The same with a sampling interval for guards without bounds.
     pub const fn sampled(time: f64, events: usize, interval: f64) -> Self {
-        Limits { time, events, sampling_interval: Some(interval) }
+        let mut limits = Limits::new(time, events);
+        limits.sampling_interval = Some(interval);
+        limits
     }
 }
 
@@ -44,52 +61,64 @@ pub enum Stop {
     NoFurtherEvent,
     /// The events have a Zeno limit, and the model gives no mode after it.
     Zeno,
+    /// The fields on both sides of a surface point at it, and the model gives no mode there.
+    Sliding,
+    /// A budget of the search for the next event ended. The execution can go on.
+    Unfinished,
     /// An error was returned.
     Failed,
 }
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
-/// The iterator ends at a limit, at a terminal event, at a Zeno limit after which the model gives no mode, when no
-/// event can follow, or after an error. [`stop`](Self::stop) returns which.
+/// The iterator ends at a limit, at a terminal event, at a Zeno limit or a sliding surface after which the model gives no
+/// mode, when no event can follow, or after an error. [`stop`](Self::stop) returns which.
 #[derive(Debug, Clone)]
-pub struct Execution<'a, T: HybridSystem<N>, const N: usize> {
-    system: &'a T,
-    limits: Limits,
-    mode: T::Mode,
-    state: State<N>,
-    time: f64,
-    jump: usize,
-    stop: Option<Stop>,
-    history: History<N>,
-    /// Number of events in a row between which no time passed.
-    timeless: usize,
-    /// Surfaces that the state reached at the same instant as the last crossed surface.
-    pending: Vec<T::Surface>,
+pub struct Execution<'a, T: HybridSystem> {
+    pub(crate) system: &'a T,
+    pub(crate) limits: Limits,
+    pub(crate) stop: Option<Stop>,
+    pub(crate) at: Point<T::Mode, T::Surface, T::State>,
 }
 
-/// Most events in a row without time passing. Where several guards are crossed together, there is about one for each
-/// guard; many more mean that the resets lead back to each other. The execution then ends with
-/// [`Error::TimelessChain`]. The number is far above the guards of a model, and a thousand resets take no noticeable
-/// time. A model with more surfaces in one point would be refused.
-const MOST_TIMELESS: usize = 1000;
+/// Everything that decides how an execution goes on.
+#[derive(Debug, Clone)]
+pub(crate) struct Point<M, S, X> {
+    pub(crate) mode: M,
+    pub(crate) state: X,
+    pub(crate) time: TimeSum,
+    /// Number of events so far, j.
+    pub(crate) jump: usize,
+    /// False after the first arc.
+    pub(crate) initial: bool,
+    pub(crate) history: History<X>,
+    /// The events since time has passed for the last time.
+    pub(crate) chain: Chain<M, S>,
+    /// The last crossing, if no time has passed since.
+    pub(crate) arrival: Option<Arrival<S, X>>,
+}
 
-impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
+impl<'a, T: HybridSystem> Execution<'a, T> {
     /// Starts in `mode` from `state` at hybrid time (0, 0).
-    pub fn new(system: &'a T, mode: T::Mode, state: State<N>, limits: Limits) -> Self {
-        let history = History::new();
-        Execution {
-            system,
-            limits,
+    pub fn new(system: &'a T, mode: T::Mode, state: T::State, limits: Limits) -> Self {
+        let at = Point {
             mode,
             state,
-            time: 0.0,
+            time: TimeSum::new(0.0),
             jump: 0,
-            stop: None,
-            history,
-            timeless: 0,
-            pending: Vec::new(),
-        }
+            initial: true,
+            history: History::new(),
+            chain: Chain::new(),
+            arrival: None,
+        };
+        Execution { system, limits, stop: None, at }
+    }
+
+    /// The same execution from another start time t. The limit on time is a continuous time t, not a duration.
+    #[must_use]
+    pub fn starting_at(mut self, time: f64) -> Self {
+        self.at.time = TimeSum::new(time);
+        self
     }
 
     /// Why the execution ended; `None` while it continues.
@@ -98,156 +127,320 @@ impl<'a, T: HybridSystem<N>, const N: usize> Execution<'a, T, N> {
     }
 
     /// The next arc. The state of the execution moves to the end of the arc.
-    fn arc(&mut self) -> Result<Arc<T::Mode, T::Surface, N>, Error> {
-        if !(self.limits.time >= 0.0) {
-            return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
-        }
-        self.check_state()?;
-        if let Some(limit) = self.history.zeno_limit(self.time, self.jump, false) {
+    fn arc(&mut self) -> Result<AnArc<T>, Error> {
+        self.check()?;
+        if let Some(limit) = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, false) {
             return Ok(self.zeno_arc(limit));
         }
         // The time of an event at the limit may be rounded up beyond it.
-        let horizon = (self.limits.time - self.time).max(0.0);
-        let crossing = match self.at_same_instant(horizon) {
-            Some(crossing) => Some(crossing),
-            None => match self.search(horizon) {
-                // After many short bounces rounding hides the next one. If the durations form a geometric series, this
-                // is a Zeno limit.
-                Err(
-                    hidden @ (Error::UndecidedStart { .. }
-                    | Error::UndecidedSign { .. }
-                    | Error::Grazing { .. }),
-                ) => {
-                    let limit = self.history.zeno_limit(self.time, self.jump, true);
-                    return limit.map(|limit| self.zeno_arc(limit)).ok_or(hidden);
-                }
-                other => other?,
-            },
-        };
-        // The `first_crossing` of a model may return any time.
-        if let Some(crossing) = crossing.filter(|crossing| !(crossing.time >= 0.0)) {
-            return Err(Error::BadLimit { what: "the time of a crossing", value: crossing.time });
-        }
-        let mut arc = Arc {
-            mode: self.mode,
-            time: self.time,
-            jump: self.jump,
-            start: self.state,
-            duration: horizon,
-            end: if horizon.is_finite() { ArcEnd::TimeLimit } else { ArcEnd::Never },
-        };
-        match crossing.filter(|crossing| crossing.time <= horizon) {
-            Some(crossing) => {
-                arc.duration = crossing.time;
-                if crossing.time > 0.0 {
-                    self.pending =
-                        also_at_surface(self.system, &arc, crossing.surface, &crossing.state);
-                } else {
-                    // This event is at the same instant as the last one: the other surfaces stay pending.
-                    self.pending.retain(|&surface| surface != crossing.surface);
-                }
-                let time = self.time + crossing.time;
-                let after = match self.system.reset(self.mode, crossing.surface, &crossing.state) {
-                    Reset::Jump { mode, state } => Some((mode, state)),
-                    Reset::Stop => None,
-                };
-                arc.end = ArcEnd::Event(Event {
-                    surface: crossing.surface,
-                    time,
-                    jump: self.jump,
-                    before: crossing.state,
-                    after,
-                    certainty: crossing.certainty,
-                });
-                self.timeless = if time > self.time { 0 } else { self.timeless + 1 };
-                if self.timeless > MOST_TIMELESS {
-                    return Err(Error::TimelessChain { time, events: self.timeless });
-                }
-                self.time = time;
-                self.jump += 1;
-                match after {
-                    Some((mode, state)) => {
-                        self.history.push(crossing.time, state);
-                        (self.mode, self.state) = (mode, state);
-                    }
-                    None => self.stop = Some(Stop::Terminal),
-                }
+        let horizon = self.at.time.until(self.limits.time).max(0.0);
+        let found = match self.next_event(horizon) {
+            // After many short bounces rounding hides the next one. If the durations form a geometric series, this is a
+            // Zeno limit.
+            Err(
+                hidden @ (Error::UndecidedStart { .. }
+                | Error::UndecidedSign { .. }
+                | Error::Grazing { .. }),
+            ) => {
+                let limit = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, true);
+                return limit.map(|limit| self.zeno_arc(limit)).ok_or(hidden);
             }
-            None if horizon.is_finite() => self.stop = Some(Stop::TimeLimit),
-            None => self.stop = Some(Stop::NoFurtherEvent),
+            found => found?,
+        };
+        match found {
+            NextEvent::Crossing(crossing) => {
+                // The `first_crossing` of a model may return any time.
+                if !(crossing.time >= 0.0) || !(crossing.time_error >= 0.0) {
+                    let what = "the time of a crossing, or its error,";
+                    return Err(Error::BadLimit { what, value: crossing.time });
+                }
+                if crossing.time > horizon + crossing.time_error {
+                    let certainty = crossing.certainty;
+                    return Ok(self.arc_without_event(horizon, None, certainty));
+                }
+                if crossing.kind == EventKind::AtStart
+                    && let Some(sliding) = self.sliding(crossing.surface)?
+                {
+                    return Ok(self.sliding_arc(sliding));
+                }
+                self.event_arc(crossing, horizon)
+            }
+            NextEvent::None { state, certainty } => {
+                Ok(self.arc_without_event(horizon, state, certainty))
+            }
+            NextEvent::Unfinished { time, state, certainty } => {
+                let end = ArcEnd::Unfinished { certainty };
+                let arc = self.new_arc(time, end);
+                self.stop = Some(Stop::Unfinished);
+                self.advance(time, state);
+                Ok(arc)
+            }
+        }
+    }
+
+    /// The next event: at once, at a preset time, or the first crossing.
+    fn next_event(&self, horizon: f64) -> Result<NextEvent<T::Surface, T::State>, Error> {
+        let Point { mode, ref state, ref time, ref arrival, initial, .. } = self.at;
+        let flow = FlowFrom { system: self.system, mode, start: state };
+        let mut leaving = LeavingGuards::new();
+        let start = start_of_arc(&flow, arrival.as_ref(), initial, horizon, &mut leaving)?;
+        if let Start::Event { surface, certainty } = start {
+            return Ok(NextEvent::Crossing(Crossing {
+                surface,
+                time: 0.0,
+                time_error: 0.0,
+                state: state.clone(),
+                kind: EventKind::AtStart,
+                certainty,
+            }));
+        }
+        let clock = self.next_clock(horizon);
+        let search = Search {
+            horizon: clock.map_or(horizon, |(_, until)| until),
+            sampling_interval: self.limits.sampling_interval,
+            intervals: self.limits.intervals,
+            steps: self.limits.steps,
+            time: time.value(),
+            leaving: &leaving,
+        };
+        let found = self.system.first_crossing(mode, state, &search)?;
+        match (found, clock) {
+            (NextEvent::None { state: end, certainty }, Some((surface, until))) => {
+                Ok(NextEvent::Crossing(Crossing {
+                    surface,
+                    time: until,
+                    time_error: 0.0,
+                    state: end.unwrap_or_else(|| flow_to(&flow, until)),
+                    kind: EventKind::Clock,
+                    certainty,
+                }))
+            }
+            (found, _) => Ok(found),
+        }
+    }
+
+    /// The clock with the earliest preset time, and the duration up to it, if that is no longer than `horizon`.
+    fn next_clock(&self, horizon: f64) -> Option<(T::Surface, f64)> {
+        let now = self.at.time.value();
+        let guards = self.system.guards(self.at.mode).iter();
+        let mut earliest: Option<(T::Surface, f64)> = None;
+        for guard in guards.filter(|guard| guard.role == Role::Clock) {
+            // A clock whose time is now, and that has not had its event yet, must not be lost.
+            let had_its_event = self.at.initial || self.at.chain.contains(guard.surface);
+            let after = if had_its_event { now } else { now.next_down() };
+            let Some(next) = self.system.next_time(self.at.mode, guard.surface, after) else {
+                continue;
+            };
+            let until = self.at.time.until(next).max(0.0);
+            if until <= horizon && earliest.is_none_or(|(_, first)| until < first) {
+                earliest = Some((guard.surface, until));
+            }
+        }
+        earliest
+    }
+
+    /// An arc that ends in an event.
+    fn event_arc(
+        &mut self,
+        crossing: Crossing<T::Surface, T::State>,
+        horizon: f64,
+    ) -> Result<AnArc<T>, Error> {
+        let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
+        let before = self.at.time.value();
+        let time = self.at.time.plus(duration);
+        let time_passes = time.value() > before;
+        if time_passes {
+            self.at.chain.clear();
+        }
+        self.at.chain.push(self.at.mode, surface);
+        self.at.chain.check(time.value())?;
+        let after = match self.system.reset(self.at.mode, surface, &state) {
+            Reset::Jump { mode, state: after } => {
+                check_dimension("the state after a reset", &state, &after)?;
+                Some((mode, after))
+            }
+            Reset::Stop => None,
+        };
+        let end = ArcEnd::Event(Event {
+            surface,
+            time: time.value(),
+            time_error,
+            at_time_limit: (horizon - duration).abs() <= time_error,
+            jump: self.at.jump,
+            before: state.clone(),
+            after: after.clone(),
+            kind,
+            certainty,
+        });
+        let arc = self.new_arc(duration, end);
+        match kind {
+            EventKind::Crossing | EventKind::Touch => {
+                let flow =
+                    FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+                let arrival = Arrival::new(&flow, surface, &state, (duration, time_error));
+                self.at.arrival = Some(arrival);
+            }
+            EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
+                Some(arrival) if !time_passes => arrival.passed(surface),
+                arrival => *arrival = None,
+            },
+        }
+        self.at.time = time;
+        self.at.jump += 1;
+        self.at.initial = false;
+        match after {
+            Some((mode, state)) => {
+                self.at.history.push(duration, state.clone());
+                (self.at.mode, self.at.state) = (mode, state);
+            }
+            None => {
+                self.at.state = state;
+                self.stop = Some(Stop::Terminal);
+            }
         }
         Ok(arc)
     }
 
-    fn search(&self, horizon: f64) -> Result<Option<Crossing<T::Surface, N>>, Error> {
-        let interval = self.limits.sampling_interval;
-        self.system.first_crossing(self.mode, &self.state, horizon, interval)
+    /// An arc up to the limit on time, or for ever.
+    fn arc_without_event(
+        &mut self,
+        horizon: f64,
+        end: Option<T::State>,
+        certainty: Certainty,
+    ) -> AnArc<T> {
+        if !horizon.is_finite() {
+            self.stop = Some(Stop::NoFurtherEvent);
+            return self.new_arc(horizon, ArcEnd::Never { certainty });
+        }
+        let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
+        self.stop = Some(Stop::TimeLimit);
+        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+        let state = end.unwrap_or_else(|| flow_to(&flow, horizon));
+        self.advance(horizon, state);
+        arc
     }
 
-    /// The next event at the same instant as the last one.
-    fn at_same_instant(&mut self, horizon: f64) -> Option<Crossing<T::Surface, N>> {
-        if self.pending.is_empty() {
-            return None;
+    /// Moves on to a state without an event.
+    fn advance(&mut self, duration: f64, state: T::State) {
+        if duration > 0.0 {
+            self.at.time = self.at.time.plus(duration);
+            self.at.state = state;
+            self.at.chain.clear();
+            self.at.arrival = None;
+            self.at.initial = false;
         }
-        let surface =
-            next_at_same_instant(self.system, self.mode, &self.state, &self.pending, horizon);
-        if surface.is_none() {
-            self.pending.clear();
-        }
-        let (state, certainty) = (self.state, Certainty::Certain);
-        surface.map(|surface| Crossing { surface, time: 0.0, state, certainty })
     }
 
-    /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
-    /// gives a mode.
-    fn zeno_arc(&mut self, limit: ZenoLimit<N>) -> Arc<T::Mode, T::Surface, N> {
-        if limit.time > self.limits.time {
-            self.stop = Some(Stop::TimeLimit);
-            return Arc {
-                mode: self.mode,
-                time: self.time,
-                jump: self.jump,
-                start: self.state,
-                duration: (self.limits.time - self.time).max(0.0),
-                end: ArcEnd::TimeLimit,
-            };
+    /// An arc from the present state.
+    fn new_arc(&self, duration: f64, end: ArcEnd<T::Mode, T::Surface, T::State>) -> AnArc<T> {
+        Arc {
+            mode: self.at.mode,
+            time: self.at.time.value(),
+            jump: self.at.jump,
+            start: self.at.state.clone(),
+            duration,
+            end,
         }
-        let after = self.system.rest(self.mode, &limit.state);
-        let arc = Arc {
-            mode: self.mode,
-            time: self.time,
-            jump: self.jump,
-            start: self.state,
-            duration: (limit.time - self.time).max(0.0),
-            end: ArcEnd::Zeno { limit, after },
+    }
+
+    /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
+    fn sliding(
+        &self,
+        surface: T::Surface,
+    ) -> Result<Option<Sliding<T::Mode, T::Surface, T::State>>, Error> {
+        let at = AtOnce {
+            mode: self.at.mode,
+            surface,
+            state: &self.at.state,
+            time: self.at.time.value(),
+            last: self.at.chain.last(),
+            before: self.at.arrival.as_ref().map(Arrival::before),
         };
-        self.time = limit.time;
-        self.jump += 1;
-        self.history.clear();
+        sliding_point(self.system, &at)
+    }
+
+    /// The arc of no duration that ends on a sliding surface. The execution continues after it if the model gives a mode.
+    fn sliding_arc(&mut self, sliding: Sliding<T::Mode, T::Surface, T::State>) -> AnArc<T> {
+        let after = self.system.slide(&sliding);
+        let arc = self.new_arc(0.0, ArcEnd::Sliding { sliding, after: after.clone() });
+        self.at.jump += 1;
+        self.at.initial = false;
+        self.at.history.clear();
         match after {
-            Some((mode, state)) => (self.mode, self.state) = (mode, state),
-            None => self.stop = Some(Stop::Zeno),
+            Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),
+            None => self.stop = Some(Stop::Sliding),
         }
         arc
     }
 
-    fn check_state(&self) -> Result<(), Error> {
-        if self.state.iter().all(|component| component.is_finite()) {
+    /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
+    /// gives a mode.
+    fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
+        let now = self.at.time.value();
+        if limit.time > self.limits.time {
+            self.stop = Some(Stop::TimeLimit);
+            let certainty = Certainty::Exact;
+            return self
+                .new_arc((self.limits.time - now).max(0.0), ArcEnd::TimeLimit { certainty });
+        }
+        let after = self.system.rest(self.at.mode, &limit.state);
+        let (time, state) = (limit.time, limit.state.clone());
+        let end = ArcEnd::Zeno { limit, after: after.clone() };
+        let arc = self.new_arc((time - now).max(0.0), end);
+        self.at.time = TimeSum::new(time);
+        self.at.jump += 1;
+        self.at.initial = false;
+        self.at.history.clear();
+        self.at.chain.clear();
+        self.at.arrival = None;
+        match after {
+            Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),
+            None => {
+                self.at.state = state;
+                self.stop = Some(Stop::Zeno);
+            }
+        }
+        arc
+    }
+
+    fn check(&self) -> Result<(), Error> {
+        if !(self.limits.time >= self.at.time.value()) {
+            return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
+        }
+        if self.at.state.is_finite() {
             return Ok(());
         }
-        let (time, jumps) = (self.time, self.jump);
-        Err(Error::StateNotFinite { time, jumps, state: self.state.iter().copied().collect() })
+        Err(Error::StateNotFinite {
+            time: self.at.time.value(),
+            jumps: self.at.jump,
+            state: self.at.state.components().to_vec(),
+        })
     }
 }
 
-impl<T: HybridSystem<N>, const N: usize> Iterator for Execution<'_, T, N> {
-    type Item = Result<Arc<T::Mode, T::Surface, N>, Error>;
+/// An arc of a system.
+type AnArc<T> =
+    Arc<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface, <T as HybridSystem>::State>;
+
+/// The state at a time of a flow; the start itself at time zero.
+fn flow_to<T: HybridSystem>(flow: &FlowFrom<T>, time: f64) -> T::State {
+    if time == 0.0 { flow.start.clone() } else { flow.system.flow(flow.mode, flow.start, time) }
+}
+
+/// An error unless a vector has the dimension of the state.
+fn check_dimension<X: StateVector>(what: &'static str, state: &X, other: &X) -> Result<(), Error> {
+    let (expected, found) = (state.dimension(), other.dimension());
+    if expected == found { Ok(()) } else { Err(Error::Dimension { what, expected, found }) }
+}
+
+impl<T: HybridSystem> Iterator for Execution<'_, T> {
+    type Item = Result<AnArc<T>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
         if self.stop.is_some() {
             return None;
         }
-        if self.jump >= self.limits.events {
+        if self.at.jump >= self.limits.events {
             self.stop = Some(Stop::EventLimit);
             return None;
         }

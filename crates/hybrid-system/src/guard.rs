@@ -1,4 +1,4 @@
-//! Guards: the surfaces that a mode searches, and the side from which a crossing counts.
+//! Guards: the surfaces that a mode searches, the side from which a crossing counts, and what else counts.
 
 /// The side from which a crossing counts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -29,28 +29,88 @@ impl Direction {
             Direction::Either => value != 0.0,
         }
     }
+
+    /// True if a state whose guard has this value is beyond the surface: on the side that only events reach. A guard that
+    /// counts both ways has no such side.
+    pub(crate) fn is_beyond(self, value: f64) -> bool {
+        self != Direction::Either && self.leads_to(value)
+    }
 }
 
-/// A switching surface and the direction in which crossing it is an event.
+/// The part that a guard plays in its mode.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// The surface bounds the flow of the mode: no state beyond it can flow. A start beyond it is an error; a jump to a
+    /// state beyond it is an event at once.
+    Switch,
+    /// The guard only watches, for example a Poincaré section. States on both sides can flow. A start on the surface or
+    /// beyond it is no event.
+    Observer,
+    /// The events happen at preset times, see [`HybridSystem::next_time`](crate::HybridSystem::next_time). The value of the
+    /// guard is not used.
+    Clock,
+}
+
+/// What happens where a guard touches its surface: it comes within rounding of zero and goes back to the side from which
+/// it came.
+///
+/// Rounding hides whether such a guard stays away, touches, or crosses twice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Touch {
+    /// The search returns [`Error::Grazing`](crate::Error::Grazing).
+    Error,
+    /// An event of the kind [`EventKind::Touch`](crate::EventKind::Touch).
+    Event,
+    /// No event: the search goes on behind the touch.
+    Ignore,
+}
+
+/// A switching surface, and what happens there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Guard<S> {
     /// The model's name of the surface {x : g(x) = 0}.
     pub surface: S,
     /// The direction in which a crossing is an event.
     pub direction: Direction,
+    /// The part that the guard plays.
+    pub role: Role,
+    /// What a touch is.
+    pub touch: Touch,
 }
 
 impl<S> Guard<S> {
-    /// An event when g goes from negative to positive.
+    const fn new(surface: S, direction: Direction, role: Role) -> Self {
+        Guard { surface, direction, role, touch: Touch::Error }
+    }
+    /// An event when g goes from negative to positive. The mode flows where g < 0.
     pub const fn rising(surface: S) -> Self {
-        Guard { surface, direction: Direction::Rising }
+        Self::new(surface, Direction::Rising, Role::Switch)
     }
-    /// An event when g goes from positive to negative.
+    /// An event when g goes from positive to negative. The mode flows where g > 0.
     pub const fn falling(surface: S) -> Self {
-        Guard { surface, direction: Direction::Falling }
+        Self::new(surface, Direction::Falling, Role::Switch)
     }
-    /// An event at every change of sign.
+    /// An event at every change of sign. The mode flows on both sides.
     pub const fn either(surface: S) -> Self {
-        Guard { surface, direction: Direction::Either }
+        Self::new(surface, Direction::Either, Role::Switch)
+    }
+    /// Events at preset times.
+    pub const fn clock(surface: S) -> Self {
+        Self::new(surface, Direction::Either, Role::Clock)
+    }
+}
+
+impl<S: Copy> Guard<S> {
+    /// The same guard as an observer: it watches, and the mode flows on both sides of the surface.
+    #[must_use]
+    pub const fn observer(mut self) -> Self {
+        self.role = Role::Observer;
+        self
+    }
+    /// The same guard with this treatment of touches.
+    #[must_use]
+    pub const fn touch(mut self, touch: Touch) -> Self {
+        self.touch = touch;
+        self
     }
 }

@@ -16,7 +16,7 @@
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
-//! | [`VectorField`], `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
+//! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
 //! | [`bracketed_root`], [`golden_section_minimum`] | Brent's method between two values of opposite sign; the minimum of a function of one variable |
@@ -32,7 +32,8 @@
 //!
 //! struct Ball { restitution: f64 }
 //!
-//! impl HybridSystem<2> for Ball {
+//! impl HybridSystem for Ball {
+//!     type State = State<2>;
 //!     type Mode = ();
 //!     type Surface = Floor;
 //!     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -44,7 +45,7 @@
 //!     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
 //!         x[0]
 //!     }
-//!     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
+//!     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), State<2>> {
 //!         Reset::Jump { mode: (), state: Vector2::new(0.0, -self.restitution * x[1]) }
 //!     }
 //! }
@@ -93,6 +94,7 @@
 //! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
 mod arc;
+mod chain;
 mod crossing;
 mod error;
 mod execution;
@@ -101,27 +103,30 @@ mod guard;
 mod ode;
 mod searched;
 mod sensitivity;
-mod simultaneous;
+mod sliding;
+mod start_rule;
 mod state;
 mod system;
+mod time_sum;
 mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
 pub use crossing::{
-    Certainty, Crossing, Enclosure, FirstCrossing, QuasiPolynomial, bracketed_root,
-    golden_section_minimum,
+    Certainty, Crossing, Enclosure, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
+    Search, bracketed_root, golden_section_minimum,
 };
 pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
-pub use guard::{Direction, Guard};
+pub use guard::{Direction, Guard, Role, Touch};
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
 };
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
-pub use state::State;
-pub use system::{HybridSystem, Reset, VectorField};
+pub use sliding::Sliding;
+pub use state::{State, StateVector};
+pub use system::{HybridSystem, Reset, default_search};
 pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]

@@ -1,7 +1,6 @@
 //! A system whose crossings are found by sampling, although it could solve for them.
 
 use crate::guard::Guard;
-use crate::state::State;
 use crate::system::{HybridSystem, Reset};
 
 /// A system with its flows, guards and resets only.
@@ -12,14 +11,12 @@ use crate::system::{HybridSystem, Reset};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Searched<T>(pub T);
 
-impl<T, const N: usize> HybridSystem<N> for Searched<T>
-where
-    T: HybridSystem<N>,
-{
+impl<T: HybridSystem> HybridSystem for Searched<T> {
+    type State = T::State;
     type Mode = T::Mode;
     type Surface = T::Surface;
 
-    fn flow(&self, mode: T::Mode, start: &State<N>, time: f64) -> State<N> {
+    fn flow(&self, mode: T::Mode, start: &T::State, time: f64) -> T::State {
         self.0.flow(mode, start, time)
     }
 
@@ -27,11 +24,16 @@ where
         self.0.guards(mode)
     }
 
-    fn guard_value(&self, surface: T::Surface, state: &State<N>) -> f64 {
+    fn guard_value(&self, surface: T::Surface, state: &T::State) -> f64 {
         self.0.guard_value(surface, state)
     }
 
-    fn reset(&self, mode: T::Mode, surface: T::Surface, before: &State<N>) -> Reset<T::Mode, N> {
+    fn reset(
+        &self,
+        mode: T::Mode,
+        surface: T::Surface,
+        before: &T::State,
+    ) -> Reset<T::Mode, T::State> {
         self.0.reset(mode, surface, before)
     }
 }

@@ -13,11 +13,11 @@
 use crate::arc::{Arc, ArcEnd, Event};
 use crate::error::Error;
 use crate::state::State;
-use crate::system::VectorField;
+use crate::system::HybridSystem;
 use nalgebra::{RowSVector, SMatrix};
 
 /// The derivatives of a hybrid system that sensitivities need.
-pub trait Differentiable<const N: usize>: VectorField<N> {
+pub trait Differentiable<const N: usize>: HybridSystem<State = State<N>> {
     /// ∂φ(t; x₀)/∂x₀.
     fn flow_jacobian(&self, mode: Self::Mode, start: &State<N>, time: f64) -> SMatrix<f64, N, N>;
 
@@ -49,7 +49,8 @@ const SMALLEST_RATE: f64 = 1e-12;
 /// struct Floor;
 /// /// A ball under unit gravity that keeps half of its speed.
 /// struct Ball;
-/// impl HybridSystem<2> for Ball {
+/// impl HybridSystem for Ball {
+///     type State = State<2>;
 ///     type Mode = ();
 ///     type Surface = Floor;
 ///     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -64,13 +65,11 @@ const SMALLEST_RATE: f64 = 1e-12;
 ///     fn guard_quasi_polynomial(&self, _: (), _: Floor, x: &State<2>) -> Option<QuasiPolynomial> {
 ///         Some(QuasiPolynomial::polynomial(&[x[0], x[1], -0.5]))
 ///     }
-///     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
+///     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), State<2>> {
 ///         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
 ///     }
-/// }
-/// impl VectorField<2> for Ball {
-///     fn vector_field(&self, _: (), x: &State<2>) -> State<2> {
-///         Vector2::new(x[1], -1.0)
+///     fn vector_field(&self, _: (), x: &State<2>) -> Option<State<2>> {
+///         Some(Vector2::new(x[1], -1.0))
 ///     }
 /// }
 /// impl Differentiable<2> for Ball {
@@ -98,7 +97,7 @@ const SMALLEST_RATE: f64 = 1e-12;
 /// [`Error::NoSensitivity`] for an arc that never ends or ends in a Zeno limit, and for a flow without a derivative.
 pub fn arc_sensitivity<T, const N: usize>(
     system: &T,
-    arc: &Arc<T::Mode, T::Surface, N>,
+    arc: &Arc<T::Mode, T::Surface, State<N>>,
 ) -> Result<SMatrix<f64, N, N>, Error>
 where
     T: Differentiable<N>,
@@ -111,7 +110,7 @@ where
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // Ξ = DR − (f⁺ − DR f⁻) ∂τ/∂x⁻: if the orbit arrives later by δτ, it moves longer by δτ before the event and
     // shorter by δτ after it.
-    let jump = system.vector_field(mode, &after) - reset * field_before;
+    let jump = field(system, mode, &after)? - reset * field_before;
     Ok((reset - jump * arrival) * along)
 }
 
@@ -124,7 +123,7 @@ where
 /// execution.
 pub fn event_sensitivity<T, const N: usize>(
     system: &T,
-    arc: &Arc<T::Mode, T::Surface, N>,
+    arc: &Arc<T::Mode, T::Surface, State<N>>,
 ) -> Result<(SMatrix<f64, N, N>, RowSVector<f64, N>), Error>
 where
     T: Differentiable<N>,
@@ -142,12 +141,13 @@ where
 /// Φ along the whole arc.
 fn transition<T, const N: usize>(
     system: &T,
-    arc: &Arc<T::Mode, T::Surface, N>,
+    arc: &Arc<T::Mode, T::Surface, State<N>>,
 ) -> Result<SMatrix<f64, N, N>, Error>
 where
     T: Differentiable<N>,
 {
-    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Zeno { .. }) {
+    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Zeno { .. } | ArcEnd::Sliding { .. })
+    {
         return Err(Error::NoSensitivity { time: arc.time });
     }
     let along = system.flow_jacobian(arc.mode, &arc.start, arc.duration);
@@ -157,17 +157,26 @@ where
     Err(Error::NoSensitivity { time: arc.time })
 }
 
+/// f(x) in `mode`.
+fn field<T, const N: usize>(system: &T, mode: T::Mode, state: &State<N>) -> Result<State<N>, Error>
+where
+    T: HybridSystem<State = State<N>>,
+{
+    let none = || Error::NoVectorField { mode: format!("{mode:?}") };
+    system.vector_field(mode, state).ok_or_else(none)
+}
+
 /// f⁻, and the derivative of the time of the event with respect to the state before it, −∇gᵀ/(∇g·f⁻).
 fn arrival<T, const N: usize>(
     system: &T,
     mode: T::Mode,
-    event: &Event<T::Mode, T::Surface, N>,
+    event: &Event<T::Mode, T::Surface, State<N>>,
 ) -> Result<(State<N>, RowSVector<f64, N>), Error>
 where
     T: Differentiable<N>,
 {
     let gradient = system.guard_gradient(event.surface, &event.before);
-    let field_before = system.vector_field(mode, &event.before);
+    let field_before = field(system, mode, &event.before)?;
     let rate = gradient.dot(&field_before);
     if !(rate.abs() > SMALLEST_RATE * gradient.norm() * field_before.norm()) {
         return Err(Error::GrazingSensitivity { time: event.time, rate });
@@ -181,7 +190,7 @@ where
 /// The errors of [`arc_sensitivity`].
 pub fn sensitivity<T, const N: usize>(
     system: &T,
-    arcs: &[Arc<T::Mode, T::Surface, N>],
+    arcs: &[Arc<T::Mode, T::Surface, State<N>>],
 ) -> Result<SMatrix<f64, N, N>, Error>
 where
     T: Differentiable<N>,

@@ -1,20 +1,23 @@
 //! The trait that a model implements.
 
-use crate::crossing::{Crossing, Enclosure, GuardedFlow, QuasiPolynomial, earliest_crossing};
+use crate::crossing::{
+    Enclosure, GuardedFlow, NextEvent, QuasiPolynomial, Search, earliest_crossing,
+};
 use crate::error::Error;
 use crate::guard::Guard;
-use crate::state::State;
+use crate::sliding::Sliding;
+use crate::state::StateVector;
 use std::fmt::Debug;
 
 /// The result of an event.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Reset<M, const N: usize> {
+pub enum Reset<M, X> {
     /// The execution continues in `mode` from `state`.
     Jump {
         /// The next mode.
         mode: M,
         /// The state after the jump, x⁺.
-        state: State<N>,
+        state: X,
     },
     /// The execution ends here.
     Stop,
@@ -26,7 +29,9 @@ pub enum Reset<M, const N: usize> {
 /// state. Four methods are required; parameters are fields of the implementing type. A model that can solve for its own
 /// crossings overrides [`first_crossing`](Self::first_crossing), and states in the result how certain it is. In a mode
 /// without closed form, `integrated_flow` and `integrated_crossing` (feature `ode`) provide both methods.
-pub trait HybridSystem<const N: usize> {
+pub trait HybridSystem {
+    /// The continuous state: [`State<N>`](crate::State), or `DVector<f64>` for a dimension that is chosen at run time.
+    type State: StateVector;
     /// The discrete states.
     type Mode: Copy + Eq + Debug;
     /// The names of the switching surfaces.
@@ -34,32 +39,83 @@ pub trait HybridSystem<const N: usize> {
 
     /// φ(t; x₀), the state after `time` ≥ 0 in `mode`, regardless of guards. A component is NaN where the flow is not
     /// defined.
-    fn flow(&self, mode: Self::Mode, start: &State<N>, time: f64) -> State<N>;
+    fn flow(&self, mode: Self::Mode, start: &Self::State, time: f64) -> Self::State;
 
     /// The guards of `mode`: only these surfaces are searched.
     ///
-    /// Of guards that are crossed at the same instant, within a few ulps, the one listed first is the event. Another
-    /// guard is an event at the same instant, after the first one, if the state after the first reset passes through
-    /// its surface.
+    /// Of guards that are crossed at the same instant, within the errors of the times, the one listed first is the event.
+    /// Another guard is an event at the same instant, after the first one, if the state after the first reset passes
+    /// through its surface.
     fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
 
     /// The function g whose zero set is the surface.
-    fn guard_value(&self, surface: Self::Surface, state: &State<N>) -> f64;
+    fn guard_value(&self, surface: Self::Surface, state: &Self::State) -> f64;
 
     /// Mode and state after the event, given the mode and state before it.
     fn reset(
         &self,
         mode: Self::Mode,
         surface: Self::Surface,
-        before: &State<N>,
-    ) -> Reset<Self::Mode, N>;
+        before: &Self::State,
+    ) -> Reset<Self::Mode, Self::State>;
 
     /// Mode and state after the Zeno limit of infinitely many events in `mode`. Example: after its bounces a ball is at
     /// rest. `limit` is the state at the limit.
     ///
     /// Default: `None`, and the execution ends at the limit.
-    fn rest(&self, mode: Self::Mode, limit: &State<N>) -> Option<(Self::Mode, State<N>)> {
+    fn rest(&self, mode: Self::Mode, limit: &Self::State) -> Option<(Self::Mode, Self::State)> {
         let _ = (mode, limit);
+        None
+    }
+
+    /// Mode and state on a surface at which the fields on both sides point: see [`Sliding`].
+    ///
+    /// Default: `None`, and the execution ends there.
+    fn slide(
+        &self,
+        sliding: &Sliding<Self::Mode, Self::Surface, Self::State>,
+    ) -> Option<(Self::Mode, Self::State)> {
+        let _ = sliding;
+        None
+    }
+
+    /// f(x) of ẋ = f(x) in `mode`. Integrated flows and derivatives through events need it, and so does the sliding field.
+    /// If the field depends on time, time is a component of the state with ṫ = 1.
+    ///
+    /// Default: `None`.
+    fn vector_field(&self, mode: Self::Mode, state: &Self::State) -> Option<Self::State> {
+        let _ = (mode, state);
+        None
+    }
+
+    /// A bound on the rounding error of [`guard_value`](Self::guard_value) by its own arithmetic, for an exact state.
+    ///
+    /// Default: `None`, and the error is measured.
+    fn guard_error(&self, surface: Self::Surface, state: &Self::State) -> Option<f64> {
+        let _ = (surface, state);
+        None
+    }
+
+    /// The side to which a guard leaves its zero at the start of an arc, ±1, or 0 if it stays there: the model's own
+    /// solution. It is asked only if the value of the guard is zero within its error.
+    ///
+    /// Default: `None`, and the side follows from the derivatives of the guard along the flow.
+    fn leaving_side(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        start: &Self::State,
+    ) -> Option<f64> {
+        let _ = (mode, surface, start);
+        None
+    }
+
+    /// For a guard with the role [`Role::Clock`](crate::Role::Clock): its first preset time strictly after the time
+    /// `after`. Both are continuous times t, not times since the start of an arc.
+    ///
+    /// Default: `None`, no further time.
+    fn next_time(&self, mode: Self::Mode, surface: Self::Surface, after: f64) -> Option<f64> {
+        let _ = (mode, surface, after);
         None
     }
 
@@ -71,7 +127,7 @@ pub trait HybridSystem<const N: usize> {
         &self,
         mode: Self::Mode,
         surface: Self::Surface,
-        start: &State<N>,
+        start: &Self::State,
     ) -> Option<QuasiPolynomial> {
         let _ = (mode, surface, start);
         None
@@ -88,7 +144,7 @@ pub trait HybridSystem<const N: usize> {
         &self,
         mode: Self::Mode,
         surface: Self::Surface,
-        start: &State<N>,
+        start: &Self::State,
         order: u32,
         (from, to): (f64, f64),
     ) -> Option<Enclosure> {
@@ -96,47 +152,66 @@ pub trait HybridSystem<const N: usize> {
         None
     }
 
-    /// The first crossing of a guard of `mode` strictly after `start`, no later than `horizon`. The horizon may be
-    /// infinite for a model that solves its crossings.
+    /// The first event of an arc strictly after its `start`. The horizon of the `search` may be infinite for a model that
+    /// solves its crossings.
     ///
-    /// Default: each guard is searched with the strongest information that the model gives. A guard with a
-    /// [quasi-polynomial](Self::guard_quasi_polynomial) or with [enclosures](Self::guard_enclosure) is searched with
-    /// certainty up to a finite horizon. Every other guard is sampled at `sampling_interval`, and a change of sign is
-    /// refined to full precision. Sampling misses two crossings of one guard between two samples, and a touch without a
-    /// change of sign; a zero at a sample counts once. If any guard was sampled, the result has
-    /// [`Certainty::Sampled`](crate::Certainty::Sampled).
+    /// The start itself has been decided before: [`Search::leaving`] has the guards on whose surfaces it lies. Events at
+    /// preset times are not searched here.
+    ///
+    /// Default: [`default_search`].
     ///
     /// # Errors
-    /// [`Error::Grazing`] if a guard under bounds comes so close to zero that rounding hides whether it crosses,
-    /// and the errors of [`QuasiPolynomial::first_crossing`]; [`Error::NoSamplingInterval`] if a guard must be
-    /// sampled and there is no interval; [`Error::UndecidedStart`] if a sampled guard is zero at the start and
-    /// beyond its surface at the first sample.
+    /// Those of [`default_search`].
     fn first_crossing(
         &self,
         mode: Self::Mode,
-        start: &State<N>,
-        horizon: f64,
-        sampling_interval: Option<f64>,
-    ) -> Result<Option<Crossing<Self::Surface, N>>, Error> {
-        earliest_crossing(&FlowFrom { system: self, mode, start }, horizon, sampling_interval)
+        start: &Self::State,
+        search: &Search<Self::Surface>,
+    ) -> Result<NextEvent<Self::Surface, Self::State>, Error> {
+        default_search(self, mode, start, search)
     }
+}
+
+/// The first crossing of a guard of `mode` along the flow of a system: what
+/// [`HybridSystem::first_crossing`] does unless a model overrides it. An override can call this function for some modes.
+///
+/// Each guard is searched with the strongest information that the model gives. A guard with a
+/// [quasi-polynomial](HybridSystem::guard_quasi_polynomial) or with [enclosures](HybridSystem::guard_enclosure) is
+/// searched with certainty up to a finite horizon. Every other guard is sampled at the sampling interval, and a change of
+/// sign is refined to full precision. Sampling misses two crossings of one guard between two samples, and a touch
+/// without a change of sign; a zero at a sample counts once. If any guard was sampled, the result has
+/// [`Certainty::Sampled`](crate::Certainty::Sampled).
+///
+/// # Errors
+/// [`Error::Grazing`] if a guard under bounds comes so close to zero that rounding hides whether it crosses,
+/// and the errors of [`QuasiPolynomial::first_crossing`]; [`Error::NoSamplingInterval`] if a guard must be
+/// sampled and there is no interval; [`Error::UndecidedStart`] if a sampled guard is zero at the start and
+/// beyond its surface at the first sample.
+pub fn default_search<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+    start: &T::State,
+    search: &Search<T::Surface>,
+) -> Result<NextEvent<T::Surface, T::State>, Error> {
+    earliest_crossing(&FlowFrom { system, mode, start }, search)
 }
 
 /// The flow of a system in one mode from one start, in the form that the searches for crossings need.
-struct FlowFrom<'a, T: HybridSystem<N> + ?Sized, const N: usize> {
-    system: &'a T,
-    mode: T::Mode,
-    start: &'a State<N>,
+pub(crate) struct FlowFrom<'a, T: HybridSystem + ?Sized> {
+    pub(crate) system: &'a T,
+    pub(crate) mode: T::Mode,
+    pub(crate) start: &'a T::State,
 }
 
-impl<T: HybridSystem<N> + ?Sized, const N: usize> GuardedFlow<N> for FlowFrom<'_, T, N> {
+impl<T: HybridSystem + ?Sized> GuardedFlow for FlowFrom<'_, T> {
+    type State = T::State;
     type Surface = T::Surface;
 
-    fn start(&self) -> &State<N> {
+    fn start(&self) -> &T::State {
         self.start
     }
 
-    fn state(&self, time: f64) -> State<N> {
+    fn state(&self, time: f64) -> T::State {
         self.system.flow(self.mode, self.start, time)
     }
 
@@ -144,8 +219,20 @@ impl<T: HybridSystem<N> + ?Sized, const N: usize> GuardedFlow<N> for FlowFrom<'_
         self.system.guards(self.mode)
     }
 
-    fn guard_value(&self, surface: T::Surface, state: &State<N>) -> f64 {
+    fn guard_value(&self, surface: T::Surface, state: &T::State) -> f64 {
         self.system.guard_value(surface, state)
+    }
+
+    fn guard_error(&self, surface: T::Surface, state: &T::State) -> Option<f64> {
+        self.system.guard_error(surface, state)
+    }
+
+    fn vector_field(&self, state: &T::State) -> Option<T::State> {
+        self.system.vector_field(self.mode, state)
+    }
+
+    fn leaving_side(&self, surface: T::Surface) -> Option<f64> {
+        self.system.leaving_side(self.mode, surface, self.start)
     }
 
     fn quasi_polynomial(&self, surface: T::Surface) -> Option<QuasiPolynomial> {
@@ -155,12 +242,4 @@ impl<T: HybridSystem<N> + ?Sized, const N: usize> GuardedFlow<N> for FlowFrom<'_
     fn enclosure(&self, surface: T::Surface, order: u32, times: (f64, f64)) -> Option<Enclosure> {
         self.system.guard_enclosure(self.mode, surface, self.start, order, times)
     }
-}
-
-/// f of ẋ = f(x) in each mode.
-///
-/// If the field depends on time, time is a component of the state with ṫ = 1.
-pub trait VectorField<const N: usize>: HybridSystem<N> {
-    /// f(x) in `mode`.
-    fn vector_field(&self, mode: Self::Mode, state: &State<N>) -> State<N>;
 }

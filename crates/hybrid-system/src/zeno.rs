@@ -3,23 +3,23 @@
 //! Statement (8) of [mathematics](crate::mathematics): the durations are treated as a geometric series, possibly with a
 //! period of several events.
 
-use crate::state::State;
+use crate::state::StateVector;
 
 /// The limit of infinitely many events in finite time.
+///
 /// An execution recognises the limit by the durations of its last arcs. Over five periods the durations must shrink by
 /// the same factor, to one per cent of the factor, and the sum of all further durations must be below 10⁻¹² of the time
 /// so far. If rounding hides the next event, two periods, ten per cent and 10⁻⁵ suffice. The limit is the limit of the
 /// geometric series.
-/// the geometric series.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ZenoLimit<const N: usize> {
+pub struct ZenoLimit<X> {
     /// Time of the limit: the sum of all durations.
     pub time: f64,
     /// Bound on the error of `time`. It holds if all further factors lie between the smallest and the largest of the
     /// known factors, and each event was accurate to an ulp.
     pub time_error: f64,
     /// The state at the limit, extrapolated.
-    pub state: State<N>,
+    pub state: X,
     /// The change of the state over the last period, divided by 1 − factor: an estimate of the error of `state`.
     pub state_error: f64,
     /// The factor by which durations shrink in one period.
@@ -62,22 +62,22 @@ const LONGEST_LAST_ARC: f64 = 1e-3;
 
 /// The last arcs: their durations, and the states after them, the newest last.
 #[derive(Debug, Clone)]
-pub(crate) struct History<const N: usize> {
+pub(crate) struct History<X> {
     durations: [f64; KEPT],
-    states: [State<N>; KEPT],
+    states: [Option<X>; KEPT],
     /// Number of arcs so far, up to `KEPT`.
     arcs: usize,
 }
 
-impl<const N: usize> History<N> {
+impl<X: StateVector> History<X> {
     pub(crate) fn new() -> Self {
-        History { durations: [0.0; KEPT], states: [State::zeros(); KEPT], arcs: 0 }
+        History { durations: [0.0; KEPT], states: [const { None }; KEPT], arcs: 0 }
     }
 
-    pub(crate) fn push(&mut self, duration: f64, after: State<N>) {
+    pub(crate) fn push(&mut self, duration: f64, after: X) {
         self.durations.rotate_left(1);
         self.states.rotate_left(1);
-        (self.durations[KEPT - 1], self.states[KEPT - 1]) = (duration, after);
+        (self.durations[KEPT - 1], self.states[KEPT - 1]) = (duration, Some(after));
         self.arcs = (self.arcs + 1).min(KEPT);
     }
 
@@ -94,7 +94,7 @@ impl<const N: usize> History<N> {
         time: f64,
         events: usize,
         next_event_hidden: bool,
-    ) -> Option<ZenoLimit<N>> {
+    ) -> Option<ZenoLimit<X>> {
         if self.arcs == 0 || !(self.durations[KEPT - 1] < LONGEST_LAST_ARC * time) {
             return None;
         }
@@ -111,7 +111,7 @@ impl<const N: usize> History<N> {
         period: usize,
         time: f64,
         criterion: &Criterion,
-    ) -> Option<ZenoLimit<N>> {
+    ) -> Option<ZenoLimit<X>> {
         let periods = criterion.periods;
         let needed = (periods + 1) * period;
         if self.arcs < needed {
@@ -132,13 +132,16 @@ impl<const N: usize> History<N> {
         if !(remainder(highest) <= criterion.remainder * time) {
             return None;
         }
-        let now = self.states[KEPT - 1];
-        let step = now - self.states[KEPT - 1 - period];
+        let now = self.states[KEPT - 1].as_ref()?;
+        let mut step = now.clone();
+        step.add_scaled(-1.0, self.states[KEPT - 1 - period].as_ref()?);
+        let mut state = now.clone();
+        state.add_scaled(ratio / (1.0 - ratio), &step);
         Some(ZenoLimit {
             time: time + remainder(ratio),
             time_error: remainder(highest) - remainder(lowest),
-            state: now + step * (ratio / (1.0 - ratio)),
-            state_error: step.amax() / (1.0 - ratio),
+            state,
+            state_error: step.largest() / (1.0 - ratio),
             ratio,
             period,
         })

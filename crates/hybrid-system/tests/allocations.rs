@@ -11,13 +11,8 @@ struct Ball;
 
 const TOLERANCES: Tolerances = Tolerances::both(1e-10);
 
-impl VectorField<2> for Ball {
-    fn vector_field(&self, (): (), x: &State<2>) -> State<2> {
-        Vector2::new(x[1], -1.0 - 0.1 * x[1] * x[1].abs())
-    }
-}
-
-impl HybridSystem<2> for Ball {
+impl HybridSystem for Ball {
+    type State = State<2>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, mode: (), x: &State<2>, t: f64) -> State<2> {
@@ -29,17 +24,19 @@ impl HybridSystem<2> for Ball {
     fn guard_value(&self, (): (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, (): (), (): (), x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: Vector2::new(0.0, 1.0 - x[1]) }
     }
     fn first_crossing(
         &self,
         mode: (),
         x: &State<2>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<(), 2>>, Error> {
-        integrated_crossing(self, mode, x, horizon, TOLERANCES)
+        search: &Search<()>,
+    ) -> Result<NextEvent<(), State<2>>, Error> {
+        integrated_crossing(self, mode, x, search, TOLERANCES)
+    }
+    fn vector_field(&self, (): (), x: &State<2>) -> Option<State<2>> {
+        Some(Vector2::new(x[1], -1.0 - 0.1 * x[1] * x[1].abs()))
     }
 }
 

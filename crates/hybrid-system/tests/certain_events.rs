@@ -174,7 +174,8 @@ struct Box {
     height: f64,
 }
 
-impl HybridSystem<2> for Box {
+impl HybridSystem for Box {
+    type State = State<2>;
     type Mode = ();
     type Surface = Face;
     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -192,7 +193,7 @@ impl HybridSystem<2> for Box {
     fn guard_quasi_polynomial(&self, (): (), face: Face, x: &State<2>) -> Option<QuasiPolynomial> {
         Some(QuasiPolynomial::polynomial(&[self.guard_value(face, x), x[1], -0.5]))
     }
-    fn reset(&self, _: (), face: Face, x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), face: Face, x: &State<2>) -> Reset<(), State<2>> {
         let height = if face == Face::Floor { 0.0 } else { self.height };
         Reset::Jump { mode: (), state: Vector2::new(height, -x[1]) }
     }

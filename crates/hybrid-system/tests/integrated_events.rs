@@ -56,7 +56,7 @@ where
         horizon: f64,
         _: Option<f64>,
     ) -> Result<Option<Crossing<usize, N>>, Error> {
-        integrated_crossing(self, mode, x, horizon, self.tolerances)
+        integrated_crossing(self, mode, x, search, self.tolerances)
     }
 }
 

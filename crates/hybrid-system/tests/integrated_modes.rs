@@ -21,16 +21,8 @@ struct Trampoline {
     drag: f64,
 }
 
-impl VectorField<2> for Trampoline {
-    fn vector_field(&self, mode: Mode, x: &State<2>) -> State<2> {
-        match mode {
-            Mode::Air => Vector2::new(x[1], -1.0 - self.drag * x[1] * x[1].abs()),
-            Mode::Spring => Vector2::new(x[1], -1.0 - x[0]),
-        }
-    }
-}
-
-impl HybridSystem<2> for Trampoline {
+impl HybridSystem for Trampoline {
+    type State = State<2>;
     type Mode = Mode;
     type Surface = ();
     fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
@@ -56,7 +48,7 @@ impl HybridSystem<2> for Trampoline {
         let swing = QuasiPolynomial::cosine(x[0] + 1.0, 1.0) + QuasiPolynomial::sine(x[1], 1.0);
         Some(swing + QuasiPolynomial::polynomial(&[-1.0]))
     }
-    fn reset(&self, mode: Mode, _: (), x: &State<2>) -> Reset<Mode, 2> {
+    fn reset(&self, mode: Mode, _: (), x: &State<2>) -> Reset<Mode, State<2>> {
         let next = if mode == Mode::Air { Mode::Spring } else { Mode::Air };
         Reset::Jump { mode: next, state: Vector2::new(0.0, x[1]) }
     }
@@ -64,21 +56,18 @@ impl HybridSystem<2> for Trampoline {
         &self,
         mode: Mode,
         x: &State<2>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<(), 2>>, Error> {
+        search: &Search<()>,
+    ) -> Result<NextEvent<(), State<2>>, Error> {
         match mode {
-            Mode::Air => integrated_crossing(self, mode, x, horizon, TIGHT),
-            Mode::Spring => self.guard_quasi_polynomial(mode, (), x).map_or(Ok(None), |guard| {
-                let FirstCrossing::At { time, .. } =
-                    guard.first_crossing(Direction::Rising, horizon)?
-                else {
-                    return Ok(None);
-                };
-                let (state, certainty) = (self.flow(mode, x, time), Certainty::Certain);
-                Ok(Some(Crossing { surface: (), time, state, certainty }))
-            }),
+            Mode::Air => integrated_crossing(self, mode, x, search, TIGHT),
+            Mode::Spring => default_search(self, mode, x, search),
         }
+    }
+    fn vector_field(&self, mode: Mode, x: &State<2>) -> Option<State<2>> {
+        Some(match mode {
+            Mode::Air => Vector2::new(x[1], -1.0 - self.drag * x[1] * x[1].abs()),
+            Mode::Spring => Vector2::new(x[1], -1.0 - x[0]),
+        })
     }
 }
 

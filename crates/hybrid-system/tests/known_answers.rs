@@ -17,7 +17,8 @@ struct Ball {
     restitution: f64,
 }
 
-impl HybridSystem<2> for Ball {
+impl HybridSystem for Ball {
+    type State = State<2>;
     type Mode = ();
     type Surface = Surface;
     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -29,7 +30,7 @@ impl HybridSystem<2> for Ball {
     fn guard_value(&self, _: Surface, x: &State<2>) -> f64 {
         x[0]
     }
-    fn reset(&self, _: (), _: Surface, x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), _: Surface, x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: Vector2::new(0.0, -self.restitution * x[1]) }
     }
 }
@@ -40,7 +41,8 @@ struct Clock<F> {
     guards: [Guard<Surface>; 1],
 }
 
-impl<F: Fn(f64) -> f64> HybridSystem<1> for Clock<F> {
+impl<F: Fn(f64) -> f64> HybridSystem for Clock<F> {
+    type State = State<1>;
     type Mode = ();
     type Surface = Surface;
     fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
@@ -52,7 +54,7 @@ impl<F: Fn(f64) -> f64> HybridSystem<1> for Clock<F> {
     fn guard_value(&self, _: Surface, x: &State<1>) -> f64 {
         (self.guard)(x[0])
     }
-    fn reset(&self, _: (), _: Surface, x: &State<1>) -> Reset<(), 1> {
+    fn reset(&self, _: (), _: Surface, x: &State<1>) -> Reset<(), State<1>> {
         Reset::Jump { mode: (), state: *x }
     }
 }
@@ -70,7 +72,7 @@ fn crossings(
         .collect()
 }
 
-fn impacts(ball: &Ball, height: f64, limits: Limits) -> Vec<Event<(), Surface, 2>> {
+fn impacts(ball: &Ball, height: f64, limits: Limits) -> Vec<Event<(), Surface, State<2>>> {
     Execution::new(ball, (), Vector2::new(height, 0.0), limits)
         .filter_map(|arc| arc.unwrap().event().copied())
         .collect()

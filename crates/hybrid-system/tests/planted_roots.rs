@@ -82,7 +82,8 @@ enum Form {
 /// before the start.
 const OMEGA: f64 = 0.6;
 
-impl HybridSystem<1> for Planted<'_> {
+impl HybridSystem for Planted<'_> {
+    type State = State<1>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
@@ -140,7 +141,7 @@ impl HybridSystem<1> for Planted<'_> {
             _ => None,
         }
     }
-    fn reset(&self, _: (), _: (), x: &State<1>) -> Reset<(), 1> {
+    fn reset(&self, _: (), _: (), x: &State<1>) -> Reset<(), State<1>> {
         Reset::Jump { mode: (), state: *x }
     }
 }

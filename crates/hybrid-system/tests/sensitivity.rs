@@ -24,7 +24,8 @@ impl Bilinear {
     }
 }
 
-impl HybridSystem<2> for Bilinear {
+impl HybridSystem for Bilinear {
+    type State = State<2>;
     type Mode = Side;
     type Surface = Middle;
     fn flow(&self, side: Side, x: &State<2>, t: f64) -> State<2> {
@@ -52,16 +53,13 @@ impl HybridSystem<2> for Bilinear {
                 + QuasiPolynomial::polynomial(&[-0.3]),
         )
     }
-    fn reset(&self, side: Side, _: Middle, x: &State<2>) -> Reset<Side, 2> {
+    fn reset(&self, side: Side, _: Middle, x: &State<2>) -> Reset<Side, State<2>> {
         let mode = if side == Side::Left { Side::Right } else { Side::Left };
         Reset::Jump { mode, state: Vector2::new(x[0], 0.9 * x[1]) }
     }
-}
-
-impl VectorField<2> for Bilinear {
-    fn vector_field(&self, side: Side, x: &State<2>) -> State<2> {
+    fn vector_field(&self, side: Side, x: &State<2>) -> Option<State<2>> {
         let omega = Self::omega(side);
-        Vector2::new(x[1], -omega * omega * x[0])
+        Some(Vector2::new(x[1], -omega * omega * x[0]))
     }
 }
 
@@ -79,7 +77,7 @@ impl Differentiable<2> for Bilinear {
     }
 }
 
-fn end(start: State<2>, time: f64) -> (State<2>, Vec<Arc<Side, Middle, 2>>) {
+fn end(start: State<2>, time: f64) -> (State<2>, Vec<Arc<Side, Middle, State<2>>>) {
     let arcs: Vec<_> = Execution::new(&Bilinear, Side::Left, start, Limits::new(time, 1000))
         .collect::<Result<_, _>>()
         .unwrap();
@@ -116,6 +114,9 @@ fn a_grazing_has_no_derivative() {
     let event = Event {
         surface: Middle,
         time: 1.0,
+        time_error: 0.0,
+        at_time_limit: false,
+        kind: EventKind::Crossing,
         jump: 0,
         before: Vector2::new(0.3, 0.0),
         after: Some((Side::Right, Vector2::new(0.3, 0.0))),
@@ -131,6 +132,7 @@ fn a_grazing_has_no_derivative() {
     };
     let error = arc_sensitivity(&Bilinear, &arc).unwrap_err();
     assert_eq!(error, Error::GrazingSensitivity { time: 1.0, rate: 0.0 });
-    let never = Arc { end: ArcEnd::Never, duration: f64::INFINITY, ..arc };
+    let never =
+        Arc { end: ArcEnd::Never { certainty: Certainty::Exact }, duration: f64::INFINITY, ..arc };
     assert!(matches!(arc_sensitivity(&Bilinear, &never), Err(Error::NoSensitivity { .. })));
 }

@@ -19,7 +19,8 @@ struct Corner {
     left_reverses_both: bool,
 }
 
-impl HybridSystem<4> for Corner {
+impl HybridSystem for Corner {
+    type State = State<4>;
     type Mode = ();
     type Surface = Wall;
     fn flow(&self, (): (), x: &State<4>, t: f64) -> State<4> {
@@ -35,7 +36,7 @@ impl HybridSystem<4> for Corner {
         let axis = if wall == Wall::Left { 0 } else { 1 };
         self.bounds.then(|| QuasiPolynomial::polynomial(&[x[axis], x[axis + 2]]))
     }
-    fn reset(&self, (): (), wall: Wall, x: &State<4>) -> Reset<(), 4> {
+    fn reset(&self, (): (), wall: Wall, x: &State<4>) -> Reset<(), State<4>> {
         let mut after = *x;
         let axis = if wall == Wall::Left { 0 } else { 1 };
         (after[axis], after[axis + 2]) = (0.0, -x[axis + 2]);

@@ -25,7 +25,8 @@ struct Ball {
     restitution: f64,
 }
 
-impl HybridSystem<2> for Ball {
+impl HybridSystem for Ball {
+    type State = State<2>;
     type Mode = Mode;
     type Surface = Floor;
     fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
@@ -53,7 +54,7 @@ impl HybridSystem<2> for Ball {
     ) -> Option<QuasiPolynomial> {
         Some(QuasiPolynomial::polynomial(&[self.guard_value(floor, x), x[1], -0.5 * self.gravity]))
     }
-    fn reset(&self, _: Mode, _: Floor, x: &State<2>) -> Reset<Mode, 2> {
+    fn reset(&self, _: Mode, _: Floor, x: &State<2>) -> Reset<Mode, State<2>> {
         let speed = -self.restitution * x[1];
         let mode = if speed > 0.0 { Mode::Air } else { Mode::Resting };
         Reset::Jump { mode, state: Vector2::new(self.floor, speed) }
@@ -63,7 +64,11 @@ impl HybridSystem<2> for Ball {
     }
 }
 
-fn arcs(ball: &Ball, start: State<2>, time: f64) -> (Vec<Arc<Mode, Floor, 2>>, Option<Stop>) {
+fn arcs(
+    ball: &Ball,
+    start: State<2>,
+    time: f64,
+) -> (Vec<Arc<Mode, Floor, State<2>>>, Option<Stop>) {
     let mut execution = Execution::new(ball, Mode::Air, start, Limits::new(time, 100_000));
     let arcs = execution.by_ref().collect::<Result<_, _>>().unwrap();
     (arcs, execution.stop())
@@ -130,7 +135,8 @@ fn the_limit_of_every_restitution_is_at_its_exact_time() {
 #[test]
 fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
     struct Restless(Ball, bool);
-    impl HybridSystem<2> for Restless {
+    impl HybridSystem for Restless {
+        type State = State<2>;
         type Mode = Mode;
         type Surface = Floor;
         fn flow(&self, mode: Mode, x: &State<2>, t: f64) -> State<2> {
@@ -150,7 +156,7 @@ fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
         ) -> Option<QuasiPolynomial> {
             self.1.then(|| self.0.guard_quasi_polynomial(mode, floor, x)).flatten()
         }
-        fn reset(&self, mode: Mode, floor: Floor, x: &State<2>) -> Reset<Mode, 2> {
+        fn reset(&self, mode: Mode, floor: Floor, x: &State<2>) -> Reset<Mode, State<2>> {
             self.0.reset(mode, floor, x)
         }
     }
@@ -181,7 +187,8 @@ fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
 #[test]
 fn endless_events_at_one_instant_are_an_error() {
     struct Circle;
-    impl HybridSystem<1> for Circle {
+    impl HybridSystem for Circle {
+        type State = State<1>;
         type Mode = ();
         type Surface = ();
         fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
@@ -193,7 +200,7 @@ fn endless_events_at_one_instant_are_an_error() {
         fn guard_value(&self, _: (), x: &State<1>) -> f64 {
             x[0]
         }
-        fn reset(&self, _: (), _: (), x: &State<1>) -> Reset<(), 1> {
+        fn reset(&self, _: (), _: (), x: &State<1>) -> Reset<(), State<1>> {
             Reset::Jump { mode: (), state: *x }
         }
         fn first_crossing(
@@ -202,7 +209,7 @@ fn endless_events_at_one_instant_are_an_error() {
             start: &State<1>,
             _: f64,
             _: Option<f64>,
-        ) -> Result<Option<Crossing<(), 1>>, Error> {
+        ) -> Result<NextEvent<(), State<1>>, Error> {
             Ok(Some(Crossing {
                 surface: (),
                 time: 0.0,

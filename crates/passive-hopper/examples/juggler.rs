@@ -67,7 +67,8 @@ impl Juggler {
     }
 }
 
-impl HybridSystem<4> for Juggler {
+impl HybridSystem for Juggler {
+    type State = State<4>;
     type Mode = Mode;
     type Surface = Surface;
 
@@ -126,7 +127,7 @@ impl HybridSystem<4> for Juggler {
         })
     }
 
-    fn reset(&self, _: Mode, surface: Surface, x: &State<4>) -> Reset<Mode, 4> {
+    fn reset(&self, _: Mode, surface: Surface, x: &State<4>) -> Reset<Mode, State<4>> {
         match surface {
             Surface::Catch => {
                 let speed = (self.ball * x[3] + self.hand * x[2]) / (self.ball + self.hand);
@@ -151,7 +152,7 @@ impl Section<Juggler, 4, 1> for Throws {
         let (height, speed) = (self.0.throw_height(), alpha[0] * self.0.speed());
         (Mode::Free, Vector4::new(height, height, speed, speed))
     }
-    fn coordinates(&self, event: &Event<Mode, Surface, 4>) -> Option<SVector<f64, 1>> {
+    fn coordinates(&self, event: &Event<Mode, Surface, State<4>>) -> Option<SVector<f64, 1>> {
         let (_, state) = event.after.filter(|_| event.surface == Surface::Throw)?;
         Some(Vector1::new(state[2] / self.0.speed()))
     }

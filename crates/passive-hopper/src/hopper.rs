@@ -7,7 +7,9 @@ use crate::model::contact::{contact_flow, contact_time, lift_off_energy};
 use crate::model::mass_ratio::MassRatio;
 use crate::model::motion::{Flight, LARGEST_LIFT_OFF_SPEED};
 use crate::model::state::HopperState;
-use hybrid_system::{Certainty, Crossing, Error, Guard, HybridSystem, Reset, State};
+use hybrid_system::{
+    Certainty, Crossing, Error, Guard, HybridSystem, NextEvent, Reset, Search, State,
+};
 
 /// The phases between events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -96,7 +98,7 @@ impl Hopper {
     fn lift_off(
         &self,
         start: &HopperState,
-    ) -> Result<Option<Crossing<HopperSurface, 4>>, crate::error::Error> {
+    ) -> Result<Option<Crossing<HopperSurface, State<4>>>, crate::error::Error> {
         let (height, velocity) = (start.lower_position, start.lower_velocity);
         if height != 0.0 || velocity != 0.0 {
             return Err(crate::error::Error::NotInContact { height, velocity });
@@ -111,16 +113,11 @@ impl Hopper {
         } else {
             *start
         };
-        Ok(Some(Crossing {
-            surface: HopperSurface::LiftOff,
-            time,
-            state: state.into(),
-            certainty: Certainty::Exact,
-        }))
+        Ok(Some(Crossing::exact(HopperSurface::LiftOff, time, state.into())))
     }
 
     /// The first landing. It is at time zero if the lower mass is on the ground and does not leave it.
-    fn landing(&self, start: &HopperState) -> Result<Crossing<HopperSurface, 4>, Error> {
+    fn landing(&self, start: &HopperState) -> Result<Crossing<HopperSurface, State<4>>, Error> {
         if start.lower_position < 0.0 {
             return Err(refused(crate::error::Error::BelowGround { height: start.lower_position }));
         }
@@ -144,7 +141,8 @@ impl Hopper {
             let state = HopperState { upper_position, lower_position: 0.0, ..flight.state(time) };
             (time, state, certainty)
         };
-        Ok(Crossing { surface: HopperSurface::Landing, time, state: state.into(), certainty })
+        let crossing = Crossing::exact(HopperSurface::Landing, time, state.into());
+        Ok(Crossing { certainty, ..crossing })
     }
 }
 
@@ -153,7 +151,8 @@ fn refused(error: crate::error::Error) -> Error {
     Error::Model { reason: error.to_string() }
 }
 
-impl HybridSystem<4> for Hopper {
+impl HybridSystem for Hopper {
+    type State = State<4>;
     type Mode = Phase;
     type Surface = HopperSurface;
 
@@ -179,7 +178,7 @@ impl HybridSystem<4> for Hopper {
         }
     }
 
-    fn reset(&self, _: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
+    fn reset(&self, _: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, State<4>> {
         let landed = HopperState { lower_position: 0.0, lower_velocity: 0.0, ..(*before).into() };
         let (y1, v1) = (landed.upper_position, landed.upper_velocity);
         let mode = match surface {
@@ -190,18 +189,35 @@ impl HybridSystem<4> for Hopper {
         Reset::Jump { mode, state: landed.into() }
     }
 
+    /// The signs of the given numbers decide.
+    fn leaving_side(&self, phase: Phase, surface: HopperSurface, start: &State<4>) -> Option<f64> {
+        let start = HopperState::from(*start);
+        let excess = start.upper_position - 1.0;
+        let leaves_ground = match phase {
+            // In the air, however close to the ground.
+            Phase::Flight if start.lower_position > 0.0 || start.lower_velocity > 0.0 => true,
+            Phase::Flight => {
+                start.lower_position == 0.0
+                    && start.lower_velocity == 0.0
+                    && is_sudden(excess, start.upper_velocity)
+            }
+            Phase::Contact => is_sudden(excess, start.upper_velocity),
+        };
+        let _ = surface;
+        Some(if leaves_ground { 1.0 } else { -1.0 })
+    }
+
     fn first_crossing(
         &self,
         phase: Phase,
         start: &State<4>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<HopperSurface, 4>>, Error> {
+        search: &Search<HopperSurface>,
+    ) -> Result<NextEvent<HopperSurface, State<4>>, Error> {
         let start = HopperState::from(*start);
         let crossing = match phase {
             Phase::Flight => Some(self.landing(&start)?),
             Phase::Contact => self.lift_off(&start).map_err(refused)?,
         };
-        Ok(crossing.filter(|crossing| crossing.time <= horizon))
+        Ok(crossing.filter(|crossing| crossing.time <= search.horizon).into())
     }
 }

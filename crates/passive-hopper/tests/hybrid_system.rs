@@ -5,7 +5,9 @@
 
 use approx::assert_relative_eq;
 use hopper_reference::rows;
-use hybrid_system::{Certainty, Event, Execution, HybridSystem, Limits, Searched, State, Stop};
+use hybrid_system::{
+    Certainty, Event, Execution, HybridSystem, Limits, Search, Searched, State, Stop,
+};
 use nalgebra::SVector;
 use passive_hopper::{
     Hopper, HopperState, HopperSurface, LiftOffMap, MassRatio, Phase, PhysicalHopper, alpha_star,
@@ -25,7 +27,10 @@ impl Section<Hopper, 4, 1> for GradualLiftOff {
     fn point(&self, alpha: &SVector<f64, 1>) -> (Phase, State<4>) {
         (Phase::Flight, HopperState::lift_off(alpha[0]).into())
     }
-    fn coordinates(&self, event: &Event<Phase, HopperSurface, 4>) -> Option<SVector<f64, 1>> {
+    fn coordinates(
+        &self,
+        event: &Event<Phase, HopperSurface, State<4>>,
+    ) -> Option<SVector<f64, 1>> {
         (event.surface == HopperSurface::LiftOff).then(|| SVector::<f64, 1>::new(event.before[1]))
     }
 }
@@ -34,7 +39,10 @@ impl Section<Searched<Hopper>, 4, 1> for GradualLiftOff {
     fn point(&self, alpha: &SVector<f64, 1>) -> (Phase, State<4>) {
         Section::<Hopper, 4, 1>::point(self, alpha)
     }
-    fn coordinates(&self, event: &Event<Phase, HopperSurface, 4>) -> Option<SVector<f64, 1>> {
+    fn coordinates(
+        &self,
+        event: &Event<Phase, HopperSurface, State<4>>,
+    ) -> Option<SVector<f64, 1>> {
         Section::<Hopper, 4, 1>::coordinates(self, event)
     }
 }
@@ -154,8 +162,9 @@ fn impossible_states_are_errors() {
 fn a_landing_is_certain_after_a_lift_off_only() {
     let hopper = hopper(3.0);
     let certainty = |state: HopperState| {
-        let found = hopper.first_crossing(Phase::Flight, &state.into(), f64::INFINITY, None);
-        found.unwrap().unwrap().certainty
+        let found =
+            hopper.first_crossing(Phase::Flight, &state.into(), &Search::up_to(f64::INFINITY));
+        found.unwrap().crossing().unwrap().certainty
     };
     for alpha in [0.3, 3.5, 7.0, 50.0] {
         let gradual = HopperState::lift_off(alpha);
@@ -174,7 +183,11 @@ fn a_landing_whose_phase_is_lost_in_rounding_is_not_certain() {
     let hopper = hopper(3.0);
     let landing = |upper_position: f64, velocity: f64| {
         let start = HopperState { upper_position, ..HopperState::lift_off(velocity) };
-        hopper.first_crossing(Phase::Flight, &start.into(), f64::INFINITY, None).unwrap().unwrap()
+        hopper
+            .first_crossing(Phase::Flight, &start.into(), &Search::up_to(f64::INFINITY))
+            .unwrap()
+            .crossing()
+            .unwrap()
     };
     let (mut changes, mut exact) = (0, 0);
     for k in 0..20_000 {

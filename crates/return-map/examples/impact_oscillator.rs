@@ -46,7 +46,8 @@ impl Oscillator {
     }
 }
 
-impl HybridSystem<3> for Oscillator {
+impl HybridSystem for Oscillator {
+    type State = State<3>;
     type Mode = ();
     type Surface = Surface;
 
@@ -60,7 +61,7 @@ impl HybridSystem<3> for Oscillator {
     }
 
     fn guards(&self, _: ()) -> &[Guard<Surface>] {
-        const { &[Guard::rising(Surface::Wall), Guard::rising(Surface::Period)] }
+        const { &[Guard::rising(Surface::Wall), Guard::rising(Surface::Period).observer()] }
     }
 
     fn guard_value(&self, surface: Surface, x: &State<3>) -> f64 {
@@ -91,18 +92,15 @@ impl HybridSystem<3> for Oscillator {
         })
     }
 
-    fn reset(&self, _: (), surface: Surface, x: &State<3>) -> Reset<(), 3> {
+    fn reset(&self, _: (), surface: Surface, x: &State<3>) -> Reset<(), State<3>> {
         let state = match surface {
             Surface::Wall => Vector3::new(self.wall, -self.restitution * x[1], x[2]),
             Surface::Period => Vector3::new(x[0], x[1], 0.0),
         };
         Reset::Jump { mode: (), state }
     }
-}
-
-impl VectorField<3> for Oscillator {
-    fn vector_field(&self, _: (), x: &State<3>) -> State<3> {
-        Vector3::new(x[1], x[2].cos() - x[0], self.frequency)
+    fn vector_field(&self, _: (), x: &State<3>) -> Option<State<3>> {
+        Some(Vector3::new(x[1], x[2].cos() - x[0], self.frequency))
     }
 }
 
@@ -146,7 +144,7 @@ impl Section<Oscillator, 3, 2> for OnceAPeriod {
     fn point(&self, x: &SVector<f64, 2>) -> ((), State<3>) {
         ((), Vector3::new(x[0], x[1], 0.0))
     }
-    fn coordinates(&self, event: &Event<(), Surface, 3>) -> Option<SVector<f64, 2>> {
+    fn coordinates(&self, event: &Event<(), Surface, State<3>>) -> Option<SVector<f64, 2>> {
         let (_, state) = event.after.filter(|_| event.surface == Surface::Period)?;
         Some(Vector2::new(state[0], state[1]))
     }
@@ -156,7 +154,7 @@ impl SmoothSection<Oscillator, 3, 2> for OnceAPeriod {
     fn point_jacobian(&self, _: &SVector<f64, 2>) -> SMatrix<f64, 3, 2> {
         SMatrix::<f64, 3, 2>::identity()
     }
-    fn coordinates_jacobian(&self, _: &Event<(), Surface, 3>) -> SMatrix<f64, 2, 3> {
+    fn coordinates_jacobian(&self, _: &Event<(), Surface, State<3>>) -> SMatrix<f64, 2, 3> {
         SMatrix::<f64, 2, 3>::identity()
     }
 }

@@ -22,16 +22,6 @@ struct Lorenz;
 /// Smaller by two orders than the errors that the tests accept.
 const TOLERANCES: Tolerances = Tolerances::both(1e-14);
 
-impl VectorField<3> for Lorenz {
-    fn vector_field(&self, _: (), x: &State<3>) -> State<3> {
-        Vector3::new(
-            10.0 * (x[1] - x[0]),
-            x[0] * (28.0 - x[2]) - x[1],
-            x[0] * x[1] - 8.0 / 3.0 * x[2],
-        )
-    }
-}
-
 impl Linearized<3> for Lorenz {
     fn field_jacobian(&self, _: (), x: &State<3>) -> SMatrix<f64, 3, 3> {
         SMatrix::<f64, 3, 3>::new(
@@ -48,29 +38,36 @@ impl Linearized<3> for Lorenz {
     }
 }
 
-impl HybridSystem<3> for Lorenz {
+impl HybridSystem for Lorenz {
+    type State = State<3>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, mode: (), x: &State<3>, t: f64) -> State<3> {
         integrated_flow(self, mode, x, t, TOLERANCES)
     }
     fn guards(&self, _: ()) -> &[Guard<()>] {
-        const { &[Guard::falling(())] }
+        const { &[Guard::falling(()).observer()] }
     }
     fn guard_value(&self, _: (), x: &State<3>) -> f64 {
         x[2] - 27.0
     }
-    fn reset(&self, _: (), _: (), x: &State<3>) -> Reset<(), 3> {
+    fn reset(&self, _: (), _: (), x: &State<3>) -> Reset<(), State<3>> {
         Reset::Jump { mode: (), state: Vector3::new(x[0], x[1], 27.0) }
     }
     fn first_crossing(
         &self,
         mode: (),
         x: &State<3>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<(), 3>>, hybrid_system::Error> {
-        integrated_crossing(self, mode, x, horizon, TOLERANCES)
+        search: &Search<()>,
+    ) -> Result<NextEvent<(), State<3>>, hybrid_system::Error> {
+        integrated_crossing(self, mode, x, search, TOLERANCES)
+    }
+    fn vector_field(&self, _: (), x: &State<3>) -> Option<State<3>> {
+        Some(Vector3::new(
+            10.0 * (x[1] - x[0]),
+            x[0] * (28.0 - x[2]) - x[1],
+            x[0] * x[1] - 8.0 / 3.0 * x[2],
+        ))
     }
 }
 
@@ -94,7 +91,7 @@ impl Section<Lorenz, 3, 2> for Plane {
     fn point(&self, x: &SVector<f64, 2>) -> ((), State<3>) {
         ((), Vector3::new(x[0], x[1], 27.0))
     }
-    fn coordinates(&self, event: &Event<(), (), 3>) -> Option<SVector<f64, 2>> {
+    fn coordinates(&self, event: &Event<(), (), State<3>>) -> Option<SVector<f64, 2>> {
         event.after.map(|(_, state)| Vector2::new(state[0], state[1]))
     }
 }
@@ -103,7 +100,7 @@ impl SmoothSection<Lorenz, 3, 2> for Plane {
     fn point_jacobian(&self, _: &SVector<f64, 2>) -> SMatrix<f64, 3, 2> {
         SMatrix::<f64, 3, 2>::identity()
     }
-    fn coordinates_jacobian(&self, _: &Event<(), (), 3>) -> SMatrix<f64, 2, 3> {
+    fn coordinates_jacobian(&self, _: &Event<(), (), State<3>>) -> SMatrix<f64, 2, 3> {
         SMatrix::<f64, 2, 3>::identity()
     }
 }

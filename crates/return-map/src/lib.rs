@@ -25,7 +25,8 @@
 //!
 //! # #[derive(Debug, Clone, Copy, PartialEq, Eq)] struct Floor;
 //! struct Ball;
-//! # impl HybridSystem<2> for Ball {
+//! # impl HybridSystem for Ball {
+//! #     type State = State<2>;
 //! #     type Mode = ();
 //! #     type Surface = Floor;
 //! #     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -33,7 +34,7 @@
 //! #     }
 //! #     fn guards(&self, _: ()) -> &[Guard<Floor>] { const { &[Guard::falling(Floor)] } }
 //! #     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 { x[0] }
-//! #     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), 2> {
+//! #     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), State<2>> {
 //! #         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
 //! #     }
 //! # }
@@ -43,7 +44,7 @@
 //!     fn point(&self, speed: &SVector<f64, 1>) -> ((), State<2>) {
 //!         ((), Vector2::new(0.0, speed[0]))
 //!     }
-//!     fn coordinates(&self, event: &Event<(), Floor, 2>) -> Option<SVector<f64, 1>> {
+//!     fn coordinates(&self, event: &Event<(), Floor, State<2>>) -> Option<SVector<f64, 1>> {
 //!         event.after.map(|(_, state)| SVector::<f64, 1>::new(state[1]))
 //!     }
 //! }

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::section::{Section, SmoothSection};
 use hybrid_system::{
-    ArcEnd, Differentiable, Execution, HybridSystem, Limits, Stop, event_sensitivity,
+    ArcEnd, Differentiable, Execution, HybridSystem, Limits, State, Stop, event_sensitivity,
 };
 use nalgebra::{RowSVector, SMatrix, SVector};
 
@@ -42,7 +42,7 @@ pub struct Return<const K: usize> {
 
 impl<'a, T, C, const N: usize> ReturnMap<'a, T, C, N>
 where
-    T: HybridSystem<N>,
+    T: HybridSystem<State = State<N>>,
 {
     /// The map of `system` on `section`; `limits` bound each return.
     pub fn new(system: &'a T, section: &'a C, limits: Limits) -> Self {

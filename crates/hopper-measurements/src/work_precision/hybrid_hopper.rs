@@ -23,12 +23,15 @@ struct GradualLiftOff;
 
 impl<T> Section<T, 4, 1> for GradualLiftOff
 where
-    T: HybridSystem<4, Mode = Phase, Surface = HopperSurface>,
+    T: HybridSystem<State = State<4>, Mode = Phase, Surface = HopperSurface>,
 {
     fn point(&self, alpha: &SVector<f64, 1>) -> (Phase, State<4>) {
         (Phase::Flight, HopperState::lift_off(alpha[0]).into())
     }
-    fn coordinates(&self, event: &Event<Phase, HopperSurface, 4>) -> Option<SVector<f64, 1>> {
+    fn coordinates(
+        &self,
+        event: &Event<Phase, HopperSurface, State<4>>,
+    ) -> Option<SVector<f64, 1>> {
         (event.surface == HopperSurface::LiftOff).then(|| SVector::<f64, 1>::new(event.before[1]))
     }
 }
@@ -55,7 +58,7 @@ pub(super) fn searched_landings(case: &Case) -> Option<Answer> {
 
 pub(super) fn answer<T>(hopper: &T, limits: Limits, case: &Case) -> Option<Answer>
 where
-    T: HybridSystem<4, Mode = Phase, Surface = HopperSurface>,
+    T: HybridSystem<State = State<4>, Mode = Phase, Surface = HopperSurface>,
 {
     let returns = ReturnMap::new(hopper, &GradualLiftOff, limits);
     match returns.next(&SVector::<f64, 1>::new(case.alpha)) {

@@ -4,7 +4,7 @@
 use super::case::{Answer, Case};
 use super::hybrid_hopper::{EVENTS, answer};
 use hybrid_system::{
-    Crossing, Error, Guard, HybridSystem, Limits, Reset, State, Tolerances, VectorField,
+    Error, Guard, HybridSystem, Limits, NextEvent, Reset, Search, State, Tolerances,
     integrated_crossing, integrated_flow,
 };
 use passive_hopper::{Hopper, HopperSurface, MassRatio, Phase};
@@ -18,21 +18,8 @@ struct IntegratedHopper {
     tolerances: Tolerances,
 }
 
-impl VectorField<4> for IntegratedHopper {
-    fn vector_field(&self, phase: Phase, x: &State<4>) -> State<4> {
-        let m = self.hopper.mass_ratio().value();
-        // In contact the lower position is zero.
-        let stretch = x[0] - x[2];
-        let upper = (-m * stretch - 1.0) / (1.0 + m);
-        let lower = match phase {
-            Phase::Flight => (stretch - 1.0) / (1.0 + m),
-            Phase::Contact => 0.0,
-        };
-        State::<4>::new(x[1], upper, x[3], lower)
-    }
-}
-
-impl HybridSystem<4> for IntegratedHopper {
+impl HybridSystem for IntegratedHopper {
+    type State = State<4>;
     type Mode = Phase;
     type Surface = HopperSurface;
 
@@ -48,7 +35,12 @@ impl HybridSystem<4> for IntegratedHopper {
         self.hopper.guard_value(surface, state)
     }
 
-    fn reset(&self, phase: Phase, surface: HopperSurface, before: &State<4>) -> Reset<Phase, 4> {
+    fn reset(
+        &self,
+        phase: Phase,
+        surface: HopperSurface,
+        before: &State<4>,
+    ) -> Reset<Phase, State<4>> {
         self.hopper.reset(phase, surface, before)
     }
 
@@ -56,15 +48,30 @@ impl HybridSystem<4> for IntegratedHopper {
         &self,
         phase: Phase,
         start: &State<4>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<HopperSurface, 4>>, Error> {
-        let horizon = match phase {
-            Phase::Flight => horizon,
+        search: &Search<HopperSurface>,
+    ) -> Result<NextEvent<HopperSurface, State<4>>, Error> {
+        let mut search = *search;
+        if phase == Phase::Contact {
             // The upper mass oscillates: a lift-off is in the first period or never.
-            Phase::Contact => horizon.min(contact_period(self.hopper.mass_ratio())),
+            search.horizon = search.horizon.min(contact_period(self.hopper.mass_ratio()));
+        }
+        let found = integrated_crossing(self, phase, start, &search, self.tolerances)?;
+        Ok(match found {
+            // This state is the one after a period, not the one at the horizon of the caller.
+            NextEvent::None { certainty, .. } => NextEvent::None { state: None, certainty },
+            found => found,
+        })
+    }
+    fn vector_field(&self, phase: Phase, x: &State<4>) -> Option<State<4>> {
+        let m = self.hopper.mass_ratio().value();
+        // In contact the lower position is zero.
+        let stretch = x[0] - x[2];
+        let upper = (-m * stretch - 1.0) / (1.0 + m);
+        let lower = match phase {
+            Phase::Flight => (stretch - 1.0) / (1.0 + m),
+            Phase::Contact => 0.0,
         };
-        integrated_crossing(self, phase, start, horizon, self.tolerances)
+        Some(State::<4>::new(x[1], upper, x[3], lower))
     }
 }
 

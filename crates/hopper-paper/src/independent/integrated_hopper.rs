@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use hybrid_system::{
-    Crossing, Guard, HybridSystem, Reset, State, Tolerances, VectorField, integrated_crossing,
+    Guard, HybridSystem, NextEvent, Reset, Search, State, Tolerances, integrated_crossing,
     integrated_flow,
 };
 use nalgebra::Vector4;
@@ -33,18 +33,8 @@ struct IntegratedHopper {
     m: f64,
 }
 
-impl VectorField<4> for IntegratedHopper {
-    fn vector_field(&self, phase: Phase, x: &State<4>) -> State<4> {
-        let stretch = x[0] - x[2];
-        let upper = (-self.m * stretch - 1.0) / (1.0 + self.m);
-        match phase {
-            Phase::Flight => Vector4::new(x[1], upper, x[3], (stretch - 1.0) / (1.0 + self.m)),
-            Phase::Contact => Vector4::new(x[1], upper, 0.0, 0.0),
-        }
-    }
-}
-
-impl HybridSystem<4> for IntegratedHopper {
+impl HybridSystem for IntegratedHopper {
+    type State = State<4>;
     type Mode = Phase;
     type Surface = Surface;
 
@@ -66,7 +56,7 @@ impl HybridSystem<4> for IntegratedHopper {
         }
     }
 
-    fn reset(&self, _: Phase, surface: Surface, x: &State<4>) -> Reset<Phase, 4> {
+    fn reset(&self, _: Phase, surface: Surface, x: &State<4>) -> Reset<Phase, State<4>> {
         let state = Vector4::new(x[0], x[1], 0.0, 0.0);
         let sudden = x[0] > 1.0 || (x[0] == 1.0 && x[1] > 0.0);
         let mode =
@@ -78,10 +68,17 @@ impl HybridSystem<4> for IntegratedHopper {
         &self,
         phase: Phase,
         x: &State<4>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<Surface, 4>>, hybrid_system::Error> {
-        integrated_crossing(self, phase, x, horizon, Tolerances::both(TOLERANCE))
+        search: &Search<Surface>,
+    ) -> Result<NextEvent<Surface, State<4>>, hybrid_system::Error> {
+        integrated_crossing(self, phase, x, search, Tolerances::both(TOLERANCE))
+    }
+    fn vector_field(&self, phase: Phase, x: &State<4>) -> Option<State<4>> {
+        let stretch = x[0] - x[2];
+        let upper = (-self.m * stretch - 1.0) / (1.0 + self.m);
+        Some(match phase {
+            Phase::Flight => Vector4::new(x[1], upper, x[3], (stretch - 1.0) / (1.0 + self.m)),
+            Phase::Contact => Vector4::new(x[1], upper, 0.0, 0.0),
+        })
     }
 }
 
@@ -93,7 +90,9 @@ pub(crate) fn integrated(alpha: f64, mass_ratio: MassRatio) -> Result<Option<f64
     let (mut phase, mut state) = (Phase::Flight, Vector4::new(1.0, alpha, 0.0, 0.0));
     for _ in 0..=FLIGHTS {
         let horizon = if phase == Phase::Flight { f64::INFINITY } else { period };
-        let Some(crossing) = hopper.first_crossing(phase, &state, horizon, None)? else {
+        let Some(crossing) =
+            hopper.first_crossing(phase, &state, &Search::up_to(horizon))?.crossing()
+        else {
             return Ok(None);
         };
         if crossing.surface == Surface::LiftOff {

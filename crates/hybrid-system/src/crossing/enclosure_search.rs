@@ -107,6 +107,12 @@ where
         Err(Error::NoConvergence { left, right: horizon, iterations: MOST_INTERVALS })
     }
 
+    /// The side to which the guard leaves its zero at the start, ±1. The value at the start is zero with this `error`.
+    pub(crate) fn side_after_zero(&self, horizon: f64, error: f64) -> Result<f64, Error> {
+        let error = error.max(self.at(0, 0.0)?.magnitude());
+        Ok(self.leave_start(horizon, error)?.1)
+    }
+
     /// A time up to which the guard has no zero after its start, and the sign of the guard until then.
     ///
     /// Statements (4) and (5) of [mathematics](crate::mathematics): the first derivative whose enclosure at the start

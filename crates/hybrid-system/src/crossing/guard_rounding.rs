@@ -1,6 +1,6 @@
 //! The part of a guard's value that may be the rounding error of the state.
 
-use crate::state::State;
+use crate::state::StateVector;
 
 /// The change of each component, in units of ε times its size. A component that was computed is wrong by an ulp or two. A
 /// smaller number would take rounding for a distance from the surface; a larger one would take small distances for
@@ -19,17 +19,20 @@ const ROOM: f64 = 2.0;
 ///
 /// Returns 0 if the guard is not finite near `state`: then there is no estimate, and only an exact zero counts as
 /// zero.
-pub(crate) fn guard_rounding<const N: usize>(
-    state: &State<N>,
-    size: &State<N>,
-    guard: impl Fn(&State<N>) -> f64,
+pub(crate) fn guard_rounding<X: StateVector>(
+    state: &X,
+    size: &X,
+    guard: impl Fn(&X) -> f64,
 ) -> f64 {
     let value = guard(state);
-    let change = |axis: usize| {
-        let mut moved = *state;
-        moved[axis] += COMPONENT_ULPS * f64::EPSILON * size[axis];
-        (guard(&moved) - value).abs()
-    };
-    let sum: f64 = (0..N).map(change).sum();
+    let mut moved = state.clone();
+    let mut sum = 0.0;
+    for axis in 0..state.dimension() {
+        let component = state.components()[axis];
+        let reach = COMPONENT_ULPS * f64::EPSILON * size.components()[axis].abs();
+        moved.components_mut()[axis] = component + reach;
+        sum += (guard(&moved) - value).abs();
+        moved.components_mut()[axis] = component;
+    }
     if sum.is_finite() { ROOM * sum } else { 0.0 }
 }

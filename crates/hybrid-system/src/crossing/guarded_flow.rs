@@ -3,28 +3,39 @@
 use super::enclosure::Enclosure;
 use super::quasi_polynomial::QuasiPolynomial;
 use crate::guard::Guard;
-use crate::state::State;
+use crate::state::StateVector;
 use std::fmt::Debug;
 
 /// The flow in one mode from one start, with the guards that are searched along it.
 ///
 /// The searches use this trait instead of `HybridSystem`, because the provided method
 /// `HybridSystem::first_crossing` calls the searches: the two files would import each other.
-pub(crate) trait GuardedFlow<const N: usize> {
+pub(crate) trait GuardedFlow {
+    /// The states.
+    type State: StateVector;
     /// The names of the switching surfaces.
-    type Surface: Copy + Debug;
+    type Surface: Copy + PartialEq + Debug;
 
     /// The state at time zero.
-    fn start(&self) -> &State<N>;
+    fn start(&self) -> &Self::State;
 
     /// φ(t; x₀).
-    fn state(&self, time: f64) -> State<N>;
+    fn state(&self, time: f64) -> Self::State;
 
     /// The guards of the mode, in the order in which the model lists them.
     fn guards(&self) -> &[Guard<Self::Surface>];
 
     /// g(x).
-    fn guard_value(&self, surface: Self::Surface, state: &State<N>) -> f64;
+    fn guard_value(&self, surface: Self::Surface, state: &Self::State) -> f64;
+
+    /// A bound on the rounding of g's own arithmetic, if the model gives it.
+    fn guard_error(&self, surface: Self::Surface, state: &Self::State) -> Option<f64>;
+
+    /// f(x), if the model gives it.
+    fn vector_field(&self, state: &Self::State) -> Option<Self::State>;
+
+    /// The side to which a guard leaves its zero at the start, if the model gives it; 0 if it stays there.
+    fn leaving_side(&self, surface: Self::Surface) -> Option<f64>;
 
     /// g(φ(t; x₀)) as a quasi-polynomial in t, if the model gives it.
     fn quasi_polynomial(&self, surface: Self::Surface) -> Option<QuasiPolynomial>;

@@ -15,31 +15,40 @@
 mod bracketed_root;
 mod certainty;
 mod closest_approach;
+mod departure;
 mod earliest;
 mod enclosure;
 mod enclosure_search;
 mod first_crossing;
 mod golden_section;
+mod guard_rate;
 mod guard_rounding;
 mod guarded_flow;
+mod next_event;
 mod quasi_polynomial;
 mod quasi_polynomial_search;
 mod same_instant;
 mod sampled;
+mod search_request;
 mod step_past_root;
 mod under_bounds;
 mod zero_test;
 
 pub use bracketed_root::bracketed_root;
-pub use certainty::{Certainty, Crossing};
+pub use certainty::Certainty;
+pub(crate) use departure::{Departure, departure};
 pub(crate) use earliest::earliest_crossing;
 pub use enclosure::Enclosure;
 pub use first_crossing::FirstCrossing;
 pub use golden_section::golden_section_minimum;
+pub(crate) use guard_rate::guard_rate;
 pub(crate) use guard_rounding::guard_rounding;
 pub(crate) use guarded_flow::GuardedFlow;
+pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::QuasiPolynomial;
 #[cfg(feature = "ode")]
 pub(crate) use same_instant::sooner;
+pub(crate) use search_request::MOST_INTERVALS;
+pub use search_request::{Leaving, Search};
 #[cfg(feature = "ode")]
 pub(crate) use step_past_root::step_to_sign;

@@ -90,6 +90,14 @@ impl QuasiPolynomial {
         Search::new(self).run(start, direction, horizon)
     }
 
+    /// The side to which the function leaves its zero at the start, ±1; `None` if it is zero everywhere. The value at the
+    /// start is zero with this `error`.
+    pub(crate) fn side_after_zero(&self, horizon: f64, error: f64) -> Result<Option<f64>, Error> {
+        self.check()?;
+        let error = error.max(self.value(0.0).abs());
+        Ok(self.leave_start(horizon, error)?.map(|(_, side)| side))
+    }
+
     /// A time up to which the function has no zero after its start, and its sign until then; `None` if the function is
     /// zero everywhere.
     ///

@@ -13,14 +13,14 @@ use std::fmt::Debug;
 /// # Errors
 /// [`Error::BadSamplingInterval`] if the samples would not advance to the horizon; [`Error::NotFinite`] for a guard
 /// that is not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`].
-pub(crate) fn sampled_crossing<F, const N: usize>(
+pub(crate) fn sampled_crossing<F>(
     flow: &F,
     horizon: f64,
     interval: f64,
     indices: &[usize],
 ) -> Result<Option<(f64, usize)>, Error>
 where
-    F: GuardedFlow<N>,
+    F: GuardedFlow,
 {
     // The last condition: samples at an interval below an ulp of the horizon would never reach it.
     if !(interval > 0.0) || !horizon.is_finite() || horizon + interval == horizon {

@@ -12,15 +12,15 @@ use crate::guard::Guard;
 ///
 /// # Errors
 /// [`Error::BadLimit`] if there are bounds and the horizon is infinite: halving an infinite interval does not end.
-pub(crate) fn crossing_under_bounds<F, const N: usize>(
+pub(crate) fn crossing_under_bounds<F>(
     flow: &F,
     horizon: f64,
     guard: Guard<F::Surface>,
 ) -> Result<Option<FirstCrossing>, Error>
 where
-    F: GuardedFlow<N>,
+    F: GuardedFlow,
 {
-    let Guard { surface, direction } = guard;
+    let Guard { surface, direction, .. } = guard;
     // The interval has length zero: the call only tests whether the model gives enclosures of this guard.
     let has_enclosures = || flow.enclosure(surface, 0, (0.0, 0.0)).is_some();
     if !horizon.is_finite() {
@@ -38,7 +38,7 @@ where
         other => other,
     };
     let start = flow.start();
-    let start_error = guard_rounding(start, &start.abs(), |state| flow.guard_value(surface, state));
+    let start_error = guard_rounding(start, start, |state| flow.guard_value(surface, state));
     if let Some(quasi_polynomial) = flow.quasi_polynomial(surface) {
         let found = quasi_polynomial.first_crossing_from(direction, horizon, start_error);
         return found.map(moved).map(Some);

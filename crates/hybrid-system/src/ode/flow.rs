@@ -3,10 +3,10 @@
 use super::integration::Integration;
 use super::search::search;
 use super::tolerances::Tolerances;
-use crate::crossing::Crossing;
+use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
 use crate::state::State;
-use crate::system::VectorField;
+use crate::system::HybridSystem;
 
 /// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
 /// mode without closed form.
@@ -21,7 +21,7 @@ pub fn integrated_flow<T, const N: usize>(
     tolerances: Tolerances,
 ) -> State<N>
 where
-    T: VectorField<N> + ?Sized,
+    T: HybridSystem<State = State<N>> + ?Sized,
 {
     let state = || {
         if !(time >= 0.0) {
@@ -30,7 +30,7 @@ where
         if time == 0.0 {
             return Ok(*start);
         }
-        let field = |_: f64, state: &State<N>| system.vector_field(mode, state);
+        let field = field_of(system, mode);
         let mut integration = Integration::new(field, start, tolerances)?;
         while integration.interval().1 < time {
             integration.step()?;
@@ -59,14 +59,13 @@ where
 /// struct Ball { drag: f64 }
 /// const TOLERANCES: Tolerances = Tolerances::both(1e-12);
 ///
-/// impl VectorField<2> for Ball {
-///     fn vector_field(&self, _: (), x: &State<2>) -> State<2> {
-///         Vector2::new(x[1], -1.0 - self.drag * x[1] * x[1].abs())
-///     }
-/// }
-/// impl HybridSystem<2> for Ball {
+/// impl HybridSystem for Ball {
+///     type State = State<2>;
 ///     type Mode = ();
 ///     type Surface = ();
+///     fn vector_field(&self, _: (), x: &State<2>) -> Option<State<2>> {
+///         Some(Vector2::new(x[1], -1.0 - self.drag * x[1] * x[1].abs()))
+///     }
 ///     fn flow(&self, mode: (), x: &State<2>, t: f64) -> State<2> {
 ///         integrated_flow(self, mode, x, t, TOLERANCES)
 ///     }
@@ -76,18 +75,18 @@ where
 ///     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
 ///         x[0]
 ///     }
-///     fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+///     fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), State<2>> {
 ///         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.8 * x[1]) }
 ///     }
 ///     fn first_crossing(
-///         &self, mode: (), x: &State<2>, horizon: f64, _: Option<f64>,
-///     ) -> Result<Option<Crossing<(), 2>>, Error> {
-///         integrated_crossing(self, mode, x, horizon, TOLERANCES)
+///         &self, mode: (), x: &State<2>, search: &Search<()>,
+///     ) -> Result<NextEvent<(), State<2>>, Error> {
+///         integrated_crossing(self, mode, x, search, TOLERANCES)
 ///     }
 /// }
 ///
 /// let start = Vector2::new(2.0, 0.0);
-/// let landing = Ball { drag: 0.5 }.first_crossing((), &start, 9.0, None)?.expect("it falls");
+/// let landing = Ball { drag: 0.5 }.first_crossing((), &start, &Search::up_to(9.0))?.crossing().expect("it falls");
 /// // From height h the ball lands with v² = (1 − e^(−2kh))/k.
 /// assert!((landing.state[1].powi(2) - 2.0 * (1.0 - (-2f64).exp())).abs() < 1e-11);
 /// # Ok::<(), Error>(())
@@ -100,12 +99,23 @@ pub fn integrated_crossing<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     start: &State<N>,
-    horizon: f64,
+    request: &Search<T::Surface>,
     tolerances: Tolerances,
-) -> Result<Option<Crossing<T::Surface, N>>, Error>
+) -> Result<NextEvent<T::Surface, State<N>>, Error>
 where
-    T: VectorField<N> + ?Sized,
+    T: HybridSystem<State = State<N>> + ?Sized,
 {
-    let field = |_: f64, state: &State<N>| system.vector_field(mode, state);
-    search(system, mode, start, horizon, field, tolerances)
+    let field = field_of(system, mode);
+    search(system, mode, start, request, field, tolerances)
+}
+
+/// f of a mode. Its components are NaN where the model gives no field.
+fn field_of<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+) -> impl Fn(f64, &State<N>) -> State<N> + '_
+where
+    T: HybridSystem<State = State<N>> + ?Sized,
+{
+    move |_, state| system.vector_field(mode, state).unwrap_or_else(|| State::repeat(f64::NAN))
 }

@@ -95,7 +95,7 @@ impl FollowedGuard {
         if !value.is_finite() {
             return Err(Error::NotFinite { at: 0.0, value });
         }
-        let rounding = guard_rounding(start, &start.abs(), &guard);
+        let rounding = guard_rounding(start, start, &guard);
         let side = (value.abs() > rounding).then(|| value.signum());
         // A central difference. The second difference tests whether it is meaningful.
         let reach = DIFFERENCE_REACH * (1.0 + start.amax()) / rate.amax();

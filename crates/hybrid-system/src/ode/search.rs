@@ -4,8 +4,11 @@ use super::followed_guard::{FollowedGuard, StepOutcome};
 use super::integration::Integration;
 use super::step::Step;
 use super::tolerances::Tolerances;
-use crate::crossing::{Certainty, Crossing, bracketed_root, sooner, step_to_sign};
+use crate::crossing::{
+    Certainty, Crossing, EventKind, NextEvent, Search, bracketed_root, sooner, step_to_sign,
+};
 use crate::error::Error;
+use crate::guard::{Guard, Role};
 use crate::state::State;
 use crate::system::HybridSystem;
 
@@ -29,25 +32,30 @@ pub(super) fn search<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     start: &State<N>,
-    horizon: f64,
+    request: &Search<T::Surface>,
     field: impl Fn(f64, &State<N>) -> State<N>,
     tolerances: Tolerances,
-) -> Result<Option<Crossing<T::Surface, N>>, Error>
+) -> Result<NextEvent<T::Surface, State<N>>, Error>
 where
-    T: HybridSystem<N> + ?Sized,
+    T: HybridSystem<State = State<N>> + ?Sized,
 {
+    let horizon = request.horizon;
     if !(horizon >= 0.0) {
         return Err(Error::BadLimit { what: "the horizon of a search", value: horizon });
     }
-    if system.guards(mode).is_empty() || horizon == 0.0 {
-        return Ok(None);
+    let searched = |guard: &Guard<T::Surface>| guard.role != Role::Clock;
+    if !system.guards(mode).iter().any(searched) || horizon == 0.0 {
+        return Ok(NextEvent::None { state: None, certainty: Certainty::Interpolated });
     }
     let mut first_step = f64::INFINITY;
     loop {
         let integration = Integration::new(&field, start, tolerances)?.starting_with(first_step);
         let rate = field(0.0, start);
         match search_once(system, mode, start, horizon, &rate, integration)? {
-            SearchOutcome::Finished(crossing) => return Ok(crossing),
+            SearchOutcome::Finished(crossing) => {
+                let none = NextEvent::None { state: None, certainty: Certainty::Interpolated };
+                return Ok(crossing.map_or(none, NextEvent::Crossing));
+            }
             // The rounding of an interpolant grows with the length of its step. A shorter first step therefore shows
             // more, as long as the hidden time becomes shorter with it.
             SearchOutcome::HiddenByRounding { until, .. }
@@ -65,9 +73,9 @@ where
 }
 
 /// The result of a search with one choice of the first step.
-enum SearchOutcome<S, const N: usize> {
+enum SearchOutcome<S, X> {
     /// The first crossing; `None` if there is none up to the horizon.
-    Finished(Option<Crossing<S, N>>),
+    Finished(Option<Crossing<S, X>>),
     /// Rounding hides how this guard leaves its start, up to this time.
     HiddenByRounding { until: f64, surface: S },
 }
@@ -79,9 +87,9 @@ fn search_once<T, F, const N: usize>(
     horizon: f64,
     rate: &State<N>,
     mut integration: Integration<F, N>,
-) -> Result<SearchOutcome<T::Surface, N>, Error>
+) -> Result<SearchOutcome<T::Surface, State<N>>, Error>
 where
-    T: HybridSystem<N> + ?Sized,
+    T: HybridSystem<State = State<N>> + ?Sized,
     F: Fn(f64, &State<N>) -> State<N>,
 {
     let guards = system.guards(mode);
@@ -95,14 +103,17 @@ where
         &mut on_heap[..]
     };
     for (followed, guard) in followed.iter_mut().zip(guards) {
-        *followed = Some(FollowedGuard::new(guard.direction, start, rate, value(guard.surface))?);
+        if guard.role != Role::Clock {
+            *followed =
+                Some(FollowedGuard::new(guard.direction, start, rate, value(guard.surface))?);
+        }
     }
     while integration.interval().1 < horizon {
         integration.step()?;
         // In the common case neither the stages of the interpolant nor the polynomial of a guard are computed.
         let all_stay_away = followed.iter().zip(guards).all(|(followed, guard)| {
             let values = integration.samples().map(|state| value(guard.surface)(&state));
-            followed.as_ref().is_some_and(|followed| followed.stays_away(values))
+            followed.as_ref().is_none_or(|followed| followed.stays_away(values))
         });
         if all_stay_away {
             continue;
@@ -140,8 +151,15 @@ where
         if let Some((time, surface)) = first {
             let value = value(surface);
             let (time, state) = polished(&mut integration, &step, time, until, value)?;
-            let certainty = Certainty::Interpolated;
-            return Ok(SearchOutcome::Finished(Some(Crossing { surface, time, state, certainty })));
+            return Ok(SearchOutcome::Finished(Some(Crossing {
+                surface,
+                time,
+                // A few times the local error: the tolerance over the rate is not known here yet.
+                time_error: 8.0 * f64::EPSILON * time,
+                state,
+                kind: EventKind::Crossing,
+                certainty: Certainty::Interpolated,
+            })));
         }
     }
     Ok(SearchOutcome::Finished(None))

@@ -5,11 +5,11 @@ use super::tolerances::Tolerances;
 use super::vector::Vector;
 use crate::error::Error;
 use crate::state::State;
-use crate::system::VectorField;
+use crate::system::HybridSystem;
 use nalgebra::SMatrix;
 
 /// A vector field with its Jacobian.
-pub trait Linearized<const N: usize>: VectorField<N> {
+pub trait Linearized<const N: usize>: HybridSystem<State = State<N>> {
     /// ∂f/∂x.
     fn field_jacobian(&self, mode: Self::Mode, state: &State<N>) -> SMatrix<f64, N, N>;
 }
@@ -52,8 +52,9 @@ where
     T: Linearized<N> + ?Sized,
 {
     // (x, Φ)˙ = (f(x), ∂f/∂x Φ)
+    let no_field = || State::repeat(f64::NAN);
     let field = |_: f64, at: &StateAndTransition<N>| StateAndTransition {
-        state: system.vector_field(mode, &at.state),
+        state: system.vector_field(mode, &at.state).unwrap_or_else(no_field),
         transition: system.field_jacobian(mode, &at.state) * at.transition,
     };
     let begin = StateAndTransition { state: *start, transition: SMatrix::identity() };

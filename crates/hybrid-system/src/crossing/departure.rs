@@ -1,0 +1,95 @@
+//! To which side does a guard leave its zero at the start of an arc?
+//!
+//! The first derivative along the flow that is not zero decides: statements (4) and (5) of
+//! [mathematics](crate::mathematics). It comes from the strongest information that the model gives:
+//!
+//! | the model gives | the side comes from |
+//! |---|---|
+//! | its own decision | [`HybridSystem::leaving_side`](crate::HybridSystem::leaving_side) |
+//! | a quasi-polynomial | its derivatives at the start |
+//! | enclosures | the first derivative whose enclosure excludes zero |
+//! | a vector field | the rate ∇g·f, if rounding does not hide it |
+//! | a flow only, or a hidden rate | the guard at times that double from a very short one on |
+
+use super::certainty::Certainty;
+use super::enclosure_search::EnclosedGuard;
+use super::guard_rate::guard_rate;
+use super::guard_rounding::guard_rounding;
+use super::guarded_flow::GuardedFlow;
+use crate::error::Error;
+use crate::state::StateVector;
+
+/// Number of times after the start at which a guard is evaluated if the model gives no derivatives: LONGEST_LOOK · 2⁻³⁹,
+/// 2⁻³⁸, … 1. The shortest, 2·10⁻¹², is near the rounding of a guard that moves at a rate of 1.
+const LOOKS: i32 = 40;
+
+/// The longest of these times, unless the limit on time comes earlier: one unit of time, because the scale of the model
+/// is not known.
+const LONGEST_LOOK: f64 = 1.0;
+
+/// A guard has left its surface when its value is this many times its error. A margin of a factor 4 over the error at the
+/// time 0: the error of the later value, and that of the flow in between, are not known here. A smaller number may take
+/// rounding for a side; a larger one looks later, when the guard may have come back.
+const LEFT_SURFACE: f64 = 4.0;
+
+/// How a guard leaves its zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Departure {
+    /// To this side, ±1.
+    To { side: f64, certainty: Certainty },
+    /// It stays at zero.
+    Stays,
+}
+
+/// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`.
+///
+/// # Errors
+/// [`Error::UndecidedSign`] and [`Error::NotFinite`].
+pub(crate) fn departure<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    error: f64,
+    horizon: f64,
+) -> Result<Departure, Error> {
+    let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
+    if let Some(side) = flow.leaving_side(surface) {
+        return Ok(if side == 0.0 { Departure::Stays } else { to(side, Certainty::Exact) });
+    }
+    let longest = horizon.min(LONGEST_LOOK);
+    if let Some(function) = flow.quasi_polynomial(surface) {
+        let side = function.side_after_zero(longest, error)?;
+        return Ok(side.map_or(Departure::Stays, |side| to(side, Certainty::Certain)));
+    }
+    if flow.enclosure(surface, 0, (0.0, 0.0)).is_some() {
+        let enclosure = |order, times| flow.enclosure(surface, order, times);
+        let guard = EnclosedGuard { value: |time| flow.guard_at(surface, time), enclosure };
+        return Ok(to(guard.side_after_zero(longest, error)?, Certainty::Certain));
+    }
+    let start = flow.start();
+    if let Some(field) = flow.vector_field(start) {
+        if field.largest() == 0.0 {
+            return Ok(Departure::Stays);
+        }
+        let value = |state: &F::State| flow.guard_value(surface, state);
+        if let Some(rate) = guard_rate(start, &field, error, value) {
+            return Ok(to(rate, Certainty::Interpolated));
+        }
+    }
+    for halvings in (0..LOOKS).rev() {
+        let time = longest * 0.5f64.powi(halvings);
+        let state = flow.state(time);
+        let value = flow.guard_value(surface, &state);
+        if !value.is_finite() {
+            return Err(Error::NotFinite { at: time, value });
+        }
+        // The flow adds numbers as large as the largest component, and rounds by as much in each.
+        let largest = state.largest().max(start.largest());
+        let size = state.from_fn_like(|_| largest);
+        let guard = |state: &F::State| flow.guard_value(surface, state);
+        let later_error = guard_rounding(&state, &size, guard);
+        if value.abs() > LEFT_SURFACE * (error + later_error) {
+            return Ok(to(value, Certainty::Sampled { interval: time }));
+        }
+    }
+    Ok(Departure::Stays)
+}
