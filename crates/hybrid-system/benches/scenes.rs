@@ -1,6 +1,6 @@
 //! Events a second of ordinary scenes: the ball in four ways, a pendulum section, van der Pol.
 //!
-//! Run with `cargo bench -p hybrid-system --features ode --bench scenes`. With `-- --smallest` the program prints
+//! Run with `cargo bench -p hybrid-system --features ode --bench scenes`. With `-- --smallest [NAME]` the program prints
 //! instead the smallest time of an event in each scene. Two builds that run in turn are compared by it.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::print_stdout)]
@@ -30,7 +30,8 @@ fn rebound(x: &State<2>) -> State<2> {
 /// The ball solves for its impacts.
 struct Solved;
 
-impl HybridSystem<2> for Solved {
+impl HybridSystem for Solved {
+    type State = State<2>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -42,20 +43,21 @@ impl HybridSystem<2> for Solved {
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: rebound(x) }
     }
     fn first_crossing(
         &self,
         _: (),
         x: &State<2>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<(), 2>>, Error> {
+        search: &Search<()>,
+    ) -> Result<NextEvent<(), State<2>>, Error> {
         let time = x[1] + (x[1] * x[1] + 2.0 * x[0]).sqrt();
+        if time > search.horizon {
+            return Ok(NextEvent::never());
+        }
         let state = Vector2::new(0.0, x[1] - time);
-        let crossing = Crossing { surface: (), time, state, certainty: Certainty::Exact };
-        Ok((time <= horizon).then_some(crossing))
+        Ok(NextEvent::Crossing(Crossing::exact((), time, state)))
     }
 }
 
@@ -64,7 +66,8 @@ struct Searched {
     bounds: bool,
 }
 
-impl HybridSystem<2> for Searched {
+impl HybridSystem for Searched {
+    type State = State<2>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
@@ -79,7 +82,7 @@ impl HybridSystem<2> for Searched {
     fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<2>) -> Option<QuasiPolynomial> {
         self.bounds.then(|| QuasiPolynomial::polynomial(&[x[0], x[1], -0.5]))
     }
-    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: rebound(x) }
     }
 }
@@ -92,13 +95,8 @@ struct Integrated<F> {
     tolerances: Tolerances,
 }
 
-impl<F: Fn(&State<2>) -> State<2>> VectorField<2> for Integrated<F> {
-    fn vector_field(&self, _: (), x: &State<2>) -> State<2> {
-        (self.field)(x)
-    }
-}
-
-impl<F: Fn(&State<2>) -> State<2>> HybridSystem<2> for Integrated<F> {
+impl<F: Fn(&State<2>) -> State<2>> HybridSystem for Integrated<F> {
+    type State = State<2>;
     type Mode = ();
     type Surface = ();
     fn flow(&self, mode: (), x: &State<2>, t: f64) -> State<2> {
@@ -110,22 +108,24 @@ impl<F: Fn(&State<2>) -> State<2>> HybridSystem<2> for Integrated<F> {
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
         x[0]
     }
-    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), 2> {
+    fn reset(&self, _: (), _: (), x: &State<2>) -> Reset<(), State<2>> {
         Reset::Jump { mode: (), state: (self.jump)(x) }
     }
     fn first_crossing(
         &self,
         mode: (),
         x: &State<2>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<(), 2>>, Error> {
-        integrated_crossing(self, mode, x, horizon, self.tolerances)
+        search: &Search<()>,
+    ) -> Result<NextEvent<(), State<2>>, Error> {
+        integrated_crossing(self, mode, x, search, self.tolerances)
+    }
+    fn vector_field(&self, _: (), x: &State<2>) -> Option<State<2>> {
+        Some((self.field)(x))
     }
 }
 
 /// An elastic ball.
-fn ball(tolerance: f64) -> impl HybridSystem<2, Mode = (), Surface = ()> {
+fn ball(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], -1.0),
         guards: [Guard::falling(())],
@@ -135,20 +135,20 @@ fn ball(tolerance: f64) -> impl HybridSystem<2, Mode = (), Surface = ()> {
 }
 
 /// The passages of a pendulum through its lowest point. Both directions count.
-fn pendulum(tolerance: f64) -> impl HybridSystem<2, Mode = (), Surface = ()> {
+fn pendulum(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], -pxfm::f_sin(x[0])),
-        guards: [Guard::either(())],
+        guards: [Guard::either(()).observer()],
         jump: |x| *x,
         tolerances: Tolerances::both(tolerance),
     }
 }
 
 /// The zeros of van der Pol's oscillator with μ = 5.
-fn van_der_pol(tolerance: f64) -> impl HybridSystem<2, Mode = (), Surface = ()> {
+fn van_der_pol(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]),
-        guards: [Guard::either(())],
+        guards: [Guard::either(()).observer()],
         jump: |x| *x,
         tolerances: Tolerances::both(tolerance),
     }
@@ -161,7 +161,7 @@ fn scene(
     name: &'static str,
     start: (f64, f64),
     interval: Option<f64>,
-    system: impl HybridSystem<2, Mode = (), Surface = ()> + 'static,
+    system: impl HybridSystem<State = State<2>, Mode = (), Surface = ()> + 'static,
 ) -> Scene {
     let run = move || {
         let limits = Limits { sampling_interval: interval, ..Limits::new(TIME, EVENTS) };
@@ -188,9 +188,9 @@ fn scenes() -> Vec<Scene> {
 /// Time for one scene before the next one.
 const SHARE: Duration = Duration::from_millis(250);
 
-/// Prints the smallest time of an event in nanoseconds, for each scene.
-fn smallest() {
-    for (name, run) in scenes() {
+/// Prints the smallest time of an event in nanoseconds, for each scene whose name contains a text.
+fn smallest(text: &str) {
+    for (name, run) in scenes().into_iter().filter(|(name, _)| name.contains(text)) {
         let (begin, mut smallest) = (Instant::now(), f64::INFINITY);
         while begin.elapsed() < SHARE {
             let start = Instant::now();
@@ -202,8 +202,9 @@ fn smallest() {
 }
 
 fn main() {
+    let mut arguments = std::env::args().skip_while(|argument| argument != "--smallest").skip(1);
     if std::env::args().any(|argument| argument == "--smallest") {
-        return smallest();
+        return smallest(&arguments.next().unwrap_or_default());
     }
     let mut criterion = Criterion::default().configure_from_args();
     let mut group = criterion.benchmark_group("events");
