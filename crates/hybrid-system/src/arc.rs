@@ -101,6 +101,22 @@ impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
         Err(Error::StateNotFinite { time, jumps, state: state.components().to_vec() })
     }
 
+    /// The states at these times after the start of the arc, in ascending order. Along an integrated arc they take one
+    /// integration.
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`] where the flow is not defined; the errors of an integration.
+    pub fn states<T>(&self, system: &T, elapsed: &[f64]) -> Result<Vec<X>, Error>
+    where
+        T: HybridSystem<State = X, Mode = M, Surface = S>,
+    {
+        let states = system.states(self.mode, &self.start, elapsed)?;
+        let bad = states.iter().zip(elapsed).find(|(state, _)| !state.is_finite());
+        let Some((state, elapsed)) = bad else { return Ok(states) };
+        let (time, jumps) = (self.time + elapsed, self.jump);
+        Err(Error::StateNotFinite { time, jumps, state: state.components().to_vec() })
+    }
+
     /// The event that ends the arc; `None` if the arc ends in another way.
     pub fn event(&self) -> Option<&Event<M, S, X>> {
         match &self.end {

@@ -88,6 +88,32 @@ pub trait HybridSystem {
         None
     }
 
+    /// The states φ(t; x₀) at several times t, in ascending order. An integrated mode gives all of them in one integration.
+    ///
+    /// Default: [`flow`](Self::flow) for each time.
+    ///
+    /// # Errors
+    /// Those of an integration. States that are not finite are no error here.
+    fn states(
+        &self,
+        mode: Self::Mode,
+        start: &Self::State,
+        times: &[f64],
+    ) -> Result<Vec<Self::State>, Error> {
+        Ok(times.iter().map(|&time| self.flow(mode, start, time)).collect())
+    }
+
+    /// Finds misuse of the model before its first arc, from the initial mode and state.
+    ///
+    /// Default: no check.
+    ///
+    /// # Errors
+    /// The misuse, with its remedy.
+    fn validate(&self, mode: Self::Mode, start: &Self::State) -> Result<(), Error> {
+        let _ = (mode, start);
+        Ok(())
+    }
+
     /// A bound on the rounding error of [`guard_value`](Self::guard_value) by its own arithmetic, for an exact state.
     ///
     /// Default: `None`, and the error is measured.
