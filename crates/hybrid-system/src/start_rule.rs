@@ -182,7 +182,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let (side, certainty, on_surface) = if now.abs() > error {
             (now.signum(), Certainty::Certain, false)
         } else {
-            match departure(flow, surface, error, horizon)? {
+            match departure(flow, surface, (error, rounding), horizon)? {
                 Departure::To { side, certainty } => (side, certainty, true),
                 Departure::Stays => continue,
             }
