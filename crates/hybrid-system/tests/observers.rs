@@ -52,9 +52,10 @@ impl Shape {
             Shape::Exponential(_) => -y * x.exp(),
             Shape::Distance(_) => 2.0 * y / (x - 2.0).hypot(y),
             Shape::Angle(p) => (y.atan2(x) + p).cos(),
-            Shape::Sines(terms) => {
-                terms.iter().map(|[a, k, l, p]| a * (l * x - k * y) * (k * x + l * y + p).cos()).sum()
-            }
+            Shape::Sines(terms) => terms
+                .iter()
+                .map(|[a, k, l, p]| a * (l * x - k * y) * (k * x + l * y + p).cos())
+                .sum(),
         }
     }
     /// Bounds on |g′|, |g″| along the circle.
@@ -262,7 +263,9 @@ fn every_transversal_crossing_of_an_observer_is_found_once() {
             for in_turn in [false, true] {
                 let (failed, runs, first) = failures(kind, flow, in_turn, 60);
                 if failed > 0 {
-                    all += &format!("{kind} {flow:?} in turn {in_turn}: {failed} of {runs}: {first}\n");
+                    all += &format!(
+                        "{kind} {flow:?} in turn {in_turn}: {failed} of {runs}: {first}\n"
+                    );
                 }
             }
         }
