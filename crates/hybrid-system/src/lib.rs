@@ -99,6 +99,7 @@ mod crossing;
 mod error;
 mod execution;
 mod guard;
+mod number;
 #[cfg(feature = "ode")]
 mod ode;
 mod searched;
