@@ -149,6 +149,19 @@ impl ZeroSearch {
         self.time
     }
 
+    /// The side of zero just after [`time`](Self::time), ±1; `None` if the function has not left its start, or if rounding
+    /// hides it.
+    #[cfg(feature = "ode")]
+    pub(crate) fn clear_side(&self) -> Option<f64> {
+        self.side.filter(|_| !self.leaving && self.hidden.is_none())
+    }
+
+    /// True if the function has not left the zero it started at.
+    #[cfg(feature = "ode")]
+    pub(crate) fn is_leaving(&self) -> bool {
+        self.leaving
+    }
+
     /// Searches up to `until`. At the `horizon` no later stretch follows: a zero there, within rounding, is a crossing.
     ///
     /// `budget` is the number of intervals that may still be tested. After a touch a further call goes on behind it.
