@@ -88,9 +88,11 @@ pub(crate) struct ZeroSearch {
     side: Option<f64>,
     /// The last time at which the function was clear of rounding, on `side`.
     clear: f64,
-    /// True as long as the function has not left the zero it started at.
+    /// True as long as it is not known how the function leaves the zero it started at.
     leaving: bool,
-    /// The value at the start, if it counts as zero. The zeros of g − level are searched until g is clear of its error.
+    /// True as long as the function has not been clear of the error of its start.
+    unclear: bool,
+    /// The value at the start, if it counts as zero. The zeros of g − level are searched as long as g is `unclear`.
     level: f64,
     /// The error of `level`.
     level_error: f64,
@@ -106,6 +108,7 @@ impl ZeroSearch {
             side: Some(side),
             clear: time,
             leaving: false,
+            unclear: false,
             level: 0.0,
             level_error: 0.0,
             hidden: None,
@@ -123,6 +126,7 @@ impl ZeroSearch {
         ZeroSearch {
             side,
             leaving: true,
+            unclear: true,
             level: value,
             level_error: error.max(value.abs()),
             ..Self::on_side(direction, time, 0.0)
@@ -265,7 +269,7 @@ impl ZeroSearch {
         if let Some(hidden) = &mut self.hidden {
             let closest = closest(function, self.level, hidden, from, until);
             hidden.closest = Some(closest);
-            if horizon && !self.leaving {
+            if horizon && !self.unclear {
                 return Ok(Found::Undecided { time: closest.0, value: closest.1 });
             }
         }
@@ -291,14 +295,17 @@ impl ZeroSearch {
         let hidden = self.hidden.take();
         if sign == side {
             // A hidden interval at the start is not a touch: there the function leaves its zero.
-            let touch = hidden.filter(|_| !self.leaving).map(|hidden| {
+            let touch = hidden.filter(|_| !self.unclear).map(|hidden| {
                 let (time, value) = closest(function, self.level, &hidden, from, left);
                 Found::Touch { time, error: 0.5 * (left - hidden.from), value }
             });
             self.pass(function, right, side)?;
             return Ok(touch);
         }
-        let found = if self.direction.admits(side, sign) {
+        // A function that has not been clear of the error of its start is on both sides of zero there. If both directions
+        // count, there is no flow to the wrong side, and this is no event.
+        let at_start = self.unclear && self.direction == Direction::Either;
+        let found = if self.direction.admits(side, sign) && !at_start {
             // A stretch before this one is not known any more.
             let after = self.clear.max(from);
             let time = self.root(function, side, after, left, right)?;
@@ -318,8 +325,12 @@ impl ZeroSearch {
     fn pass(&mut self, function: &impl Bounded, time: f64, side: f64) -> Result<(), Error> {
         (self.time, self.clear, self.side) = (time, time, Some(side));
         self.leaving = false;
-        if self.level != 0.0 && function.at(time)?.widened(self.level_error).sign() == Some(side) {
-            self.level = 0.0;
+        if self.unclear {
+            let value = function.at(time)?;
+            let is_clear = |level: f64| value.above(level).widened(self.level_error).sign() == Some(side);
+            if is_clear(0.0) && is_clear(self.level) {
+                (self.unclear, self.level) = (false, 0.0);
+            }
         }
         Ok(())
     }
