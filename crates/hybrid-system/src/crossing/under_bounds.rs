@@ -69,6 +69,10 @@ fn first_event<F: GuardedFlow>(
             Found::Crossing { time, error, .. } => OneGuard::Crossing { time, error },
             // The search goes on behind the touch.
             Found::Touch { .. } if touch == Touch::Ignore => continue,
+            // An event is where the guard is clear again: the arc after it must not meet the same touch.
+            Found::Touch { error, value, until, .. } if touch == Touch::Event => {
+                OneGuard::Touch { time: until, error: 2.0 * error, value }
+            }
             // The value of the source may lack a factor.
             Found::Touch { time, error, .. } => {
                 OneGuard::Touch { time, error, value: flow.guard_at(surface, time) }
