@@ -125,7 +125,8 @@ fn roots_of_odd_order_are_crossings_and_of_even_order_touches() {
             FirstCrossing::Touch { time, value } if order % 2 == 0 => (time, value),
             _ => panic!("{order}: {found:?}"),
         };
-        assert!((time - 1.0).abs() < 2e-2 && value.abs() < 1e-13, "{order}: {time} {value}");
+        // Behind a hidden crossing the value is clear of rounding, whose bound is 2ᵒʳᵈᵉʳ · 30ε or more.
+        assert!((time - 1.0).abs() < 2e-2 && value.abs() < 1e-12, "{order}: {time} {value}");
     }
 }
 

@@ -21,8 +21,9 @@ const CROWD: f64 = 0.2;
 /// the root is at least about ALONE⁴ = 6e-6.
 const KNOWN: f64 = 1e-6;
 
-/// Largest distance of an event from the nearest root of a crowd: the fifth root of a rounding of 1e-13 is 3e-3.
-const CLOSE: f64 = 1e-2;
+/// Largest distance of an event from the nearest root of a crowd. Five factors up to 8 have coefficients with a rounding of
+/// 8⁵ · 30ε = 2e-10 together. A crowd of five roots is hidden up to the fifth root of this number, 1.2e-2.
+const CLOSE: f64 = 2e-2;
 
 /// Random numbers, one after the other.
 struct Random {

@@ -309,9 +309,9 @@ impl ZeroSearch {
             self.pass(function, right, side)?;
             return Ok(touch);
         }
-        // A function that has not been clear of the error of its start is on both sides of zero there. If both directions
-        // count, there is no flow to the wrong side, and this is no event.
-        let at_start = self.unclear && self.direction == Direction::Either;
+        // Rounding hid how the function leaves its start, and now it is on the other side than its caller expected. If both
+        // directions count, no side is beyond the surface, and this is the side to which it left.
+        let at_start = self.leaving && self.direction == Direction::Either;
         let found = if self.direction.admits(side, sign) && !at_start {
             let (time, error) = match hidden {
                 // Where the function is clear again. At an earlier time a new search would start in the same hidden
