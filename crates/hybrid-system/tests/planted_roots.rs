@@ -1,4 +1,4 @@
-//! A million guards with roots at known places, some of them within a few ulps of each other, of the start or of
+//! A million guards (in release builds) with roots at known places, some of them within a few ulps of each other, of the start or of
 //! the end: each root is found once.
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
@@ -211,9 +211,13 @@ fn check(roots: &[f64], form: Form) {
     }
 }
 
+/// Without optimization of the release profile a tenth of the cases runs, which takes some seconds. The rare arrangements,
+/// of which one in 10⁵ has found an error before, need the full number: `cargo test --release`.
+const PART: usize = if cfg!(debug_assertions) { 10 } else { 1 };
+
 fn run(seed: u64, cases: usize, form: Form) {
     let mut random = Random::new(seed);
-    for _ in 0..cases {
+    for _ in 0..cases / PART {
         check(&random.roots(), form);
     }
 }
