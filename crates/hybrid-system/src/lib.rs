@@ -11,7 +11,7 @@
 //! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
 //! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how certain it is: exact, certain, interpolated or sampled |
-//! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times sines and cosines; their first crossing, with certainty |
+//! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times exponentials, sines and cosines; their first crossing, with certainty |
 //! | [`Enclosure`] | bounds on a guard, given by the model |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
@@ -108,6 +108,7 @@ mod error;
 mod execution;
 mod guard;
 mod model;
+mod number;
 #[cfg(feature = "ode")]
 mod ode;
 mod searched;
