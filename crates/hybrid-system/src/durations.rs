@@ -23,6 +23,14 @@ const MARKS: usize = 8;
 /// Periods that are compared in the usual case. Five slopes between them within one per cent are unlikely by chance.
 const USUAL_PERIODS: usize = 6;
 
+/// Events between the ends of periods that are compared, for periods of 1 to 4 events. Factors near 1 need a longer stride,
+/// for the lengths to fall enough; 5 and 6 are prime to the other periods as far as possible.
+const STRIDES: [&[usize]; LONGEST_PERIOD] = [&[1, 5], &[2, 6], &[3], &[4]];
+
+/// Largest difference between the falls of single durations and the fall that the limit demands, relative. An
+/// alternation by more than this is a longer period.
+const PERIOD_SPREAD: f64 = 0.1;
+
 /// Periods that are compared if rounding hides the next event. The execution cannot continue in any other way then.
 const FEWEST_PERIODS: usize = 3;
 
@@ -192,11 +200,12 @@ impl Durations {
             return None;
         }
         (1..=LONGEST_PERIOD).find_map(|period| {
-            let fast = self.recent(period, 0, USUAL_PERIODS).and_then(|periods| {
+            let mut fast = STRIDES[period - 1].iter().filter_map(|&stride| {
+                let periods = self.recent(period, stride, 0, USUAL_PERIODS)?;
                 let fit = geometric(&periods, USUAL_SPREAD)?;
                 self.accepted(fit, &periods, period, USUAL_REMAINDER)
             });
-            fast.or_else(|| self.slow(period))
+            fast.next().or_else(|| self.slow(period)).filter(|found| self.is_period(found))
         })
     }
 
@@ -235,7 +244,7 @@ impl Durations {
         (1..=LONGEST_PERIOD).find_map(|period| {
             let recent = (0..=MOST_DROPPED).filter_map(|dropped| {
                 (FEWEST_PERIODS..=USUAL_PERIODS).find_map(|number| {
-                    let periods = self.recent(period, dropped, number)?;
+                    let periods = self.recent(period, period, dropped, number)?;
                     let fit = geometric(&periods, HIDDEN_SPREAD)?;
                     self.accepted(fit, &periods, period, LARGEST_REMAINDER)
                 })
@@ -252,19 +261,38 @@ impl Durations {
         })
     }
 
-    /// `number` periods one after the other, the oldest first, after dropping the newest events.
-    fn recent(&self, period: usize, dropped: usize, number: usize) -> Option<Periods> {
-        if dropped + number * period > self.count.min(KEPT) {
+    /// True if each of the last four durations is in the ratio to the one a period before that the limit demands. Durations
+    /// that alternate look like a series of period 1 at every second event.
+    fn is_period(&self, found: &Remainder) -> bool {
+        // 1 − q of the durations is μ times that of the remainder.
+        let fall = found.order * found.length / (found.length + found.time);
+        (0..LONGEST_PERIOD.saturating_sub(found.period)).all(|back| {
+            let before = self.duration(back + found.period);
+            let fell = 1.0 - self.duration(back) / before;
+            let noise = (self.duration_error(back) + self.duration_error(back + found.period)) / before;
+            (fell - fall).abs() <= PERIOD_SPREAD * fall + noise
+        })
+    }
+
+    /// `number` periods, the oldest first, that end `stride` events apart, after dropping the newest events.
+    fn recent(
+        &self,
+        period: usize,
+        stride: usize,
+        dropped: usize,
+        number: usize,
+    ) -> Option<Periods> {
+        if dropped + (number - 1) * stride + period > self.count.min(KEPT) {
             return None;
         }
+        let sum = |from: usize, to: usize| (from..to).map(|back| self.duration(back)).sum::<f64>();
         let mut periods = Periods::new();
-        let mut end = -(0..dropped).map(|back| self.duration(back)).sum::<f64>();
+        let mut end = -sum(0, dropped);
         for index in 0..number {
-            let first = dropped + index * period;
-            let length = (first..first + period).map(|back| self.duration(back)).sum();
+            let first = dropped + index * stride;
             let error = (first..first + period).map(|back| self.duration_error(back)).sum();
-            periods.push(Period { end, length, error });
-            end -= length;
+            periods.push(Period { end, length: sum(first, first + period), error });
+            end -= sum(first, first + stride);
         }
         periods.reverse();
         Some(periods)
@@ -301,7 +329,9 @@ impl Durations {
         // changes all further durations by 2δ/T of their size, T the duration before it.
         let mean = last.length / period as f64;
         let amplification = 1.0 + 2.0 * fit.remainder / (fit.order * mean);
-        let accumulated = self.error + ROUNDING_ULPS * f64::EPSILON * self.elapsed;
+        // The errors of the events may be larger than stated. An error δ shows in the slope as δ/T of its size, or more.
+        let shown = fit.scatter * mean;
+        let accumulated = self.error + ROUNDING_ULPS * f64::EPSILON * self.elapsed + shown;
         let time = last.end + fit.remainder;
         // The limit is not earlier than the newest event.
         let error = fit.error + (-time).max(0.0);
