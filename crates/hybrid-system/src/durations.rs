@@ -95,6 +95,7 @@ pub(crate) struct Remainder {
 
 /// An event at which durations have fallen to a half since the mark before.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Mark {
     pub(crate) time: TimeSum,
     /// The last four durations, the newest first.
@@ -107,6 +108,7 @@ pub(crate) struct Mark {
 
 /// The record.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Durations {
     /// A ring of durations.
     pub(crate) durations: [f64; KEPT],
@@ -252,9 +254,8 @@ impl Durations {
             let marked = (0..MARKS - FEWEST_PERIODS).filter_map(|dropped| {
                 let number = MARKS.min(self.marked).checked_sub(dropped)?.min(USUAL_PERIODS);
                 let periods = self.marked_periods(period, dropped, number)?;
-                let fit = geometric(&periods, HIDDEN_SPREAD).or_else(|| {
-                    power_law(&periods).filter(|fit| fit.order <= LARGEST_ORDER)
-                })?;
+                let fit = geometric(&periods, HIDDEN_SPREAD)
+                    .or_else(|| power_law(&periods).filter(|fit| fit.order <= LARGEST_ORDER))?;
                 self.accepted(fit, &periods, period, LARGEST_REMAINDER)
             });
             recent.chain(marked).min_by(|a, b| a.error.total_cmp(&b.error))

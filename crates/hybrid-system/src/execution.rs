@@ -50,6 +50,7 @@ impl Limits {
 
 /// Why an execution ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stop {
     /// The limit on time was reached.
     TimeLimit,
@@ -83,6 +84,7 @@ pub struct Execution<'a, T: HybridSystem> {
 
 /// Everything that decides how an execution goes on.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Point<M, S, X> {
     pub(crate) mode: M,
     pub(crate) state: X,
@@ -159,7 +161,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                     return Ok(self.arc_without_event(horizon, None, certainty));
                 }
                 if crossing.kind == EventKind::AtStart
-                    && let Some(sliding) = self.sliding(crossing.surface)?
+                    && let Some(sliding) = self.sliding(crossing.surface)
                 {
                     return Ok(self.sliding_arc(sliding));
                 }
@@ -277,7 +279,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             EventKind::Crossing | EventKind::Touch => {
                 let flow =
                     FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-                let arrival = Arrival::new(&flow, surface, &state, (duration, time_error));
+                let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
                 self.at.arrival = Some(arrival);
             }
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
@@ -323,10 +325,12 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// Moves on to a state without an event.
     fn advance(&mut self, duration: f64, state: T::State) {
         if duration > 0.0 {
+            // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
+            let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+            self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
             self.at.time = self.at.time.plus(duration);
             self.at.state = state;
             self.at.chain.clear();
-            self.at.arrival = None;
             self.at.initial = false;
         }
     }
@@ -344,17 +348,19 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     }
 
     /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
-    fn sliding(
-        &self,
-        surface: T::Surface,
-    ) -> Result<Option<Sliding<T::Mode, T::Surface, T::State>>, Error> {
+    fn sliding(&self, surface: T::Surface) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
+        let last = self.at.chain.last();
+        // A crossing of another surface says nothing about the distance from this one.
+        let of_last = |arrival: &&Arrival<T::Surface, T::State>| {
+            last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
+        };
         let at = AtOnce {
             mode: self.at.mode,
             surface,
             state: &self.at.state,
             time: self.at.time.value(),
-            last: self.at.chain.last(),
-            before: self.at.arrival.as_ref().map(Arrival::before),
+            last,
+            before: self.at.arrival.as_ref().filter(of_last).map(Arrival::before),
         };
         sliding_point(self.system, &at)
     }
@@ -407,7 +413,12 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
         if self.at.state.is_finite() {
-            return Ok(());
+            let initial = self.at.initial;
+            return if initial {
+                self.system.validate(self.at.mode, &self.at.state)
+            } else {
+                Ok(())
+            };
         }
         Err(Error::StateNotFinite {
             time: self.at.time.value(),

@@ -94,14 +94,19 @@
 //! Numer. Algorithms 53 (2010). The two pairs of the feature `ode` and their coefficients are his, from his
 //! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
+mod advance;
 mod arc;
 mod chain;
+mod checkpoint;
+#[cfg(feature = "serde")]
+mod checkpoint_writer;
 mod clock;
 mod crossing;
 mod durations;
 mod error;
 mod execution;
 mod guard;
+mod model;
 #[cfg(feature = "ode")]
 mod ode;
 mod searched;
@@ -112,9 +117,11 @@ mod start_rule;
 mod state;
 mod system;
 mod time_sum;
+mod trajectory;
 mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
+pub use checkpoint::Checkpoint;
 pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
     Certainty, Crossing, Enclosure, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
@@ -124,14 +131,24 @@ pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard, Role, Touch};
 #[cfg(feature = "ode")]
+pub use model::Integrated;
+pub use model::{
+    Bounds, Clock, ClosedForm, Jump, JumpEverywhere, Model, Motion, Outcome, Part, Rest, Signal,
+    Slide, Terminal, Watch,
+};
+#[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
+    integrated_states,
 };
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use sliding::Sliding;
+#[cfg(feature = "ode")]
+pub use sliding::{Filippov, FilippovMode, FilippovSurface};
 pub use state::{State, StateVector};
 pub use system::{HybridSystem, Reset, default_search};
+pub use trajectory::{EventColumns, Trajectory};
 pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]

@@ -73,8 +73,8 @@ pub(crate) fn geometric(periods: &[Period], spread: f64) -> Option<Fit> {
         return None;
     }
     let noise = latest[0].error + latest[1].error;
-    let relative_noise = noise / (latest[0].length - latest[1].length)
-        + noise / (latest[1].end - latest[0].end);
+    let relative_noise =
+        noise / (latest[0].length - latest[1].length) + noise / (latest[1].end - latest[0].end);
     let error = (longest - remainder).max(remainder - shortest)
         + last.error / newest
         + remainder * relative_noise;
@@ -108,7 +108,8 @@ pub(crate) fn power_law(periods: &[Period]) -> Option<Fit> {
     // The noise of a length moves the slope of ln D between two points, of distance ln 2 or more, by 2/ln 2 < 3 times its
     // relative size, and the difference of two slopes, which gives μ and the remainder, by twice that for each
     // of the two: 12 in all, times the order.
-    let noise = 12.0 * order * remainder * (c.error / c.length + d.error / d.length + e.error / e.length);
+    let noise =
+        12.0 * order * remainder * (c.error / c.length + d.error / d.length + e.error / e.length);
     if !(later <= CONVERGENCE * earlier + noise) {
         return None;
     }
@@ -201,7 +202,11 @@ mod tests {
 
     #[test]
     fn durations_of_one_over_k_have_no_limit_and_squares_have() {
-        for (power, exact) in [(1.0f64, None), (2.0, Some(std::f64::consts::PI.powi(2) / 6.0)), (5.0, Some(1.036_927_755_143_369_9))] {
+        for (power, exact) in [
+            (1.0f64, None),
+            (2.0, Some(std::f64::consts::PI.powi(2) / 6.0)),
+            (5.0, Some(1.036_927_755_143_369_9)),
+        ] {
             let count = if power == 5.0 { 300 } else { 20_000 };
             let lengths: Vec<f64> = (1..count).map(|k| f64::from(k).powf(-power)).collect();
             // Times relative to the last one, so that the short durations keep their digits.

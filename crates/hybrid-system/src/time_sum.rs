@@ -9,6 +9,7 @@
 /// `DWPlusFP`: 2⁻¹⁰⁵ for each addition). Times and durations must be below 10³⁰⁰ in size, so that no sum overflows; an
 /// infinite time is kept as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct TimeSum {
     /// The nearest double.
     pub(crate) high: f64,

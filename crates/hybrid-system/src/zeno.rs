@@ -44,6 +44,7 @@ pub struct ZenoLimit<X> {
 
 /// The durations of the last arcs, and the last states after events.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct History<X> {
     pub(crate) durations: Durations,
     /// A ring of states: those after the last events, one more than the longest period has.
@@ -70,6 +71,12 @@ impl<X: StateVector> History<X> {
             self.newest = (self.newest + 1) % self.states.len();
         }
         self.states[self.newest] = Some(after);
+    }
+
+    /// True if all components of its states are finite.
+    #[cfg(feature = "serde")]
+    pub(crate) fn is_finite(&self) -> bool {
+        self.states.iter().flatten().all(StateVector::is_finite)
     }
 
     pub(crate) fn clear(&mut self) {

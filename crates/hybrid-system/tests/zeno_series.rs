@@ -43,8 +43,7 @@ impl<F: Fn(f64) -> f64> HybridSystem for Flights<F> {
 /// The last arc from `speed`, and why the execution ended.
 fn last(next: impl Fn(f64) -> f64, speed: f64, events: usize) -> (Arc<(), (), State<1>>, Stop) {
     let flights = Flights(next);
-    let mut execution =
-        Execution::new(&flights, (), Vector1::new(speed), Limits::new(1e6, events));
+    let mut execution = Execution::new(&flights, (), Vector1::new(speed), Limits::new(1e6, events));
     let last = execution.by_ref().last().unwrap().unwrap();
     (last, execution.stop().unwrap())
 }
