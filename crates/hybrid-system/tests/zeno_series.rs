@@ -49,7 +49,7 @@ fn last(next: impl Fn(f64) -> f64, speed: f64, events: usize) -> (Arc<(), (), St
 }
 
 fn limit<M: Copy, S: Copy, X: Clone>(arc: &Arc<M, S, X>) -> ZenoLimit<X> {
-    let ArcEnd::Zeno { limit, .. } = &arc.end else { panic!("no Zeno limit") };
+    let ArcEnd::Zeno { limit, .. } = &arc.end else { panic!("no Zeno limit at {}", arc.time) };
     limit.clone()
 }
 
@@ -167,6 +167,11 @@ fn bounces_on_a_moving_floor_have_their_limits() {
     for (amplitude, omega, restitution, exact) in MOVING {
         let ball = Moving { amplitude, omega, restitution };
         let start = Vector3::new(1.0, 0.0, 0.0);
+        for arc in Execution::new(&ball, (), start, Limits::new(100.0, 10_000)) {
+            if arc.is_err() { println!("DBG {:?}", arc); }
+            let arc = arc.unwrap();
+            if let Some(e) = arc.event() { println!("DBG {:e} {:e}", arc.duration, e.time_error); }
+        }
         let last = Execution::new(&ball, (), start, Limits::new(100.0, 10_000)).last().unwrap();
         let limit = limit(&last.unwrap());
         let error = (limit.time - exact).abs();
