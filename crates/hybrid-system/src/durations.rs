@@ -182,7 +182,8 @@ impl Durations {
         }
         if self.fresh {
             let error = (0..LONGEST_PERIOD).map(|back| self.duration_error(back)).sum();
-            self.marks[self.marked % MARKS] = Mark { time: now, durations: last, error, sum, total: self.error };
+            self.marks[self.marked % MARKS] =
+                Mark { time: now, durations: last, error, sum, total: self.error };
             self.marked += 1;
         }
     }
@@ -298,7 +299,8 @@ impl Durations {
         (0..COMPARED.min(self.count - found.period)).all(|back| {
             let before = self.duration(back + found.period);
             let fell = 1.0 - self.duration(back) / before;
-            let noise = (self.duration_error(back) + self.duration_error(back + found.period)) / before;
+            let noise =
+                (self.duration_error(back) + self.duration_error(back + found.period)) / before;
             (fell - fall).abs() <= PERIOD_SPREAD * fall + noise
         })
     }

@@ -208,16 +208,17 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         };
         let found = self.system.first_crossing(mode, state, &search)?;
         match (found, clock) {
-            (NextEvent::None { state: end, certainty }, Some(ClockEvent { surface, until, .. })) => {
-                Ok(NextEvent::Crossing(Crossing {
-                    surface,
-                    time: until,
-                    time_error: 0.0,
-                    state: end.unwrap_or_else(|| flow_to(&flow, until)),
-                    kind: EventKind::Clock,
-                    certainty,
-                }))
-            }
+            (
+                NextEvent::None { state: end, certainty },
+                Some(ClockEvent { surface, until, .. }),
+            ) => Ok(NextEvent::Crossing(Crossing {
+                surface,
+                time: until,
+                time_error: 0.0,
+                state: end.unwrap_or_else(|| flow_to(&flow, until)),
+                kind: EventKind::Clock,
+                certainty,
+            })),
             (found, _) => Ok(found),
         }
     }

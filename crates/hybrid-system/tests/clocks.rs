@@ -143,8 +143,18 @@ fn two_clocks_at_one_instant_have_an_event_each() {
     );
     let found = events(&both, Vector1::new(0.0), (0.0, 12.0));
     let times: Vec<_> = found.iter().map(|event| (event.time, event.surface)).collect();
-    let expected =
-        [(2., 0), (3., 1), (4., 0), (6., 0), (6., 1), (8., 0), (9., 1), (10., 0), (12., 0), (12., 1)];
+    let expected = [
+        (2., 0),
+        (3., 1),
+        (4., 0),
+        (6., 0),
+        (6., 1),
+        (8., 0),
+        (9., 1),
+        (10., 0),
+        (12., 0),
+        (12., 1),
+    ];
     assert_eq!(times, expected);
     // Both events at the limit lie on it.
     let flags: Vec<_> = found.iter().map(|event| event.at_time_limit).collect();
@@ -159,8 +169,8 @@ fn a_clock_that_does_not_move_on_is_an_error() {
         vec![Box::new(Some), Box::new(|_| Some(f64::NAN)), periodic(0.0, 0.1)];
     for clock in stuck {
         let system = clocked(|x: &State<1>, _| *x, |_, x| *x, vec![clock]);
-        let mut execution =
-            Execution::new(&system, (), Vector1::new(0.0), Limits::new(2e17, 100)).starting_at(1e17);
+        let mut execution = Execution::new(&system, (), Vector1::new(0.0), Limits::new(2e17, 100))
+            .starting_at(1e17);
         assert!(matches!(execution.next(), Some(Err(Error::BadLimit { .. }))));
         assert_eq!(execution.stop(), Some(Stop::Failed));
     }

@@ -121,7 +121,11 @@ fn a_landing_at_the_end_is_flagged_by_all_means() {
     for means in ALL_MEANS {
         for (count, end) in [(1, 3.0), (2, 9.0), (3, 15.0)] {
             let (events, stop) = landings(means, end);
-            assert_eq!((events.len(), stop), (count, Some(Stop::TimeLimit)), "{means:?} {events:?}");
+            assert_eq!(
+                (events.len(), stop),
+                (count, Some(Stop::TimeLimit)),
+                "{means:?} {events:?}"
+            );
             for (event, exact) in events.iter().zip([3.0, 9.0, 15.0]) {
                 let accumulated = 10.0 * event.time_error * count as f64 + 1e-13;
                 assert!((event.time - exact).abs() <= accumulated, "{means:?} {event:?}");

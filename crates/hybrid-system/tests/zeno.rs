@@ -166,7 +166,6 @@ fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
     let results: Vec<_> = execution.by_ref().collect();
     // A bounce between two samples is an error of the sampled search, never a fall through the floor.
-    println!("{:?}", results.last().unwrap());
     assert!(matches!(results.last().unwrap(), Err(Error::UndecidedStart { .. })));
     assert_eq!(execution.stop(), Some(Stop::Failed));
     let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, true);

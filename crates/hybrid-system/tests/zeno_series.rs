@@ -114,6 +114,24 @@ fn falling_durations_without_a_limit_are_not_replaced() {
     assert_eq!(stop, Stop::EventLimit);
 }
 
+/// Durations of zero are no series: a chain of events in no time is an error, also after durations that have fallen.
+#[test]
+fn a_thousand_durations_of_zero_are_a_timeless_chain() {
+    for falls in [0, 3, 20, 300] {
+        let shortest = 0.5f64.powi(falls);
+        let flights = Flights(move |v: f64| if v > shortest { 0.9 * v } else { 0.0 });
+        let limits = Limits::new(1e6, usize::MAX);
+        let start = Vector1::new(if falls == 0 { 0.0 } else { 1.0 });
+        let last = Execution::new(&flights, (), start, limits).last().unwrap();
+        // 0.9^k reaches 2^-300 only behind its Zeno limit.
+        match last {
+            Ok(arc) => assert!(falls == 300 && matches!(arc.end, ArcEnd::Zeno { .. }), "{falls}"),
+            Err(Error::TimelessChain { events: 1001, .. }) => assert!(falls < 300),
+            Err(error) => panic!("{falls}: {error}"),
+        }
+    }
+}
+
 /// A ball over the floor A sin(ωt), gravity 1. The state is height, speed and time.
 struct Moving {
     amplitude: f64,
@@ -167,11 +185,6 @@ fn bounces_on_a_moving_floor_have_their_limits() {
     for (amplitude, omega, restitution, exact) in MOVING {
         let ball = Moving { amplitude, omega, restitution };
         let start = Vector3::new(1.0, 0.0, 0.0);
-        for arc in Execution::new(&ball, (), start, Limits::new(100.0, 10_000)) {
-            if arc.is_err() { println!("DBG {:?}", arc); }
-            let arc = arc.unwrap();
-            if let Some(e) = arc.event() { println!("DBG {:e} {:e}", arc.duration, e.time_error); }
-        }
         let last = Execution::new(&ball, (), start, Limits::new(100.0, 10_000)).last().unwrap();
         let limit = limit(&last.unwrap());
         let error = (limit.time - exact).abs();
