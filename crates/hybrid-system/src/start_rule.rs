@@ -68,10 +68,15 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         if !beyond && reached.is_none() && is_far(flow.start, now, value) {
             continue;
         }
-        let error = error_at_start(flow, surface, now, arrival);
+        let rounding = rounding_at_start(flow, surface, now);
+        // An exact zero, to which a reset has moved the state, has no error by time.
+        let by_time = arrival
+            .filter(|_| now != 0.0)
+            .map_or(0.0, |arrival| arrival.error_after(flow, surface));
+        let error = rounding + by_time;
         let on_surface = now.abs() <= error;
         let (side, certainty) = if on_surface {
-            match departure(flow, surface, error, horizon)? {
+            match departure(flow, surface, (error, rounding), horizon)? {
                 Departure::To { side, certainty } => (side, certainty),
                 Departure::Stays => continue,
             }
@@ -97,21 +102,13 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
     Ok(Start::Flows)
 }
 
-/// The error of a guard at the start of a flow: by rounding, and by the error of the time of the crossing before.
-fn error_at_start<T: HybridSystem>(
-    flow: &FlowFrom<T>,
-    surface: T::Surface,
-    now: f64,
-    arrival: Option<&Arrival<T::Mode, T::Surface, T::State>>,
-) -> f64 {
+/// The rounding error of a guard, whose value is `now`, at the start of a flow.
+fn rounding_at_start<T: HybridSystem>(flow: &FlowFrom<T>, surface: T::Surface, now: f64) -> f64 {
     let value = |state: &T::State| flow.guard_value(surface, state);
-    // An exact zero, to which a reset has moved the state, has no other error.
-    if now == 0.0 {
-        return rounding_of_state(flow.start, flow.start, value);
-    }
-    let rounding = match flow.guard_error(surface, flow.start) {
+    match flow.guard_error(surface, flow.start) {
+        // The operations that give an exact zero have not rounded.
+        _ if now == 0.0 => rounding_of_state(flow.start, flow.start, value),
         Some(stated) => rounding_of_state(flow.start, flow.start, value) + stated,
         None => guard_rounding(flow.start, flow.start, value),
-    };
-    rounding + arrival.map_or(0.0, |arrival| arrival.error_after(flow, surface))
+    }
 }
