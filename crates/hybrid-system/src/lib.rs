@@ -137,5 +137,8 @@ pub mod mathematics {}
 #[doc = include_str!("../docs/certainty.md")]
 pub mod certainty {}
 
+#[doc = include_str!("../docs/sliding.md")]
+pub mod sliding_motion {}
+
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}
