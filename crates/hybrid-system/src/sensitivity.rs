@@ -113,7 +113,8 @@ where
     let Some(event) = arc.event() else { return Ok(along) };
     // An event that ends the execution has no state after it.
     let Some((mode, after)) = event.after else { return Ok(along) };
-    let (field_before, arrival) = arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
+    let (field_before, arrival) =
+        arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // Ξ = DR − (f⁺ − DR f⁻) ∂τ/∂x⁻: if the orbit arrives later by δτ, it moves longer by δτ before the event and
     // shorter by δτ after it.
@@ -138,7 +139,8 @@ where
     let none = Error::NoSensitivity { time: arc.time };
     let event = arc.event().filter(|event| event.after.is_some()).ok_or(none)?;
     let along = transition(system, arc)?;
-    let (field_before, arrival) = arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
+    let (field_before, arrival) =
+        arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // The state on the surface changes by Φδx₀ + f⁻δτ.
     let on_surface = along + field_before * (arrival * along);

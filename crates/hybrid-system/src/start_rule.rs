@@ -29,6 +29,7 @@ pub(crate) type LeavingGuards<S> = SmallVec<[Leaving<S>; FEW]>;
 
 /// A surface that was reached at the same instant as the surface of the last event.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Reached<S> {
     pub(crate) surface: S,
     /// The sign of the guard before.
@@ -46,9 +47,10 @@ pub(crate) enum Start<S> {
 
 /// How the state came to the start of an arc by a crossing.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Arrival<S, X> {
-    /// The surface that was crossed.
-    surface: S,
+    /// The surface that was crossed; `None` at a limit, where no event is.
+    surface: Option<S>,
     /// The state before the reset.
     before: X,
     /// The state earlier by the error of the time of the crossing.
@@ -65,7 +67,7 @@ impl<S: Copy + PartialEq, X: StateVector> Arrival<S, X> {
     /// The arrival at `surface` in the state `before`, at the end of an arc of this duration.
     pub(crate) fn new<T>(
         arc: &FlowFrom<T>,
-        surface: S,
+        surface: Option<S>,
         before: &X,
         (duration, time_error): (f64, f64),
     ) -> Self
@@ -88,7 +90,8 @@ impl<S: Copy + PartialEq, X: StateVector> Arrival<S, X> {
             guard.role == Role::Observer
                 || guard.role == Role::Switch && guard.direction == Direction::Either
         };
-        for guard in arc.guards().iter().filter(both_ways).filter(|guard| guard.surface != surface)
+        for guard in
+            arc.guards().iter().filter(both_ways).filter(|guard| Some(guard.surface) != surface)
         {
             let value = |state: &X| arc.guard_value(guard.surface, state);
             let rounding = guard_rounding(before, before, value);
@@ -108,7 +111,7 @@ impl<S: Copy + PartialEq, X: StateVector> Arrival<S, X> {
     }
 
     /// The surface that was crossed.
-    pub(crate) fn surface(&self) -> S {
+    pub(crate) fn surface(&self) -> Option<S> {
         self.surface
     }
 
@@ -127,11 +130,17 @@ impl<S: Copy + PartialEq, X: StateVector> Arrival<S, X> {
     fn error_after(&self, surface: S, state: &X, guard: impl Fn(&X) -> f64) -> f64 {
         let value = guard(state);
         let change = self.change(&guard);
-        if surface == self.surface && value == guard(&self.before) {
+        if Some(surface) == self.surface && value == guard(&self.before) {
             change.max(value.abs())
         } else {
             change
         }
+    }
+
+    /// True if all components of its states are finite.
+    #[cfg(feature = "serde")]
+    pub(crate) fn is_finite(&self) -> bool {
+        self.before.is_finite() && self.earlier.is_finite()
     }
 
     /// This surface is no longer one that was reached at the same instant: its event has happened.

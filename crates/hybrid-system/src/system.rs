@@ -41,6 +41,23 @@ pub trait HybridSystem {
     /// defined.
     fn flow(&self, mode: Self::Mode, start: &Self::State, time: f64) -> Self::State;
 
+    /// φ(t; x₀) at each of these times, which are in one order from zero on. Pictures and comparisons with data need many
+    /// states of one arc.
+    ///
+    /// Default: one call of [`flow`](Self::flow) for each time. An integrated mode returns `integrated_states(…)`
+    /// (feature `ode`), which integrates once.
+    ///
+    /// # Errors
+    /// None by default; the errors of the integration for an integrated mode.
+    fn flow_at(
+        &self,
+        mode: Self::Mode,
+        start: &Self::State,
+        times: &[f64],
+    ) -> Result<Vec<Self::State>, Error> {
+        Ok(times.iter().map(|&time| self.flow(mode, start, time)).collect())
+    }
+
     /// The guards of `mode`: only these surfaces are searched.
     ///
     /// Of guards that are crossed at the same instant, within the errors of the times, the one listed first is the event.
@@ -86,6 +103,17 @@ pub trait HybridSystem {
     fn vector_field(&self, mode: Self::Mode, state: &Self::State) -> Option<Self::State> {
         let _ = (mode, state);
         None
+    }
+
+    /// Finds misuse of the model before its first arc, from the initial mode and state.
+    ///
+    /// Default: no check.
+    ///
+    /// # Errors
+    /// The misuse, with its remedy.
+    fn validate(&self, mode: Self::Mode, start: &Self::State) -> Result<(), Error> {
+        let _ = (mode, start);
+        Ok(())
     }
 
     /// A bound on the rounding error of [`guard_value`](Self::guard_value) by its own arithmetic, for an exact state.

@@ -20,23 +20,17 @@ struct Watched<'a, F, G, const N: usize> {
     tolerances: Tolerances,
 }
 
-impl<F, G, const N: usize> VectorField<N> for Watched<'_, F, G, N>
+impl<F, G, const N: usize> HybridSystem for Watched<'_, F, G, N>
 where
     F: Fn(&State<N>) -> State<N>,
     G: Fn(usize, &State<N>) -> f64,
 {
-    fn vector_field(&self, _: (), x: &State<N>) -> State<N> {
-        (self.field)(x)
-    }
-}
-
-impl<F, G, const N: usize> HybridSystem<N> for Watched<'_, F, G, N>
-where
-    F: Fn(&State<N>) -> State<N>,
-    G: Fn(usize, &State<N>) -> f64,
-{
+    type State = State<N>;
     type Mode = ();
     type Surface = usize;
+    fn vector_field(&self, _: (), x: &State<N>) -> Option<State<N>> {
+        Some((self.field)(x))
+    }
     fn flow(&self, mode: (), x: &State<N>, t: f64) -> State<N> {
         integrated_flow(self, mode, x, t, self.tolerances)
     }
@@ -46,26 +40,25 @@ where
     fn guard_value(&self, surface: usize, x: &State<N>) -> f64 {
         (self.values)(surface, x)
     }
-    fn reset(&self, _: (), _: usize, x: &State<N>) -> Reset<(), N> {
+    fn reset(&self, _: (), _: usize, x: &State<N>) -> Reset<(), State<N>> {
         Reset::Jump { mode: (), state: *x }
     }
     fn first_crossing(
         &self,
         mode: (),
         x: &State<N>,
-        horizon: f64,
-        _: Option<f64>,
-    ) -> Result<Option<Crossing<usize, N>>, Error> {
+        search: &Search<usize>,
+    ) -> Result<NextEvent<usize, State<N>>, Error> {
         integrated_crossing(self, mode, x, search, self.tolerances)
     }
 }
 
 /// All events up to `time`.
-fn events<T: HybridSystem<N, Mode = (), Surface = usize>, const N: usize>(
+fn events<T: HybridSystem<State = State<N>, Mode = (), Surface = usize>, const N: usize>(
     system: &T,
     start: State<N>,
     time: f64,
-) -> Vec<Event<(), usize, N>> {
+) -> Vec<Event<(), usize, State<N>>> {
     Execution::new(system, (), start, Limits::new(time, 1000))
         .filter_map(|arc| arc.unwrap().event().copied())
         .collect()
@@ -81,7 +74,7 @@ fn both_events_of_the_test_suite_of_scipy_are_found() {
     let values = |surface: usize, x: &State<3>| {
         if surface == 0 { x[1] - x[2].powf(0.7) } else { x[2].powf(0.6) - x[1] }
     };
-    let guards = [Guard::rising(0), Guard::falling(1)];
+    let guards = [Guard::rising(0).observer(), Guard::falling(1).observer()];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     let start = Vector3::new(5.0, 1.0 / 3.0, 2.0 / 9.0);
     let found = events(&system, start, 3.0);
@@ -92,7 +85,7 @@ fn both_events_of_the_test_suite_of_scipy_are_found() {
     assert!((times[1].1 - 7.5487766624669276).abs() < 1e-12, "{times:?}");
     assert!(found.iter().all(|event| event.certainty == Certainty::Interpolated));
     // In the opposite direction of each guard there is no event.
-    let guards = [Guard::falling(0), Guard::rising(1)];
+    let guards = [Guard::falling(0).observer(), Guard::rising(1).observer()];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     assert!(events(&system, start, 3.0).is_empty());
 }
@@ -108,7 +101,7 @@ fn the_lorenz_system_returns_to_its_section_at_the_known_time() {
         )
     };
     let values = |_: usize, x: &State<3>| x[2] - 27.0;
-    let guards = [Guard::falling(0)];
+    let guards = [Guard::falling(0).observer()];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     let start = Vector3::new(-2.1473674741633753, 2.0780481172873415, 27.0);
     let found = events(&system, start, 1.0);
@@ -223,7 +216,7 @@ fn a_flow_that_ends_in_finite_time_is_an_error() {
         jump: 0,
         start: Vector1::new(1.0),
         duration: 2.0,
-        end: ArcEnd::<(), usize, 1>::TimeLimit,
+        end: ArcEnd::<(), usize, State<1>>::TimeLimit { certainty: Certainty::Exact },
     };
     assert!(matches!(arc.state(&system, 2.0), Err(Error::StateNotFinite { .. })));
     assert!((arc.state(&system, 0.5).unwrap()[0] - 2.0).abs() < 1e-11);

@@ -242,8 +242,7 @@ fn dry_friction_sticks_for_the_exact_time() {
     assert!(caught.abs() < 2.0, "{caught}");
     for stick in &sticks[1..sticks.len() - 1] {
         let release = stick.event().unwrap();
-        let tangent =
-            FilippovSurface::Tangent { surface: Surface::Switch, mode: Side::Below };
+        let tangent = FilippovSurface::Tangent { surface: Surface::Switch, mode: Side::Below };
         assert_eq!(release.surface, tangent);
         assert!((release.before[0] - 2.0).abs() < 1e-11, "{}", release.before[0]);
         assert_eq!(release.before[1], 1.0);
@@ -270,8 +269,7 @@ fn the_stick_slip_cycle_of_leine() {
         )
     };
     let belt = Filippov::new(belt, TIGHT);
-    let (arcs, _) =
-        run(&belt, BELOW, Vector2::new(1.135, 0.0), Limits::new(50.0, 100)).unwrap();
+    let (arcs, _) = run(&belt, BELOW, Vector2::new(1.135, 0.0), Limits::new(50.0, 100)).unwrap();
     // The section is passed where the mass turns back, at the largest x.
     let turns: Vec<_> = arcs
         .iter()
@@ -633,7 +631,8 @@ fn derivatives_through_sliding_equal_finite_differences() {
         (last.state(&system, last.duration).unwrap(), arcs)
     };
     let (mut slid, mut left) = (0, 0);
-    for start in [Vector3::new(0.5, 0.2, 0.3), Vector3::new(0.5, -0.4, -0.05), Vector3::new(-0.2, 0.6, -0.1)]
+    for start in
+        [Vector3::new(0.5, 0.2, 0.3), Vector3::new(0.5, -0.4, -0.05), Vector3::new(-0.2, 0.6, -0.1)]
     {
         for time in [1.0, 2.0, 3.0, 4.5, 6.0] {
             let (_, arcs) = end(start, time);

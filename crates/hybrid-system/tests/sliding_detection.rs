@@ -85,9 +85,8 @@ impl HybridSystem for Relay {
         x: &State<1>,
     ) -> Option<QuasiPolynomial> {
         let factor = self.guard_value(surface, &Vector1::new(1.0));
-        (self.source == Source::QuasiPolynomial).then(|| {
-            QuasiPolynomial::polynomial(&[factor * x[0], factor * self.rate(side)])
-        })
+        (self.source == Source::QuasiPolynomial)
+            .then(|| QuasiPolynomial::polynomial(&[factor * x[0], factor * self.rate(side)]))
     }
     fn guard_enclosure(
         &self,
@@ -120,9 +119,8 @@ impl HybridSystem for Relay {
     }
 }
 
-type Arcs<T> = Vec<
-    Arc<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface, <T as HybridSystem>::State>,
->;
+type Arcs<T> =
+    Vec<Arc<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface, <T as HybridSystem>::State>>;
 
 /// All arcs, and why the execution stopped.
 fn run<T: HybridSystem>(

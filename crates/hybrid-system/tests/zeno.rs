@@ -207,15 +207,9 @@ fn endless_events_at_one_instant_are_an_error() {
             &self,
             _: (),
             start: &State<1>,
-            _: f64,
-            _: Option<f64>,
+            _: &Search<()>,
         ) -> Result<NextEvent<(), State<1>>, Error> {
-            Ok(Some(Crossing {
-                surface: (),
-                time: 0.0,
-                state: *start,
-                certainty: Certainty::Exact,
-            }))
+            Ok(NextEvent::Crossing(Crossing::exact((), 0.0, *start)))
         }
     }
     let limits = Limits::new(1.0, usize::MAX);

@@ -68,9 +68,7 @@ pub(super) fn after_crossing<T: HybridSystem>(
         (Side::Unaffected, Side::Jump(above, reached)) if unchanged(&reached) => {
             (sides.below, above, reached)
         }
-        (Side::Jump(below, reached), Side::Jump(above, same))
-            if is_unchanged(&reached, &same) =>
-        {
+        (Side::Jump(below, reached), Side::Jump(above, same)) if is_unchanged(&reached, &same) => {
             (below, above, reached)
         }
         _ => return Err(NotUnique("the modes on both sides reset the state differently")),

@@ -182,8 +182,7 @@ pub(super) fn same_surface<T: HybridSystem>(
     // sin² of the angle = 1 − (∇g·∇h)²/(|∇g|²|∇h|²).
     let parallel = 1.0 - (gh / gg) * scale <= SAME_ANGLE * SAME_ANGLE;
     let (g, h) = (system.guard_value(surface, state), system.guard_value(other, state));
-    let errors =
-        rounding(system, surface, state) + scale.abs() * rounding(system, other, state);
+    let errors = rounding(system, surface, state) + scale.abs() * rounding(system, other, state);
     (parallel && (g - scale * h).abs() <= ON_SURFACE * errors + SAME_ANGLE * g.abs())
         .then_some(scale)
 }

@@ -120,8 +120,7 @@ mod tests {
     #[test]
     fn a_function_that_bends_over_short_distances_is_resolved() {
         let at = Vector2::new(0.3, 1.0);
-        let slope =
-            slope_along(|x| pxfm::f_sin(1000.0 * x[0]), &at, &Vector2::new(1.0, 0.0), 0.0);
+        let slope = slope_along(|x| pxfm::f_sin(1000.0 * x[0]), &at, &Vector2::new(1.0, 0.0), 0.0);
         let exact = 1000.0 * pxfm::f_cos(300.0);
         assert!((slope.value / exact - 1.0).abs() < 1e-9, "{slope:?} {exact}");
         assert!((slope.value - exact).abs() <= slope.error, "{slope:?} {exact}");

@@ -4,17 +4,14 @@ use super::directional::slope_along;
 use super::filippov_modes::GuardTable;
 use super::rates::sizes;
 use super::sliding_field::{onto_surface, sliding_field};
-use crate::ode::Tolerances;
 use crate::crossing::guard_rounding;
+use crate::ode::Tolerances;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 
 /// ∇g of a surface of the model, at a state.
-type Gradient<T> = fn(
-    &T,
-    <T as HybridSystem>::Surface,
-    &<T as HybridSystem>::State,
-) -> <T as HybridSystem>::State;
+type Gradient<T> =
+    fn(&T, <T as HybridSystem>::Surface, &<T as HybridSystem>::State) -> <T as HybridSystem>::State;
 
 /// A system that goes on along a surface at which the fields of both sides point, by Filippov's convention: with the mean
 /// of both fields that is tangent to the surface.
@@ -87,8 +84,8 @@ type Gradient<T> = fn(
 ///
 /// # Accuracy
 /// The states that `flow` and events return are on the surface, within the rounding of its guard. Inside an integration
-/// they may be off it by some errors of the steps: the integrated field leads back to the surface. At an exit the free mode starts on the surface, with a rate that is zero within the
-/// errors; the next derivative decides that it leaves.
+/// they may be off it by some errors of the steps: the integrated field leads back to the surface. At an exit the free mode
+/// starts on the surface, with a rate that is zero within the errors; the next derivative decides that it leaves.
 ///
 /// # Degenerate cases
 /// Where two sliding surfaces meet the convention gives no unique field: the execution ends there, in

@@ -64,9 +64,9 @@ impl<M: Copy + Eq, S: Copy + Eq> GuardTable<M, S> {
     ) -> &[FilippovGuard<M, S>] {
         let mut table = self;
         loop {
-            let entry = table.entry.get_or_init(|| {
-                Box::new(Entry { mode, guards: make(), rest: GuardTable::new() })
-            });
+            let entry = table
+                .entry
+                .get_or_init(|| Box::new(Entry { mode, guards: make(), rest: GuardTable::new() }));
             if entry.mode == mode {
                 return &entry.guards;
             }

@@ -103,8 +103,7 @@ impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippo
         &self,
         sliding: &Sliding<Self::Mode, Self::Surface, T::State>,
     ) -> Option<(Self::Mode, T::State)> {
-        let (FilippovMode::Free(below), FilippovMode::Free(above)) =
-            (sliding.below, sliding.above)
+        let (FilippovMode::Free(below), FilippovMode::Free(above)) = (sliding.below, sliding.above)
         else {
             return None;
         };
@@ -273,7 +272,9 @@ impl<T: HybridSystem<State = State<N>>, const N: usize> Filippov<T> {
                         after_crossing(self, (sides, partner), other, &crossing.state)
                             .map_err(|reason| not_unique(crossing.time, reason.0))?;
                     }
-                    FilippovSurface::Tangent { .. } if self.both_tangent(sides, &crossing.state) => {
+                    FilippovSurface::Tangent { .. }
+                        if self.both_tangent(sides, &crossing.state) =>
+                    {
                         return Err(not_unique(crossing.time, "both fields are tangent"));
                     }
                     FilippovSurface::Tangent { .. } => {}
