@@ -27,50 +27,21 @@ type Gradient<T> =
 ///
 /// ```
 /// use hybrid_system::*;
-/// use nalgebra::Vector2;
-///
-/// const TOLERANCES: Tolerances = Tolerances::both(1e-12);
 ///
 /// #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 /// enum Mass { Slower, Faster }
 ///
-/// struct Belt;
-/// impl HybridSystem for Belt {
-///     type State = State<2>;
-///     type Mode = Mass;
-///     type Surface = ();
-///     fn vector_field(&self, mass: Mass, x: &State<2>) -> Option<State<2>> {
-///         let pull = if mass == Mass::Slower { 2.0 } else { -2.0 };
-///         Some(Vector2::new(x[1], -x[0] + pull))
-///     }
-///     fn flow(&self, mass: Mass, x: &State<2>, t: f64) -> State<2> {
-///         integrated_flow(self, mass, x, t, TOLERANCES)
-///     }
-///     fn guards(&self, mass: Mass) -> &[Guard<()>] {
-///         match mass {
-///             Mass::Slower => const { &[Guard::rising(())] },
-///             Mass::Faster => const { &[Guard::falling(())] },
-///         }
-///     }
-///     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
-///         x[1] - 1.0
-///     }
-///     fn reset(&self, mass: Mass, _: (), x: &State<2>) -> Reset<Mass, State<2>> {
-///         let mode = if mass == Mass::Slower { Mass::Faster } else { Mass::Slower };
-///         Reset::Jump { mode, state: *x }
-///     }
-///     fn first_crossing(
-///         &self, mass: Mass, x: &State<2>, search: &Search<()>,
-///     ) -> Result<NextEvent<(), State<2>>, Error> {
-///         integrated_crossing(self, mass, x, search, TOLERANCES)
-///     }
-/// }
+/// let belt = Model::integrated(|mass, x: &State<2>| match mass {
+///     Mass::Slower => [x[1], -x[0] + 2.0],
+///     Mass::Faster => [x[1], -x[0] - 2.0],
+/// })
+/// .rising(Mass::Slower, |x| x[1] - 1.0, |x| (Mass::Faster, *x))
+/// .falling(Mass::Faster, |x| x[1] - 1.0, |x| (Mass::Slower, *x));
+/// let belt = Filippov::new(belt, Tolerances::both(1e-12));
 ///
-/// let belt = Filippov::new(Belt, TOLERANCES);
-/// let start = Vector2::new(-1.0, 0.0);
+/// let start = (FilippovMode::Free(Mass::Slower), State::<2>::new(-1.0, 0.0));
 /// let arcs: Vec<_> =
-///     Execution::new(&belt, FilippovMode::Free(Mass::Slower), start, Limits::new(9.0, 20))
-///         .collect::<Result<_, _>>()?;
+///     Execution::new(&belt, start.0, start.1, Limits::new(9.0, 20)).collect::<Result<_, _>>()?;
 /// let stick = arcs
 ///     .iter()
 ///     .find(|arc| matches!(arc.mode, FilippovMode::Sliding { .. }))
