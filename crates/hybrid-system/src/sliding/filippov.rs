@@ -16,8 +16,8 @@ type Gradient<T> =
 /// A system that goes on along a surface at which the fields of both sides point, by Filippov's convention: with the mean
 /// of both fields that is tangent to the surface.
 ///
-/// The modes are [`FilippovMode::Free`], the modes of the model, and [`FilippovMode::Sliding`]. A sliding mode ends where
-/// the field of one side turns tangent, a [`FilippovSurface::Tangent`], and at the other surfaces of both sides.
+/// The modes are [`FilippovMode::Free`](crate::FilippovMode::Free), the modes of the model, and [`FilippovMode::Sliding`](crate::FilippovMode::Sliding). A sliding mode ends where
+/// the field of one side turns tangent, a [`FilippovSurface::Tangent`](crate::FilippovSurface::Tangent), and at the other surfaces of both sides.
 /// [Filippov's convention](crate::sliding_motion) has the mathematics.
 ///
 /// The model must give its [fields](HybridSystem::vector_field). Its free modes may be integrated or in closed form. The

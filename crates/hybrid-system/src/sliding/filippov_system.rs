@@ -11,10 +11,10 @@ use crate::crossing::{
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
 use crate::ode::{Tolerances, integrated_crossing, integrated_flow};
-use crate::state::{State, StateVector};
+use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 
-impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippov<T> {
+impl<T: HybridSystem> HybridSystem for Filippov<T> {
     type State = T::State;
     type Mode = FilippovMode<T::Mode, T::Surface>;
     type Surface = FilippovSurface<T::Mode, T::Surface>;
@@ -239,19 +239,25 @@ fn next_of_model<M, S, X>(next: NextEvent<S, X>) -> NextEvent<FilippovSurface<M,
 /// to those of one step. A larger number would project starts that are visibly beside the surface.
 const START_TOLERANCES: f64 = 100.0;
 
-impl<T: HybridSystem<State = State<N>>, const N: usize> Filippov<T> {
+/// The result of a search of the system with sliding modes.
+type Next<T> = NextEvent<
+    FilippovSurface<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface>,
+    <T as HybridSystem>::State,
+>;
+
+impl<T: HybridSystem> Filippov<T> {
     fn first_crossing_while_sliding(
         &self,
         mode: FilippovMode<T::Mode, T::Surface>,
         (sides, partner): (&Sides<T::Mode, T::Surface>, T::Surface),
         start: &T::State,
         search: &Search<FilippovSurface<T::Mode, T::Surface>>,
-    ) -> Result<NextEvent<FilippovSurface<T::Mode, T::Surface>, T::State>, Error> {
+    ) -> Result<Next<T>, Error> {
         let guard = |state: &T::State| self.system.guard_value(sides.surface, state);
         // In units of the roundings that `guard_rounding` applies to components.
         let Tolerances { relative, absolute, .. } = self.tolerances;
         let size = start.from_fn_like(|axis| {
-            START_TOLERANCES * (absolute + relative * start[axis].abs()) / f64::EPSILON
+            START_TOLERANCES * (absolute + relative * start.components()[axis].abs()) / f64::EPSILON
         });
         let (value, largest) = (guard(start), guard_rounding(start, &size, guard));
         if !(value.abs() <= largest) {
