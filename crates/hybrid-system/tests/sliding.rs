@@ -280,3 +280,23 @@ fn a_gradient_gives_the_same_motion() {
     };
     assert!((end(&plain) - end(&exact)).norm() < 1e-11);
 }
+
+/// An exit from the surface x = 0, where the rounding of x itself is no scale: ẋ = 1 − y below, and ẏ = 1.
+#[test]
+fn the_free_motion_after_an_exit_is_a_parabola() {
+    let fold = TwoSided::<2>::new(
+        |x| Vector2::new(1.0 - x[1], 1.0),
+        |_| Vector2::new(-1.0, 1.0),
+        |x| x[0],
+    );
+    let fold = Filippov::new(fold, TIGHT);
+    let start = Vector2::new(0.3, 0.1);
+    let (arcs, stop) = run(&fold, ABOVE, start, Limits::new(3.0, 20)).unwrap();
+    assert_eq!(stop, Some(Stop::TimeLimit));
+    let lasting = lasting(&arcs);
+    assert_eq!(lasting.len(), 3, "{arcs:?}");
+    // On the surface after 0.3, at y = 0.4; tangent at y = 1, after 0.9.
+    assert!((lasting[2].time - 0.9).abs() < 1e-12 && lasting[2].mode == BELOW);
+    let end = lasting[2].state(&fold, lasting[2].duration).unwrap();
+    assert!((end[0] + 0.5 * 2.1 * 2.1).abs() < 1e-11, "{end}");
+}

@@ -77,6 +77,17 @@ pub(super) struct Sides<M, S> {
     pub(super) above: M,
 }
 
+/// The distance of a state from a surface: the value of the guard, and the largest one that counts as zero.
+pub(super) struct OffSurface {
+    pub(super) value: f64,
+    pub(super) largest: f64,
+}
+
+/// A state is on a surface if the guard is zero within the change of the state by this multiple of the
+/// tolerances of the flow: nearer to the surface than the flow itself is known. Resets and sums of the model add errors
+/// to those of one step. A larger number would project starts that are visibly beside the surface.
+const START_TOLERANCES: f64 = 100.0;
+
 /// The fields on both sides of a surface, and the rates of the guard along them.
 pub(super) struct Fields<X> {
     pub(super) below: X,
@@ -138,6 +149,23 @@ impl<T: HybridSystem> Filippov<T> {
         let guard = |state: &T::State| self.system.guard_value(surface, state);
         guard_rounding(state, &sizes(state), guard)
             + self.system.guard_error(surface, state).unwrap_or_default()
+    }
+
+    /// An error unless the state is on the surface, as far as the tolerances of the flow tell.
+    pub(super) fn check_on_surface(
+        &self,
+        surface: T::Surface,
+        state: &T::State,
+    ) -> Result<(), OffSurface> {
+        let guard = |state: &T::State| self.system.guard_value(surface, state);
+        // In units of the roundings that `guard_rounding` applies to components.
+        let Tolerances { relative, absolute, .. } = self.tolerances;
+        let size = state.from_fn_like(|axis| {
+            let component = state.components()[axis].abs();
+            START_TOLERANCES * (absolute + relative * component) / f64::EPSILON
+        });
+        let (value, largest) = (guard(state), guard_rounding(state, &size, guard));
+        if value.abs() <= largest { Ok(()) } else { Err(OffSurface { value, largest }) }
     }
 
     /// The point of the surface next to `state` along f⁺ − f⁻, as far as the rounding of the guard allows.

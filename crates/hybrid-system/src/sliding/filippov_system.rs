@@ -2,15 +2,13 @@
 
 use super::crossing_while_sliding::after_crossing;
 use super::detection::same_surface;
-use super::filippov::{Filippov, Sides};
+use super::filippov::{Filippov, OffSurface, Sides};
 use super::filippov_modes::{FilippovMode, FilippovSurface};
 use super::sliding_point::Sliding;
-use crate::crossing::{
-    Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search, guard_rounding,
-};
+use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
-use crate::ode::{Tolerances, integrated_crossing, integrated_flow};
+use crate::ode::{integrated_crossing, integrated_flow};
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 
@@ -234,11 +232,6 @@ fn next_of_model<M, S, X>(next: NextEvent<S, X>) -> NextEvent<FilippovSurface<M,
     }
 }
 
-/// A sliding motion starts on its surface if the guard is zero within the change of the state by this multiple of the
-/// tolerances of the flow: nearer to the surface than the flow itself is known. Resets and sums of the model add errors
-/// to those of one step. A larger number would project starts that are visibly beside the surface.
-const START_TOLERANCES: f64 = 100.0;
-
 /// The result of a search of the system with sliding modes.
 type Next<T> = NextEvent<
     FilippovSurface<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface>,
@@ -253,14 +246,7 @@ impl<T: HybridSystem> Filippov<T> {
         start: &T::State,
         search: &Search<FilippovSurface<T::Mode, T::Surface>>,
     ) -> Result<Next<T>, Error> {
-        let guard = |state: &T::State| self.system.guard_value(sides.surface, state);
-        // In units of the roundings that `guard_rounding` applies to components.
-        let Tolerances { relative, absolute, .. } = self.tolerances;
-        let size = start.from_fn_like(|axis| {
-            START_TOLERANCES * (absolute + relative * start.components()[axis].abs()) / f64::EPSILON
-        });
-        let (value, largest) = (guard(start), guard_rounding(start, &size, guard));
-        if !(value.abs() <= largest) {
+        if let Err(OffSurface { value, largest }) = self.check_on_surface(sides.surface, start) {
             let surface = format!("{:?}", sides.surface);
             return Err(Error::OffSurface { surface, value, largest });
         }
