@@ -68,9 +68,9 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! More: [the mathematics](mathematics), [sliding](sliding_motion), [which certainty do I have?](certainty), and [a model of your own in 40
-//! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
-//! released.
+//! More: [the mathematics](mathematics), [sliding along a surface](sliding_motion), [which certainty do I
+//! have?](certainty), and [a model of your own in 40 lines](guide). The examples `bouncing_ball` and `plastic_landing` have
+//! bodies that rest on another one and are released; in `dry_friction` a mass sticks to a belt.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
