@@ -2,8 +2,9 @@
 
 use super::directional::slope_along;
 use super::filippov_modes::GuardTable;
+use super::projection::onto_surface;
 use super::rates::sizes;
-use super::sliding_field::{onto_surface, sliding_field};
+use super::sliding_field::sliding_field;
 use crate::crossing::guard_rounding;
 use crate::ode::Tolerances;
 use crate::state::StateVector;

@@ -96,7 +96,7 @@ pub(crate) fn run<T: HybridSystem>(
 ) -> Result<(Vec<ModelArc<T>>, Option<Stop>), Error> {
     let mut execution = Execution::new(system, mode, start, limits);
     let mut arcs = Vec::new();
-    while let Some(arc) = execution.next() {
+    for arc in execution.by_ref() {
         arcs.push(arc?);
     }
     Ok((arcs, execution.stop()))
