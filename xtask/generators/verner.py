@@ -1,4 +1,4 @@
-"""Verner's Runge-Kutta pairs 9(8) and 8(7) with interpolants of order 8, polished on the order conditions.
+"""Verner's Runge-Kutta pairs 9(8), 8(7) and 6(5) with interpolants, polished on the order conditions.
 
 verner_published.json has the digits of Verner's pages, rounded to doubles. Published numbers of at most EXACT digits
 are parameters of the families and are kept. Newton's method moves all others to a solution next to them. The result is
@@ -30,16 +30,15 @@ VANISHES = mpfr("1e-11")
 FEW = mpfr("1e-10")
 # More steps mean that the method does not converge.
 MOST_STEPS = 12
-# The order of both interpolants.
-INSIDE = 8
 # The interpolants are tabulated at this many Chebyshev nodes of the step (ode/chebyshev.rs).
 NODES = 16
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "crates" / "hybrid-system" / "src" / "ode" / "schemes"
 OUT = ROOT / "target" / "regenerate"
-PAIRS = (("9(8)", 9, "nine.rs"), ("8(7)", 8, "eight.rs"))
+# Published name, the higher order, the order of the interpolant, the file.
+PAIRS = (("9(8)", 9, 8, "nine.rs"), ("8(7)", 8, 8, "eight.rs"), ("6(5)", 6, 6, "six.rs"))
 HEADER = """\
-//! J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order 8.
+//! J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order {inside}.
 //!
 //! Made by `xtask/generators/verner.py` (`cargo xtask regenerate --only verner`); not edited by hand.
 
@@ -73,7 +72,10 @@ def is_exact(text):
 
 
 def read(name, order):
-    """The published pair. Row S, the first of the interpolant, is the weights: the same numbers."""
+    """The published pair. The first row at the end of the step is the weights: the same numbers.
+
+    That row is the first of the interpolant, or the last of the pair ("first same as last").
+    """
     published = json.loads(Path(__file__).with_name("verner_published.json").read_text(encoding="utf-8"))[name]
     values, free = [], []
 
@@ -90,11 +92,15 @@ def read(name, order):
 
     stages = len(published["b"])
     nodes = [place(text) for text in published["c"][:stages]]
-    rows = [row(texts) for texts in published["a"][:stages]]
+    # Row S, without the zero of its own stage.
+    same = published["a"][stages - 1] == published["b"][: stages - 1]
+    rows = [row(texts) for texts in published["a"][: stages - same]]
     weights, lower = row(published["b"]), row(published["lower"])
+    rows += [weights] if same else []
     of_pair, free = free, []
     nodes += [place(text) for text in published["c"][stages:]]
-    rows += [weights] + [row(texts) for texts in published["a"][stages + 1:]]
+    rows += [] if same else [weights]
+    rows += [row(texts) for texts in published["a"][len(rows):]]
     inside = [[place(text) for text in texts] for texts in published["inside"]]
     return Pair(order, stages, nodes, rows, weights, lower, inside, values, of_pair, free)
 
@@ -222,16 +228,16 @@ def polish(values, free, residuals):
     return sizes
 
 
-def polished(name, order):
+def polished(name, order, inside):
     """A pair with all residuals below SOLVED, and the residuals on the way."""
     gmpy2.get_context().precision = BITS
     pair = read(name, order)
-    found, inner = trees(order), trees(INSIDE)
+    found, inner = trees(order), trees(inside)
     of_stages = row_conditions(pair, range(pair.stages))
     sizes = polish(pair.values, pair.of_pair, lambda values: pair_residuals(pair, values, found, of_stages))
     of_inside = row_conditions(pair, range(pair.stages, len(pair.rows)))
-    inside = polish(pair.values, pair.of_inside, lambda values: inside_residuals(pair, values, inner, of_inside))
-    return pair, sizes, inside
+    more = polish(pair.values, pair.of_inside, lambda values: inside_residuals(pair, values, inner, of_inside))
+    return pair, sizes, more
 
 
 def with_first(terms, total):
@@ -260,7 +266,7 @@ def lines(items, indent):
     return "\n".join([*text, line.rstrip()]) + "\n"
 
 
-def source(name, pair):
+def source(name, inside, pair):
     """The Rust file of a pair."""
     values, stages, total = pair.values, pair.stages, len(pair.rows)
     numbers = lambda terms: [(j, values[k]) for j, k in terms]
@@ -269,18 +275,20 @@ def source(name, pair):
     higher = dict(numbers(pair.weights))
     errors = [(j, higher.get(j, mpfr(0)) - lower.get(j, mpfr(0))) for j in range(stages) if j in higher or j in lower]
     errors = dense(with_first(errors, mpfr(0)), stages)
-    text = HEADER.format(orders=name, order=pair.order, stages=stages, more=total - stages)
-    text += f"    order: {pair.order},\n    stages: {stages},\n"
+    text = HEADER.format(orders=name, order=pair.order, stages=stages, more=total - stages, inside=inside)
+    same = pair.rows[stages - 1] == pair.weights
+    text += f"    order: {pair.order},\n    stages: {stages},\n    first_same_as_last: {str(same).lower()},\n"
+    text += f"    degree: {max(map(len, pair.inside))},\n"
     text += "    weights: &[\n" + lines(map(number, weights), 8) + "    ],\n"
     text += "    errors: &[\n" + lines(map(number, errors), 8) + "    ],\n"
-    text += "    times: [\n" + lines((number(float(node(pair, values, i))) for i in range(total)), 8) + "    ],\n"
-    text += "    rows: [\n"
+    text += "    times: &[\n" + lines((number(float(node(pair, values, i))) for i in range(total)), 8) + "    ],\n"
+    text += "    rows: &[\n"
     for i, row in enumerate(pair.rows):
         terms = with_first(numbers(row), node(pair, values, i))
         terms += [(0, 0.0)] * (len(terms) % 2)
         pairs = [f"[({a}, {number(x)}), ({b}, {number(y)})]" for (a, x), (b, y) in zip(terms[::2], terms[1::2])]
         text += "        &[],\n" if not pairs else "        &[\n" + lines(pairs, 12) + "        ],\n"
-    text += "    ],\n    nodes: [\n"
+    text += "    ],\n    nodes: &[\n"
     nodes = [(1 + gmpy2.cos(gmpy2.const_pi() * (2 * j + 1) / (2 * NODES))) / 2 for j in range(NODES)]
     columns = []
     for s in nodes:
@@ -293,17 +301,17 @@ def source(name, pair):
 
 
 def made(job):
-    name, order, file = job
-    pair, sizes, inside = polished(name, order)
-    return file, sizes, inside, source(name, pair)
+    name, order, inside, file = job
+    pair, sizes, more = polished(name, order, inside)
+    return file, sizes, more, source(name, inside, pair)
 
 
 def verify(_check):
     wrong = 0
     # Two processes of their own: this function runs in the parent of the workers for records.
     with multiprocessing.Pool(2) as pool:
-        for file, sizes, inside, text in pool.imap(made, PAIRS):
-            steps = "; ".join(" ".join(f"{float(x):.0e}" for x in run) for run in (sizes, inside))
+        for file, sizes, more, text in pool.imap(made, PAIRS):
+            steps = "; ".join(" ".join(f"{float(x):.0e}" for x in run) for run in (sizes, more))
             committed = (SOURCES / file).read_text(encoding="utf-8") if (SOURCES / file).exists() else ""
             equal = committed == text
             print(f"  {file}: largest residuals {steps}: {'equal' if equal else 'DIFFERS'}", flush=True)

@@ -199,6 +199,68 @@ pub enum Error {
         /// The components of the state.
         state: Vec<f64>,
     },
+    /// A search under bounds reached its budget of intervals.
+    #[error(
+        "no zero up to time {time}; the search up to {horizon} needs more than {intervals} intervals: set a larger \
+         budget, or a shorter horizon"
+    )]
+    IntervalBudget {
+        /// The time up to which there is no zero.
+        time: f64,
+        /// The horizon of the search.
+        horizon: f64,
+        /// The budget.
+        intervals: usize,
+    },
+    /// An integration cannot go on: the field is infinite or NaN just after this state, however short the step.
+    #[error(
+        "the field is not finite just after time {time}, where the last state is {state:?}: let an event end the arc \
+         before, or limit its time"
+    )]
+    FieldNotFinite {
+        /// Time of the last state.
+        time: f64,
+        /// Its components.
+        state: Vec<f64>,
+    },
+    /// A list of preset times that does not rise.
+    #[error(
+        "preset time number {index} is {time}, after {before}: the times must be finite and rise strictly"
+    )]
+    BadClock {
+        /// Position in the list, from 0.
+        index: usize,
+        /// The time.
+        time: f64,
+        /// The time before it; −∞ for the first one.
+        before: f64,
+    },
+    /// A sliding motion that starts beside its surface.
+    #[error(
+        "a sliding motion cannot start beside its surface {surface}: the guard is {value:e}, and its rounding error \
+         is below {largest:e}; start in a free mode"
+    )]
+    OffSurface {
+        /// Name of the surface.
+        surface: String,
+        /// The value of its guard.
+        value: f64,
+        /// The largest value that counts as zero.
+        largest: f64,
+    },
+    /// A sliding motion that has more than one continuation.
+    #[error(
+        "the motion along surface {surface} is not unique from time {time} of its arc on: {reason}; the model must \
+         have a mode for it"
+    )]
+    SlidingNotUnique {
+        /// Name of the surface.
+        surface: String,
+        /// Time since the start of the arc.
+        time: f64,
+        /// The reason.
+        reason: &'static str,
+    },
     /// Two guards of one mode have the same surface: their events could not be told apart.
     #[error("surface {surface} has two guards in one mode: give each of them a name of its own")]
     SurfaceTwice {

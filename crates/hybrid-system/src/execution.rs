@@ -131,7 +131,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The next arc. The state of the execution moves to the end of the arc.
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
-        if let Some(limit) = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, false) {
+        if let Some(limit) = self.at.history.zeno_limit(false) {
             return Ok(self.zeno_arc(limit));
         }
         // The time of an event at the limit may be rounded up beyond it.
@@ -144,7 +144,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 | Error::UndecidedSign { .. }
                 | Error::Grazing { .. }),
             ) => {
-                let limit = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, true);
+                let limit = self.at.history.zeno_limit(true);
                 return limit.map(|limit| self.zeno_arc(limit)).ok_or(hidden);
             }
             found => found?,
@@ -161,7 +161,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                     return Ok(self.arc_without_event(horizon, None, certainty));
                 }
                 if crossing.kind == EventKind::AtStart
-                    && let Some(sliding) = self.sliding(crossing.surface)?
+                    && let Some(sliding) = self.sliding(crossing.surface)
                 {
                     return Ok(self.sliding_arc(sliding));
                 }
@@ -292,7 +292,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         self.at.initial = false;
         match after {
             Some((mode, state)) => {
-                self.at.history.push(duration, state.clone());
+                self.at.history.push(duration, time_error, time, state.clone());
                 (self.at.mode, self.at.state) = (mode, state);
             }
             None => {
@@ -348,17 +348,19 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     }
 
     /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
-    fn sliding(
-        &self,
-        surface: T::Surface,
-    ) -> Result<Option<Sliding<T::Mode, T::Surface, T::State>>, Error> {
+    fn sliding(&self, surface: T::Surface) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
+        let last = self.at.chain.last();
+        // A crossing of another surface says nothing about the distance from this one.
+        let of_last = |arrival: &&Arrival<T::Surface, T::State>| {
+            last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
+        };
         let at = AtOnce {
             mode: self.at.mode,
             surface,
             state: &self.at.state,
             time: self.at.time.value(),
-            last: self.at.chain.last(),
-            before: self.at.arrival.as_ref().map(Arrival::before),
+            last,
+            before: self.at.arrival.as_ref().filter(of_last).map(Arrival::before),
         };
         sliding_point(self.system, &at)
     }
@@ -380,18 +382,17 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
     /// gives a mode.
     fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
-        let now = self.at.time.value();
-        if limit.time > self.limits.time {
+        let horizon = self.at.time.until(self.limits.time).max(0.0);
+        if limit.remainder > horizon {
             self.stop = Some(Stop::TimeLimit);
             let certainty = Certainty::Exact;
-            return self
-                .new_arc((self.limits.time - now).max(0.0), ArcEnd::TimeLimit { certainty });
+            return self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
         }
         let after = self.system.rest(self.at.mode, &limit.state);
-        let (time, state) = (limit.time, limit.state.clone());
+        let (remainder, state) = (limit.remainder, limit.state.clone());
         let end = ArcEnd::Zeno { limit, after: after.clone() };
-        let arc = self.new_arc((time - now).max(0.0), end);
-        self.at.time = TimeSum::new(time);
+        let arc = self.new_arc(remainder, end);
+        self.at.time = self.at.time.plus(remainder);
         self.at.jump += 1;
         self.at.initial = false;
         self.at.history.clear();

@@ -18,6 +18,7 @@
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
 //! | [`Trajectory`] | an execution as arrays: states on a grid of times, events in columns |
 //! | [`Checkpoint`] | an execution between two arcs, to be restored or saved (feature `serde`) |
+//! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
@@ -81,7 +82,9 @@ mod chain;
 mod checkpoint;
 #[cfg(feature = "serde")]
 mod checkpoint_writer;
+mod clock;
 mod crossing;
+mod durations;
 mod error;
 mod execution;
 mod guard;
@@ -90,6 +93,7 @@ mod model;
 mod ode;
 mod searched;
 mod sensitivity;
+mod series_fit;
 mod sliding;
 mod start_rule;
 mod state;
@@ -100,6 +104,7 @@ mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
 pub use checkpoint::Checkpoint;
+pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
     Certainty, Crossing, Enclosure, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
     Search, bracketed_root, golden_section_minimum,
@@ -116,10 +121,13 @@ pub use model::{
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
+    integrated_states,
 };
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use sliding::Sliding;
+#[cfg(feature = "ode")]
+pub use sliding::{Filippov, FilippovMode, FilippovSurface};
 pub use state::{State, StateVector};
 pub use system::{HybridSystem, Reset, default_search};
 pub use trajectory::{EventColumns, Trajectory};

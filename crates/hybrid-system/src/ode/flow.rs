@@ -5,39 +5,92 @@ use super::search::search;
 use super::tolerances::Tolerances;
 use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
-use crate::state::State;
+use crate::state::StateVector;
 use crate::system::HybridSystem;
 
 /// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
 /// mode without closed form.
 ///
 /// If the integration fails before `time`, all components are NaN. [`Arc::state`](crate::Arc::state) and executions
-/// return such a state as an error; [`Integration`] gives the reason.
-pub fn integrated_flow<T, const N: usize>(
+/// return such a state as an error; [`integrated_states`] gives the reason.
+pub fn integrated_flow<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,
-    start: &State<N>,
+    start: &T::State,
     time: f64,
     tolerances: Tolerances,
-) -> State<N>
-where
-    T: HybridSystem<State = State<N>> + ?Sized,
-{
-    let state = || {
-        if !(time >= 0.0) {
-            return Err(Error::BadLimit { what: "the time of a flow", value: time });
+) -> T::State {
+    let mut after = None;
+    let flow = visit_states(system, mode, start, &[time], tolerances, |state| after = Some(state));
+    match (flow, after) {
+        (Ok(()), Some(after)) => after,
+        _ => start.from_fn_like(|_| f64::NAN),
+    }
+}
+
+/// The states at many times along ẋ = f(x), in one integration: the value that
+/// [`HybridSystem::flow_at`](crate::HybridSystem::flow_at) returns in a mode without closed form.
+///
+/// The times are in one order, from zero on: 0 ≤ t₀ ≤ t₁ ≤ …, or 0 ≥ t₀ ≥ t₁ ≥ … for the flow backward in time. The last
+/// state is the end of a step, the others are values of interpolants, with errors like those of the steps.
+///
+/// # Errors
+/// [`Error::BadLimit`] for times that are not finite or not in order, [`Error::NoVectorField`] for a mode without field,
+/// and the errors of [`Integration`].
+pub fn integrated_states<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+    start: &T::State,
+    times: &[f64],
+    tolerances: Tolerances,
+) -> Result<Vec<T::State>, Error> {
+    let mut states = Vec::with_capacity(times.len());
+    visit_states(system, mode, start, times, tolerances, |state| states.push(state))?;
+    Ok(states)
+}
+
+fn visit_states<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+    start: &T::State,
+    times: &[f64],
+    tolerances: Tolerances,
+    mut visit: impl FnMut(T::State),
+) -> Result<(), Error> {
+    let Some(&end) = times.last() else { return Ok(()) };
+    let mut before = 0.0;
+    for &time in times {
+        // Each time lies between the one before and the end.
+        if !(time.is_finite() && between(before, time, end)) {
+            return Err(Error::BadLimit { what: "a time that is not in order", value: time });
         }
-        if time == 0.0 {
-            return Ok(*start);
+        before = time;
+    }
+    let mut times = times.iter().copied().peekable();
+    while times.next_if_eq(&0.0).is_some() {
+        visit(start.clone());
+    }
+    if times.peek().is_none() {
+        return Ok(());
+    }
+    if system.vector_field(mode, start).is_none() {
+        return Err(Error::NoVectorField { mode: format!("{mode:?}") });
+    }
+    let field = field_of(system, mode);
+    let mut integration = Integration::new(field, start, tolerances)?.autonomous().until(end)?;
+    while !integration.ended() {
+        integration.step()?;
+        let (from, to) = integration.interval();
+        while let Some(time) = times.next_if(|&time| between(from, time, to)) {
+            visit(integration.at(time)?);
         }
-        let field = field_of(system, mode);
-        let mut integration = Integration::new(field, start, tolerances)?;
-        while integration.interval().1 < time {
-            integration.step()?;
-        }
-        integration.directly_at(time)
-    };
-    state().unwrap_or_else(|_: Error| State::repeat(f64::NAN))
+    }
+    Ok(())
+}
+
+/// True if `x` lies between `a` and `b`, in either order.
+fn between(a: f64, x: f64, b: f64) -> bool {
+    (a <= x && x <= b) || (b <= x && x <= a)
 }
 
 /// The first crossing of a guard of `mode` along ẋ = f(x): the value that
@@ -95,27 +148,27 @@ where
 /// # Errors
 /// [`Error::Grazing`] where a guard comes within rounding of its surface; [`Error::UndecidedStart`] if rounding
 /// hides how a guard leaves a start on its surface; the errors of [`Integration`].
-pub fn integrated_crossing<T, const N: usize>(
+pub fn integrated_crossing<T>(
     system: &T,
     mode: T::Mode,
-    start: &State<N>,
+    start: &T::State,
     request: &Search<T::Surface>,
     tolerances: Tolerances,
-) -> Result<NextEvent<T::Surface, State<N>>, Error>
+) -> Result<NextEvent<T::Surface, T::State>, Error>
 where
-    T: HybridSystem<State = State<N>> + ?Sized,
+    T: HybridSystem + ?Sized,
 {
     let field = field_of(system, mode);
     search(system, mode, start, request, field, tolerances)
 }
 
 /// f of a mode. Its components are NaN where the model gives no field.
-fn field_of<T, const N: usize>(
+fn field_of<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,
-) -> impl Fn(f64, &State<N>) -> State<N> + '_
-where
-    T: HybridSystem<State = State<N>> + ?Sized,
-{
-    move |_, state| system.vector_field(mode, state).unwrap_or_else(|| State::repeat(f64::NAN))
+) -> impl Fn(f64, &T::State) -> T::State + '_ {
+    move |_, state| {
+        let outside = || state.from_fn_like(|_| f64::NAN);
+        system.vector_field(mode, state).unwrap_or_else(outside)
+    }
 }

@@ -1,50 +1,74 @@
 //! The state along one step of an integration, as a polynomial in time.
 
 use super::chebyshev::{CHEBYSHEV, NODES};
-use crate::state::State;
+use super::rows::Rows;
+use crate::state::StateVector;
 use std::cell::OnceCell;
 
-/// The number of Chebyshev coefficients of the polynomial. The interpolants have degree eight at most: the other seven
-/// of the 16 coefficients would be rounding errors.
+/// The largest number of Chebyshev coefficients of the polynomial: the interpolants have degree eight at most.
 const COEFFICIENTS: usize = 9;
 
 /// The state along one step: component by component a polynomial in u ∈ [−1, 1], t = middle + u·radius.
 #[derive(Debug, Clone)]
-pub(super) struct Step<const N: usize> {
+pub(super) struct Step<V> {
     pub(super) from: f64,
     pub(super) to: f64,
+    /// Any state of the same dimension.
+    like: V,
+    degree: usize,
     /// The states at the Chebyshev nodes.
-    nodes: [State<N>; NODES],
-    /// Chebyshev coefficients, computed at their first use.
-    coefficients: OnceCell<[State<N>; COEFFICIENTS]>,
+    nodes: Rows<NODES>,
+    /// Chebyshev coefficients, computed at their first use. Those above the degree would be rounding errors.
+    coefficients: OnceCell<Rows<COEFFICIENTS>>,
 }
 
-impl<const N: usize> Step<N> {
-    pub(super) fn new(from: f64, to: f64, nodes: [State<N>; NODES]) -> Self {
-        Step { from, to, nodes, coefficients: OnceCell::new() }
+impl<V: StateVector> Step<V> {
+    /// The polynomial of this degree, at most eight, through the states at the nodes. `like` is any state of the same
+    /// dimension.
+    pub(super) fn new(from: f64, to: f64, degree: usize, like: V, nodes: Rows<NODES>) -> Self {
+        Step { from, to, like, degree, nodes, coefficients: OnceCell::new() }
     }
 
-    fn coefficients(&self) -> &[State<N>; COEFFICIENTS] {
-        self.coefficients.get_or_init(|| CHEBYSHEV.coefficients(&self.nodes))
+    fn coefficients(&self) -> &[f64] {
+        let n = self.like.dimension();
+        let computed = self.coefficients.get_or_init(|| {
+            let mut rows = Rows::new(n);
+            let nodes = self.nodes.all(n);
+            let all = rows.all_mut(n);
+            for axis in 0..n {
+                let values = std::array::from_fn(|j| nodes[j * n + axis]);
+                let coefficients: [f64; COEFFICIENTS] = CHEBYSHEV.coefficients(&values);
+                for (k, coefficient) in coefficients.iter().take(self.degree + 1).enumerate() {
+                    all[k * n + axis] = *coefficient;
+                }
+            }
+            rows
+        });
+        computed.all(n)
     }
 
     /// The state at a time of the step, by Clenshaw's recurrence.
-    pub(super) fn state(&self, time: f64) -> State<N> {
+    pub(super) fn state(&self, time: f64) -> V {
         // The formula is symmetric in both ends: u is exactly ∓1 there.
         let u = ((time - self.from) - (self.to - time)) / (self.to - self.from);
+        let n = self.like.dimension();
         let coefficients = self.coefficients();
-        let (mut next, mut after) = (State::<N>::zeros(), State::<N>::zeros());
-        for coefficient in coefficients.iter().skip(1).rev() {
-            for axis in 0..N {
-                let sum = coefficient[axis] + 2.0 * u * next[axis] - after[axis];
-                (after[axis], next[axis]) = (next[axis], sum);
+        self.like.from_fn_like(|axis| {
+            let (mut next, mut after) = (0.0, 0.0);
+            for k in (1..=self.degree).rev() {
+                let sum = coefficients[k * n + axis] + 2.0 * u * next - after;
+                (after, next) = (next, sum);
             }
-        }
-        coefficients[0] + next * u - after
+            coefficients[axis] + next * u - after
+        })
     }
 
     /// A bound on the absolute value of each component along the step: Σ|cₖ|, because |Tₖ| ≤ 1.
-    pub(super) fn magnitude(&self) -> State<N> {
-        self.coefficients().iter().fold(State::zeros(), |sum, c| sum + c.abs())
+    pub(super) fn magnitude(&self) -> V {
+        let n = self.like.dimension();
+        let coefficients = self.coefficients();
+        self.like.from_fn_like(|axis| {
+            (0..=self.degree).fold(0.0, |sum, k| sum + coefficients[k * n + axis].abs())
+        })
     }
 }

@@ -1,32 +1,112 @@
-//! How accurately a flow is integrated.
+//! How accurately a flow is integrated, and how far a step may reach.
 
 use crate::error::Error;
 
-/// How accurately a flow is integrated.
+/// How accurately a flow is integrated, and how far a step may reach.
+///
+/// ```
+/// use hybrid_system::Tolerances;
+///
+/// /// A position in metres, and a pressure in pascals.
+/// const TOLERANCES: Tolerances =
+///     Tolerances::both(1e-9).absolute_each(&[1e-9, 1e-4]).longest_step(0.5);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerances {
     /// Error of a step relative to the state, for each component.
     pub relative: f64,
     /// Error of a step where a component is near zero, in the units of the state.
     pub absolute: f64,
+    /// As `absolute`, for each component by itself. `None`: `absolute` for all.
+    pub absolute_each: Option<&'static [f64]>,
+    /// No step is longer, in the unit of time; infinite by default. Something that the field does only for a short time
+    /// (a pulse of a forcing) is seen by every step if this is shorter than that time.
+    pub longest_step: f64,
+    /// Every guard is looked at this often at least, in the unit of time; infinite by default. A guard that is beyond its
+    /// surface for a longer time is then found, however long the steps are.
+    pub check_interval: f64,
     /// Most steps of one integration, rejected ones included.
     pub steps: usize,
 }
 
-/// Most steps by default. It limits the time that an integration takes, not its accuracy; a field that needs more steps
-/// is probably stiff. The integration then ends with [`Error::Integration`].
-const MOST_STEPS: usize = 100_000;
+/// Most steps by default. It limits the time that an integration takes, not its accuracy. A field that needs more steps
+/// is probably stiff: near a stable equilibrium with the rate λ the steps of an explicit method are no longer than about
+/// 5/λ, so that this number of them covers 10⁶ times 1/λ and more.
+const MOST_STEPS: usize = 1_000_000;
 
 impl Tolerances {
-    /// The same relative and absolute tolerance, and 100 000 steps.
+    /// The same relative and absolute tolerance, steps of any length, and at most a million of them.
     pub const fn both(tolerance: f64) -> Self {
-        Tolerances { relative: tolerance, absolute: tolerance, steps: MOST_STEPS }
+        Tolerances {
+            relative: tolerance,
+            absolute: tolerance,
+            absolute_each: None,
+            longest_step: f64::INFINITY,
+            check_interval: f64::INFINITY,
+            steps: MOST_STEPS,
+        }
     }
 
-    pub(super) fn check(&self) -> Result<(), Error> {
-        match [self.relative, self.absolute].into_iter().find(|t| !(*t > 0.0 && t.is_finite())) {
-            Some(value) => Err(Error::BadTolerance { value }),
-            None => Ok(()),
+    /// As `self`, with an absolute tolerance for each component. A state with another number of components is
+    /// [`Error::Dimension`].
+    #[must_use]
+    pub const fn absolute_each(mut self, absolute: &'static [f64]) -> Self {
+        self.absolute_each = Some(absolute);
+        self
+    }
+
+    /// As `self`, with no step longer than `time`.
+    #[must_use]
+    pub const fn longest_step(mut self, time: f64) -> Self {
+        self.longest_step = time;
+        self
+    }
+
+    /// As `self`, with a look at every guard this often at least.
+    #[must_use]
+    pub const fn check_interval(mut self, time: f64) -> Self {
+        self.check_interval = time;
+        self
+    }
+
+    /// As `self`, with at most this number of steps, rejected ones included.
+    #[must_use]
+    pub const fn steps(mut self, steps: usize) -> Self {
+        self.steps = steps;
+        self
+    }
+
+    /// An error unless these tolerances can be used for states of this dimension.
+    pub(super) fn check(&self, dimension: usize) -> Result<(), Error> {
+        let each = self.absolute_each.unwrap_or(&[]);
+        if self.absolute_each.is_some() && each.len() != dimension {
+            return Err(Error::Dimension {
+                what: "the list of absolute tolerances",
+                expected: dimension,
+                found: each.len(),
+            });
         }
+        let mut all = [self.relative, self.absolute].into_iter().chain(each.iter().copied());
+        if let Some(value) = all.find(|t| !(*t > 0.0 && t.is_finite())) {
+            return Err(Error::BadTolerance { value });
+        }
+        if !(self.longest_step > 0.0) {
+            let what = "the longest step of an integration";
+            return Err(Error::BadLimit { what, value: self.longest_step });
+        }
+        if !(self.check_interval > 0.0) {
+            let what = "the check interval of an integration";
+            return Err(Error::BadLimit { what, value: self.check_interval });
+        }
+        Ok(())
+    }
+
+    /// The error of a component of this size that a step may make.
+    pub(super) fn of(&self, axis: usize, size: f64) -> f64 {
+        let absolute = match self.absolute_each {
+            Some(each) => each[axis],
+            None => self.absolute,
+        };
+        absolute + self.relative * size
     }
 }

@@ -1,6 +1,6 @@
 //! ∂φ(t; x₀)/∂x₀ along an integrated flow, by its variational equation.
 
-use super::integration::Steps;
+use super::steps::Steps;
 use super::tolerances::Tolerances;
 use super::vector::Vector;
 use crate::error::Error;
@@ -22,15 +22,18 @@ struct StateAndTransition<const N: usize> {
 }
 
 impl<const N: usize> Vector for StateAndTransition<N> {
-    fn zero() -> Self {
-        StateAndTransition { state: State::zeros(), transition: SMatrix::zeros() }
+    fn length(&self) -> usize {
+        N + N * N
     }
-    fn add(&mut self, factor: f64, other: &Self) {
-        self.state += other.state * factor;
-        self.transition += other.transition * factor;
+    fn component(&self, axis: usize) -> f64 {
+        if axis < N { self.state[axis] } else { self.transition[axis - N] }
     }
-    fn components(&self) -> impl Iterator<Item = f64> {
-        self.state.iter().chain(self.transition.iter()).copied()
+    fn set_component(&mut self, axis: usize, value: f64) {
+        if axis < N {
+            self.state[axis] = value;
+        } else {
+            self.transition[axis - N] = value;
+        }
     }
 }
 
@@ -40,7 +43,7 @@ impl<const N: usize> Vector for StateAndTransition<N> {
 /// The tolerances apply to its entries as to the state.
 ///
 /// # Errors
-/// [`Error::BadLimit`] for a negative time, and the errors of [`Integration`](crate::Integration).
+/// [`Error::BadLimit`] for a time that is not finite, and the errors of [`Integration`](crate::Integration).
 pub fn integrated_jacobian<T, const N: usize>(
     system: &T,
     mode: T::Mode,
@@ -61,12 +64,13 @@ where
     if time == 0.0 {
         return Ok(begin.transition);
     }
-    if !(time >= 0.0) {
+    if !time.is_finite() {
         return Err(Error::BadLimit { what: "the time of a flow", value: time });
     }
-    let mut steps = Steps::new(field, &begin, tolerances)?;
-    while steps.time < time {
+    let mut steps = Steps::new(field, 0.0, &begin, tolerances)?;
+    steps.until(time)?;
+    while !steps.ended() {
         steps.step()?;
     }
-    Ok(steps.directly_at(time)?.transition)
+    Ok(steps.state().transition)
 }

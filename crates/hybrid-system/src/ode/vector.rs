@@ -1,86 +1,34 @@
-//! The operations on states that the integrator needs.
+//! Vectors that can be integrated.
 
-use super::schemes::ALL_STAGES;
-use super::tolerances::Tolerances;
-use crate::error::Error;
-use crate::state::State;
+use crate::state::StateVector;
 
-/// States that can be integrated: the state of a system, or that state with its derivatives (`variation`).
-pub(super) trait Vector: Copy {
-    fn zero() -> Self;
-    /// self + factor · other.
-    fn add(&mut self, factor: f64, other: &Self);
-    /// from + size · Σ aⱼ slopeⱼ, for terms (j, aⱼ) in pairs.
-    ///
-    /// The first and the second terms of the pairs are summed separately, so that the processor computes the two sums
-    /// in parallel.
-    fn combination(
-        from: &Self,
-        size: f64,
-        terms: &[[(usize, f64); 2]],
-        slopes: &[Self; ALL_STAGES],
-    ) -> Self {
-        let (mut even, mut odd) = (Self::zero(), Self::zero());
-        for [a, b] in terms {
-            even.add(a.1, &slopes[a.0]);
-            odd.add(b.1, &slopes[b.0]);
+/// What can be integrated: the state of a system, or that state with its derivatives (`variation`). The integrator
+/// reads and writes components; it computes in vectors of its own (`rows`).
+pub(super) trait Vector: Clone {
+    /// The number of components.
+    fn length(&self) -> usize;
+    /// Component `axis`, below the length.
+    fn component(&self, axis: usize) -> f64;
+    /// Changes component `axis`, below the length.
+    fn set_component(&mut self, axis: usize, value: f64);
+    /// This vector, with other components.
+    fn with_components(&self, components: &[f64]) -> Self {
+        let mut vector = self.clone();
+        for (axis, component) in components.iter().enumerate() {
+            vector.set_component(axis, *component);
         }
-        let mut sum = *from;
-        even.add(1.0, &odd);
-        sum.add(size, &even);
-        sum
-    }
-    /// All components.
-    fn components(&self) -> impl Iterator<Item = f64>;
-
-    /// The largest component of an error, each component in units of its tolerance; NaN if any component is NaN. A step
-    /// is accepted if this is at most 1.
-    fn in_tolerances(&self, before: &Self, after: &Self, tolerances: &Tolerances) -> f64 {
-        let sizes = before.components().zip(after.components());
-        let errors = self.components().zip(sizes).map(|(error, (a, b))| {
-            let size = if a.abs() > b.abs() { a.abs() } else { b.abs() };
-            (error / (tolerances.absolute + tolerances.relative * size)).abs()
-        });
-        // `f64::max` would drop NaN, and the step would be accepted.
-        errors.fold(0.0, |worst, error| if error > worst || error.is_nan() { error } else { worst })
-    }
-
-    /// An error unless all components are finite.
-    fn check_finite(&self, time: f64) -> Result<(), Error> {
-        if self.components().all(f64::is_finite) {
-            return Ok(());
-        }
-        Err(Error::StateNotFinite { time, jumps: 0, state: self.components().collect() })
+        vector
     }
 }
 
-impl<const N: usize> Vector for State<N> {
-    fn zero() -> Self {
-        Self::zeros()
+impl<V: StateVector> Vector for V {
+    fn length(&self) -> usize {
+        self.components().len()
     }
-    fn add(&mut self, factor: f64, other: &Self) {
-        for axis in 0..N {
-            self[axis] += factor * other[axis];
-        }
+    fn component(&self, axis: usize) -> f64 {
+        self.components()[axis]
     }
-    /// Each component is summed separately, which keeps each sum in a register. Sums of whole vectors are moved through
-    /// memory two words at a time, and a state of three components is loaded again before it has been stored.
-    fn combination(
-        from: &Self,
-        size: f64,
-        terms: &[[(usize, f64); 2]],
-        slopes: &[Self; ALL_STAGES],
-    ) -> Self {
-        Self::from_fn(|axis, _| {
-            let (mut even, mut odd) = (0.0, 0.0);
-            for [a, b] in terms {
-                even += a.1 * slopes[a.0][axis];
-                odd += b.1 * slopes[b.0][axis];
-            }
-            from[axis] + size * (even + odd)
-        })
-    }
-    fn components(&self) -> impl Iterator<Item = f64> {
-        self.iter().copied()
+    fn set_component(&mut self, axis: usize, value: f64) {
+        self.components_mut()[axis] = value;
     }
 }

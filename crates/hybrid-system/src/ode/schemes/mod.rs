@@ -35,6 +35,7 @@ mod nine;
 mod order_tests;
 mod scheme;
 mod scheme_for;
+mod six;
 
 pub(super) use scheme::{ALL_STAGES, Scheme};
 pub(super) use scheme_for::scheme_for;

@@ -1,0 +1,506 @@
+//! The steps of a Runge–Kutta pair, for states of any kind.
+
+use super::chebyshev::NODES;
+use super::first_step::first_step;
+use super::inverse_root::inverse_root;
+use super::rows::Rows;
+use super::schemes::{ALL_STAGES, Scheme, scheme_for};
+use super::tolerances::Tolerances;
+use super::vector::Vector;
+use crate::error::Error;
+
+// The step-size controller: h_new = h · clamp(SAFETY · error^(−1/order), SMALLEST_FACTOR, LARGEST_FACTOR), with the
+// error in units of the tolerance. Its constants are the usual ones (Hairer, Nørsett, Wanner, II.4). They trade
+// rejected steps for shorter steps and never affect whether a step meets its tolerance.
+
+/// Safety factor of the step-size controller. Steps of exactly the predicted size would often be rejected.
+const SAFETY: f64 = 0.9;
+
+/// A step is at least this fraction of the step before. One very large error may come from outside the range where the
+/// prediction holds, and should not stop the integration.
+const SMALLEST_FACTOR: f64 = 0.2;
+
+/// A step is at most this multiple of the step before. An error may be small by chance.
+const LARGEST_FACTOR: f64 = 10.0;
+
+/// Smallest step, relative to the last accepted one. Shorter steps mean that the field is not smooth there or that the
+/// solution is leaving for infinity; the integration ends with [`Error::Integration`].
+const SMALLEST_STEP: f64 = 1e-14;
+
+/// Trials of one step. Each rejection shortens the step, usually by far. After a hundred rejections in a row the
+/// integration ends with [`Error::Integration`].
+const MOST_TRIALS: usize = 100;
+
+/// The reason of the error of an integration that has used its budget.
+pub(super) const NO_STEPS_LEFT: &str = "no steps are left";
+
+/// The cubic through a step is sampled at its eighths.
+const CUBIC_PARTS: u32 = 8;
+
+// The vectors that every step needs, as rows.
+
+/// The state at the end of the last step.
+const STATE: usize = 0;
+/// The field there.
+const SLOPE: usize = 1;
+/// The state at the start of the last step.
+const BEFORE: usize = 2;
+/// The state after the step that is tried, and the field there.
+const AFTER: usize = 3;
+const SLOPE_AFTER: usize = 4;
+
+/// Steps of the scheme.
+///
+/// Invariant: row `SLOPE` is the field at (`time`, row `STATE`), and after a step `slopes` and `stages` belong to the
+/// step from (`from`, row `BEFORE`) to `time`, until [`directly_at`](Self::directly_at) overwrites them.
+pub(super) struct Steps<F, V> {
+    field: F,
+    tolerances: Tolerances,
+    scheme: &'static Scheme,
+    /// True if the field does not depend on time: where it is zero the state stays for ever.
+    autonomous: bool,
+    /// Start and end of the last step.
+    pub(super) from: f64,
+    pub(super) time: f64,
+    /// The argument of the field.
+    argument: V,
+    vectors: Rows<5>,
+    /// The states at the stages of the last step.
+    stages: Rows<ALL_STAGES>,
+    /// The field at the start of the last step, then the differences from it at the other stages.
+    slopes: Rows<ALL_STAGES>,
+    /// True if the stages of the interpolant have been computed too. Most steps never need these stages.
+    dense: bool,
+    /// The field is never evaluated beyond this time. It is below the start for an integration backward in time.
+    end: f64,
+    /// Size of the last step, with its sign; 0 before the first.
+    last: f64,
+    /// Planned length of the next step; `None` before the first.
+    next: Option<f64>,
+    /// A bound on the length of the first step.
+    longest_first: f64,
+    /// Number of trials, rejected ones included.
+    taken: usize,
+}
+
+/// Why a trial of a step gave no error estimate.
+enum Failed {
+    /// The field or the state is infinite or NaN at a stage: a shorter step may stay inside the domain of the field.
+    NotFinite,
+    /// The field has another number of components than the state.
+    Length(usize),
+}
+
+impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
+    pub(super) fn new(
+        field: F,
+        time: f64,
+        start: &V,
+        tolerances: Tolerances,
+    ) -> Result<Self, Error> {
+        let length = start.length();
+        tolerances.check(length)?;
+        let mut steps = Steps {
+            field,
+            tolerances,
+            scheme: scheme_for(tolerances.relative),
+            autonomous: false,
+            from: time,
+            time,
+            argument: start.clone(),
+            vectors: Rows::new(length),
+            stages: Rows::new(length),
+            slopes: Rows::new(length),
+            dense: false,
+            end: f64::INFINITY,
+            last: 0.0,
+            next: None,
+            longest_first: f64::INFINITY,
+            taken: 0,
+        };
+        if !time.is_finite() {
+            return Err(Error::BadLimit { what: "the start of an integration", value: time });
+        }
+        let slope = (steps.field)(time, start);
+        if slope.length() != length {
+            return Err(wrong_length(length, slope.length()));
+        }
+        for axis in 0..length {
+            steps.vectors.row_mut(STATE, length)[axis] = start.component(axis);
+            steps.vectors.row_mut(BEFORE, length)[axis] = start.component(axis);
+            steps.vectors.row_mut(SLOPE, length)[axis] = slope.component(axis);
+        }
+        for row in [STATE, SLOPE] {
+            let row = steps.vectors.row(row, length);
+            if !finite(row) {
+                return Err(Error::StateNotFinite { time, jumps: 0, state: row.to_vec() });
+            }
+        }
+        Ok(steps)
+    }
+
+    /// The number of components. The compiler knows it if the dimension is known when the program is compiled.
+    fn n(&self) -> usize {
+        self.argument.length()
+    }
+
+    /// Tells the last time. It may lie before the start: the integration runs backward then.
+    pub(super) fn until(&mut self, end: f64) -> Result<(), Error> {
+        if end.is_nan() {
+            return Err(Error::BadLimit { what: "the end of an integration", value: end });
+        }
+        self.end = end;
+        Ok(())
+    }
+
+    pub(super) fn autonomous(&mut self) {
+        self.autonomous = true;
+    }
+
+    pub(super) fn starting_with(&mut self, longest: f64) {
+        self.longest_first = longest;
+    }
+
+    /// True if the field is zero and does not depend on time: the state stays for ever.
+    pub(super) fn at_rest(&self) -> bool {
+        self.autonomous && self.vectors.row(SLOPE, self.n()).iter().all(|slope| *slope == 0.0)
+    }
+
+    /// True if the end has been reached.
+    pub(super) fn ended(&self) -> bool {
+        self.time == self.end
+    }
+
+    /// Trials that are left, rejected ones counted as well.
+    pub(super) fn left(&self) -> usize {
+        self.tolerances.steps.saturating_sub(self.taken)
+    }
+
+    pub(super) fn state(&self) -> V {
+        self.argument.with_components(self.vectors.row(STATE, self.n()))
+    }
+
+    pub(super) fn step(&mut self) -> Result<(), Error> {
+        let failed = |reason, time| Err(Error::Integration { reason, time });
+        if self.ended() {
+            return failed("its end has been reached", self.time);
+        }
+        let direction = if self.end > self.time { 1.0 } else { -1.0 };
+        if self.at_rest() {
+            return self.rest();
+        }
+        let mut next = match self.next {
+            Some(next) => next,
+            None => self.first_step(direction),
+        };
+        let mut largest_factor = LARGEST_FACTOR;
+        let mut outside = false;
+        for _ in 0..MOST_TRIALS {
+            let longest = (self.end - self.time).abs();
+            let length = next.min(self.tolerances.longest_step);
+            let (size, to) = if length < longest {
+                (direction * length, self.time + direction * length)
+            } else {
+                (self.end - self.time, self.end)
+            };
+            if !to.is_finite() {
+                return failed("the time has become infinite", self.time);
+            }
+            // The last step may be as short as it has to be.
+            let short = size.abs() < SMALLEST_STEP * self.last.abs() && to != self.end;
+            if outside && (short || to == self.time) {
+                return Err(self.wall());
+            }
+            if short || to == self.time {
+                return failed("the step size has become too small", self.time);
+            }
+            if self.left() == 0 {
+                return failed(NO_STEPS_LEFT, self.time);
+            }
+            self.taken += 1;
+            let norm = match self.trial(size, to) {
+                Ok(norm) => norm,
+                Err(Failed::NotFinite) => f64::NAN,
+                Err(Failed::Length(found)) => {
+                    return Err(wrong_length(self.n(), found));
+                }
+            };
+            outside |= !norm.is_finite();
+            let predicted = SAFETY * inverse_root(norm, self.scheme.order);
+            let factor = if norm.is_finite() {
+                predicted.clamp(SMALLEST_FACTOR, largest_factor)
+            } else {
+                SMALLEST_FACTOR
+            };
+            next = size.abs() * factor;
+            if norm <= 1.0 {
+                self.next = Some(next);
+                self.accept(size, to);
+                return Ok(());
+            }
+            // After a rejection the next trial must not be longer.
+            largest_factor = 1.0;
+        }
+        if outside {
+            return Err(self.wall());
+        }
+        failed("a hundred steps in a row were rejected", self.time)
+    }
+
+    /// The integration comes no further: the field is not finite just after the last state.
+    fn wall(&self) -> Error {
+        let state = self.vectors.row(STATE, self.n()).to_vec();
+        Error::FieldNotFinite { time: self.time, state }
+    }
+
+    /// The length of the first step.
+    fn first_step(&mut self, direction: f64) -> f64 {
+        let n = self.n();
+        let (state, slope) = (self.vectors.row(STATE, n), self.vectors.row(SLOPE, n));
+        let longest = (self.end - self.time).abs().min(self.tolerances.longest_step);
+        let slope_after = |size: f64, after: &mut [f64]| {
+            for axis in 0..n {
+                let value = state[axis] + direction * size * slope[axis];
+                self.argument.set_component(axis, value);
+            }
+            let time = no_later(self.time + direction * size, self.end, direction);
+            let found = (self.field)(time, &self.argument);
+            // A field of another length is an error of the first step.
+            for (axis, after) in after.iter_mut().enumerate() {
+                *after = if axis < found.length() { found.component(axis) } else { f64::NAN };
+            }
+            finite(after)
+        };
+        let (tolerances, order) = (&self.tolerances, self.scheme.order);
+        // No step has used the slopes of stages yet.
+        let space = self.slopes.row_mut(0, n);
+        let first = first_step(state, slope, longest, tolerances, order, slope_after, space);
+        first.min(self.longest_first)
+    }
+
+    /// Tries a step of this size from now to `to`. Its result is the norm of the estimated error in units of the
+    /// tolerances: the largest component. At most 1 means that the rows `AFTER` and `SLOPE_AFTER` are the next state.
+    fn trial(&mut self, size: f64, to: f64) -> Result<f64, Failed> {
+        let n = self.n();
+        self.slopes.row_mut(0, n).copy_from_slice(self.vectors.row(SLOPE, n));
+        for stage in 1..self.scheme.stages {
+            self.stage(stage, (self.time, STATE), size, to)?;
+        }
+        self.combine(STATE, size);
+        let slopes = self.slopes.all(n);
+        let (before, after) = (self.vectors.row(STATE, n), self.vectors.row(AFTER, n));
+        let mut worst: f64 = 0.0;
+        for axis in 0..n {
+            let mut error = 0.0;
+            for (stage, e) in self.scheme.errors.iter().enumerate() {
+                error += size * e * slopes[stage * n + axis];
+            }
+            let (a, b) = (before[axis].abs(), after[axis].abs());
+            let allowed = self.tolerances.of(axis, if a > b { a } else { b });
+            let error = (error / allowed).abs();
+            // `f64::max` would drop NaN, and the step would be accepted.
+            worst = if error > worst || error.is_nan() { error } else { worst };
+            if worst.is_nan() {
+                return Ok(worst);
+            }
+        }
+        if worst <= 1.0 && !self.scheme.first_same_as_last {
+            let after = self.vectors.row(AFTER, n);
+            (0..n).for_each(|axis| self.argument.set_component(axis, after[axis]));
+            let slope = (self.field)(to, &self.argument);
+            check_length(&slope, n)?;
+            let slope_after = self.vectors.row_mut(SLOPE_AFTER, n);
+            (0..n).for_each(|axis| slope_after[axis] = slope.component(axis));
+        }
+        let is_finite = worst > 1.0
+            || finite(self.vectors.row(AFTER, n)) && finite(self.vectors.row(SLOPE_AFTER, n));
+        if is_finite { Ok(worst) } else { Err(Failed::NotFinite) }
+    }
+
+    /// Row `AFTER`: the state after a step of this size from row `from`, whose stages have been computed.
+    fn combine(&mut self, from: usize, size: f64) {
+        let n = self.n();
+        let slopes = self.slopes.all(n);
+        for axis in 0..n {
+            let after = if self.scheme.first_same_as_last {
+                self.stages.row(self.scheme.stages - 1, n)[axis]
+            } else {
+                let mut sum = self.vectors.row(from, n)[axis];
+                for (stage, b) in self.scheme.weights.iter().enumerate() {
+                    sum += size * b * slopes[stage * n + axis];
+                }
+                sum
+            };
+            self.vectors.row_mut(AFTER, n)[axis] = after;
+        }
+    }
+
+    /// Computes one stage of a step of this size from `time` and the row `from`, no later than `to`. Its slope is kept
+    /// as the difference from the slope at the start (see `schemes`).
+    ///
+    /// Each component is summed separately, which keeps each sum in a register. Sums of whole vectors are moved through
+    /// memory two words at a time, and a state of three components is loaded again before it has been stored. The first
+    /// and the second terms of the pairs are summed separately, so that the processor computes the two sums in parallel.
+    fn stage(
+        &mut self,
+        stage: usize,
+        (time, from): (f64, usize),
+        size: f64,
+        to: f64,
+    ) -> Result<(), Failed> {
+        let n = self.n();
+        let slopes = self.slopes.all_mut(n);
+        let from = self.vectors.row(from, n);
+        let at = self.stages.row_mut(stage, n);
+        for axis in 0..n {
+            let (mut even, mut odd) = (0.0, 0.0);
+            for [a, b] in self.scheme.rows[stage] {
+                even += a.1 * slopes[a.0 * n + axis];
+                odd += b.1 * slopes[b.0 * n + axis];
+            }
+            at[axis] = from[axis] + size * (even + odd);
+            self.argument.set_component(axis, at[axis]);
+        }
+        let time = no_later(time + size * self.scheme.times[stage], to, size);
+        let slope = (self.field)(time, &self.argument);
+        check_length(&slope, n)?;
+        let mut is_finite = true;
+        for axis in 0..n {
+            let component = slope.component(axis);
+            is_finite &= component.is_finite();
+            slopes[stage * n + axis] = component - slopes[axis];
+        }
+        if self.scheme.first_same_as_last && stage + 1 == self.scheme.stages {
+            let slope_after = self.vectors.row_mut(SLOPE_AFTER, n);
+            (0..n).for_each(|axis| slope_after[axis] = slope.component(axis));
+        }
+        if is_finite { Ok(()) } else { Err(Failed::NotFinite) }
+    }
+
+    /// The trial becomes the last step.
+    fn accept(&mut self, size: f64, to: f64) {
+        let n = self.n();
+        let all = self.vectors.all_mut(n);
+        all.copy_within(STATE * n..(STATE + 1) * n, BEFORE * n);
+        all.copy_within(AFTER * n..(AFTER + 1) * n, STATE * n);
+        all.copy_within(SLOPE_AFTER * n..(SLOPE_AFTER + 1) * n, SLOPE * n);
+        self.dense = false;
+        (self.from, self.time, self.last) = (self.time, to, size);
+    }
+
+    /// A step to the end along which the state stays.
+    fn rest(&mut self) -> Result<(), Error> {
+        if self.end.is_infinite() {
+            let reason = "the field is zero, and the state stays for ever";
+            return Err(Error::Integration { reason, time: self.time });
+        }
+        let n = self.n();
+        self.slopes.all_mut(n).fill(0.0);
+        for stage in 1..self.scheme.stages {
+            self.stages.row_mut(stage, n).copy_from_slice(self.vectors.row(STATE, n));
+        }
+        self.vectors.row_mut(SLOPE_AFTER, n).fill(0.0);
+        let all = self.vectors.all_mut(n);
+        all.copy_within(STATE * n..(STATE + 1) * n, AFTER * n);
+        self.accept(self.end - self.time, self.end);
+        self.dense = true;
+        Ok(())
+    }
+
+    /// The state at a time in the last step, by a separate step that ends there.
+    ///
+    /// The coefficients of the interpolant are large and cancel. This separate step loses no digits. Its stages
+    /// overwrite the stages of the last step.
+    pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
+        let n = self.n();
+        // Here the separate step would be the last step again, or have length zero.
+        if time == self.time {
+            return Ok(self.state());
+        }
+        if time == self.from {
+            return Ok(self.argument.with_components(self.vectors.row(BEFORE, n)));
+        }
+        let size = time - self.from;
+        for stage in 1..self.scheme.stages {
+            if self.stage(stage, (self.from, BEFORE), size, time).is_err() {
+                let state = self.vectors.row(BEFORE, n).to_vec();
+                return Err(Error::FieldNotFinite { time: self.from, state });
+            }
+        }
+        self.combine(BEFORE, size);
+        let state = self.vectors.row(AFTER, n);
+        if !finite(state) {
+            return Err(Error::StateNotFinite { time, jumps: 0, state: state.to_vec() });
+        }
+        Ok(self.argument.with_components(state))
+    }
+
+    /// Degree and values at the nodes of the polynomial of the last step: at node j the state is
+    /// before + h Σᵢ bᵢ(sⱼ) kᵢ.
+    pub(super) fn inside(&mut self) -> Result<(usize, Rows<NODES>), Error> {
+        let n = self.n();
+        if !self.dense {
+            for stage in self.scheme.stages..self.scheme.all_stages() {
+                if self.stage(stage, (self.from, BEFORE), self.last, self.time).is_err() {
+                    let state = self.vectors.row(BEFORE, n).to_vec();
+                    return Err(Error::FieldNotFinite { time: self.from, state });
+                }
+            }
+            self.dense = true;
+        }
+        let mut nodes = Rows::new(n);
+        let (slopes, before) = (self.slopes.all(n), self.vectors.row(BEFORE, n));
+        for axis in 0..n {
+            let mut changes = [0.0; NODES];
+            for (stage, weights) in self.scheme.nodes.iter().enumerate() {
+                for (sum, weight) in changes.iter_mut().zip(weights) {
+                    *sum += weight * slopes[stage * n + axis];
+                }
+            }
+            for (j, change) in changes.iter().enumerate() {
+                nodes.all_mut(n)[j * n + axis] = before[axis] + self.last * change;
+            }
+        }
+        Ok((self.scheme.degree, nodes))
+    }
+
+    /// States along the last step that need no evaluation of the field: see
+    /// [`Integration::samples`](super::integration::Integration::samples).
+    pub(super) fn samples(&self) -> impl Iterator<Item = V> {
+        let n = self.n();
+        let row = move |k| self.vectors.row(k, n);
+        let (before, state, slope) = (row(BEFORE), row(STATE), row(SLOPE));
+        let first = self.slopes.row(0, n);
+        let cubic = (0..=CUBIC_PARTS).map(move |k| {
+            // The cubic Hermite interpolant at s ∈ [0, 1], r = 1 − s.
+            let s = f64::from(k) / f64::from(CUBIC_PARTS);
+            let (r, part) = (1.0 - s, s * (1.0 - s) * self.last);
+            let (a, b) = (r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r));
+            let mut sample = self.argument.clone();
+            for axis in 0..n {
+                let bend = (first[axis] * r - slope[axis] * s) * part;
+                sample.set_component(axis, before[axis] * a + state[axis] * b + bend);
+            }
+            sample
+        });
+        let stages = 1..self.scheme.stages;
+        stages.map(move |k| self.argument.with_components(self.stages.row(k, n))).chain(cubic)
+    }
+}
+
+/// `time`, or `last` if `time` is later in the direction of the integration.
+fn no_later(time: f64, last: f64, direction: f64) -> f64 {
+    if (time - last) * direction > 0.0 { last } else { time }
+}
+
+fn finite(components: &[f64]) -> bool {
+    components.iter().all(|component| component.is_finite())
+}
+
+fn check_length<V: Vector>(slope: &V, length: usize) -> Result<(), Failed> {
+    if slope.length() == length { Ok(()) } else { Err(Failed::Length(slope.length())) }
+}
+
+fn wrong_length(expected: usize, found: usize) -> Error {
+    Error::Dimension { what: "the vector field", expected, found }
+}
