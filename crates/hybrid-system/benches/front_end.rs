@@ -147,8 +147,7 @@ fn front_end(criterion: &mut Criterion) {
         (mode, start, limits): (T::Mode, T::State, Limits),
     ) {
         criterion.bench_function(name, |bencher| {
-            bencher
-                .iter(|| Execution::new(system, mode, black_box(start.clone()), limits).count());
+            bencher.iter(|| Execution::new(system, mode, black_box(start.clone()), limits).count());
         });
     }
     let (events, warm) = (Limits::new(1e3, 100), State::from([15.0]));

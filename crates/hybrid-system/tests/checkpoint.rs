@@ -81,11 +81,12 @@ fn events_at_one_instant() {
 
 #[test]
 fn integrated_modes_clocks_and_observers() {
+    let ticks = PeriodicTimes::new(0.1, 0.1).unwrap();
     let room = Model::integrated(|on, x: &State<1>| [if on { 30.0 } else { 10.0 } - x[0]])
         .rising(true, |x| x[0] - 21.0, |x| (false, *x))
         .falling(false, |x| x[0] - 19.0, |x| (true, *x))
         .observer(Guard::either(2), |x| x[0] - 20.0)
-        .clock_everywhere(3, |after| Some((after * 10.0).floor() / 10.0 + 0.1), |on, x| (on, *x));
+        .clock_everywhere(3, |after| ticks.next_after(after), |on, x| (on, *x));
     let arcs = restored_at_every_arc(&room, true, State::from([15.0]), Limits::new(1.0, 100));
     assert!(arcs > 10);
 }

@@ -150,8 +150,16 @@ fn a_touch_is_what_the_guard_says() {
             Some(swing + QuasiPolynomial::polynomial(&[-1.0]))
         })
     };
-    let touches = swing(Touch::Error).run((), [0.0, 1.0], 5.0).next().unwrap();
-    assert!(matches!(touches, Err(Error::Grazing { .. })), "{touches:?}");
+    let ends = |touch| {
+        let kind = |arc: Arc<_, _, _>| arc.event().map(|event| event.kind);
+        swing(touch)
+            .run((), [0.0, 1.0], 5.0)
+            .map(|arc| arc.map(kind))
+            .collect::<Result<Vec<_>, _>>()
+    };
+    assert!(matches!(ends(Touch::Error), Err(Error::Grazing { .. })));
+    assert_eq!(ends(Touch::Event).unwrap(), [Some(EventKind::Touch), None]);
+    assert_eq!(ends(Touch::Ignore).unwrap(), [None]);
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -212,6 +220,13 @@ fn a_dimension_chosen_at_run_time() {
             .falling((), |x| x.norm() - 1.0, |x| ((), x * 4.0))
             .sampled(0.1);
         let start = vec![4.0; dimension];
+        let integrated = Model::integrated(|(), x: &DVector<f64>| -x).falling(
+            (),
+            |x| x.norm() - 1.0,
+            |x| ((), x * 4.0),
+        );
+        let first = integrated.run((), start.clone(), 5.0).next().unwrap().unwrap();
+        assert!((first.duration - (16.0 * dimension as f64).ln() / 2.0).abs() < 1e-9);
         let first = decay.run((), start.clone(), 5.0).next().unwrap().unwrap();
         let landed = first.event().unwrap();
         assert_eq!(landed.before.len(), dimension);
@@ -249,4 +264,16 @@ fn a_mode_without_guards_flows_to_the_limit() {
     let arc = execution.next().unwrap().unwrap();
     assert_eq!((arc.duration, execution.stop()), (2.0, Some(Stop::TimeLimit)));
     assert!((arc.state(&decay, 2.0).unwrap()[0] - (-2.0f64).exp()).abs() < 1e-9);
+}
+
+#[test]
+fn a_field_of_another_dimension_is_an_error() {
+    let wrong = Model::integrated(|(), x: &DVector<f64>| DVector::from_element(x.len() + 1, 1.0))
+        .rising((), |x| x[0] - 1.0, |x| ((), x.clone()));
+    let first = wrong.run((), vec![0.0, 0.0], 5.0).next().unwrap();
+    assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 3, .. })), "{first:?}");
+    let reset = Model::integrated(|(), x: &DVector<f64>| DVector::from_element(x.len(), 1.0))
+        .rising((), |x| x[0] - 1.0, |_| ((), vec![0.0]));
+    let first = reset.run((), vec![0.0, 0.0], 5.0).next().unwrap();
+    assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 1, .. })), "{first:?}");
 }
