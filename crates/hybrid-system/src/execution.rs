@@ -196,7 +196,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 certainty,
             }));
         }
-        let clock = self.next_clock(horizon);
+        let clock = self.next_clock(horizon)?;
         let search = Search {
             horizon: clock.map_or(horizon, |(_, until)| until),
             sampling_interval: self.limits.sampling_interval,
@@ -222,7 +222,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     }
 
     /// The clock with the earliest preset time, and the duration up to it, if that is no longer than `horizon`.
-    fn next_clock(&self, horizon: f64) -> Option<(T::Surface, f64)> {
+    fn next_clock(&self, horizon: f64) -> Result<Option<(T::Surface, f64)>, Error> {
         let now = self.at.time.value();
         let guards = self.system.guards(self.at.mode).iter();
         let mut earliest: Option<(T::Surface, f64)> = None;
@@ -233,12 +233,16 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             let Some(next) = self.system.next_time(self.at.mode, guard.surface, after) else {
                 continue;
             };
+            if !(next > after) {
+                let what = "the next time of a clock, which must be later than the time before,";
+                return Err(Error::BadLimit { what, value: next });
+            }
             let until = self.at.time.until(next).max(0.0);
             if until <= horizon && earliest.is_none_or(|(_, first)| until < first) {
                 earliest = Some((guard.surface, until));
             }
         }
-        earliest
+        Ok(earliest)
     }
 
     /// An arc that ends in an event.

@@ -115,8 +115,8 @@ pub use guard::{Direction, Guard, Role, Touch};
 #[cfg(feature = "ode")]
 pub use model::Integrated;
 pub use model::{
-    Bounds, Clock, ClosedForm, Jump, JumpEverywhere, Model, Motion, Outcome, Part, Rest, Signal,
-    Slide, Terminal, Watch,
+    Bounds, Clock, ClosedForm, Field, Jump, JumpEverywhere, Model, Motion, Outcome, Part, Rest,
+    Signal, Slide, Terminal, Watch,
 };
 #[cfg(feature = "ode")]
 pub use ode::{

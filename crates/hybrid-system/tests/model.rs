@@ -4,7 +4,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
-use nalgebra::DVector;
+use nalgebra::{DVector, SMatrix};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Heater {
@@ -276,4 +276,26 @@ fn a_field_of_another_dimension_is_an_error() {
         .rising((), |x| x[0] - 1.0, |_| ((), vec![0.0]));
     let first = reset.run((), vec![0.0, 0.0], 5.0).next().unwrap();
     assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 1, .. })), "{first:?}");
+}
+
+/// A ball that lands with the speed v and leaves with v/2: a start that is faster by δ leaves faster by δ/2 and later by
+/// 2δ. Compared at the same time it is faster by δ/2 + 2δ.
+#[test]
+fn derivatives_through_events() {
+    let closed = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+        .field(|(), x| [x[1], -1.0])
+        .falling((), |x| x[0], |x| ((), [0.0, -0.5 * x[1]]))
+        .signal(0, |(), x| Some(QuasiPolynomial::polynomial(&[x[0], x[1], -0.5])));
+    let integrated = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).falling(
+        (),
+        |x| x[0],
+        |x| ((), [0.0, -0.5 * x[1]]),
+    );
+    let start = State::from([0.0, 3.0]);
+    let change =
+        |arc: Result<SMatrix<f64, 2, 2>, Error>| (arc.unwrap() * State::from([0.0, 1.0]))[1];
+    let arc = closed.run((), start, 100.0).next().unwrap().unwrap();
+    assert!((change(arc_sensitivity(&closed, &arc)) - 2.5).abs() < 1e-9);
+    let arc = integrated.run((), start, 100.0).next().unwrap().unwrap();
+    assert!((change(arc_sensitivity(&integrated, &arc)) - 2.5).abs() < 1e-9);
 }
