@@ -20,7 +20,7 @@ pub(super) fn jacobian<const N: usize>(
     state: &State<N>,
     function: impl Fn(&State<N>) -> State<N>,
 ) -> SMatrix<f64, N, N> {
-    let mut jacobian = SMatrix::zeros();
+    let mut jacobian = SMatrix::<f64, N, N>::zeros();
     for axis in 0..N {
         let [ahead, behind, distance] = neighbours(state, axis);
         let change = (function(&ahead) - function(&behind)) / distance[axis];
@@ -30,7 +30,10 @@ pub(super) fn jacobian<const N: usize>(
 }
 
 /// The gradient of `function` at `state`, likewise.
-fn gradient<const N: usize>(state: &State<N>, function: impl Fn(&State<N>) -> f64) -> State<N> {
+pub(super) fn gradient<const N: usize>(
+    state: &State<N>,
+    function: impl Fn(&State<N>) -> f64,
+) -> State<N> {
     State::from_fn(|axis, _| {
         let [ahead, behind, distance] = neighbours(state, axis);
         (function(&ahead) - function(&behind)) / distance[axis]
@@ -47,7 +50,7 @@ fn neighbours<const N: usize>(state: &State<N>, axis: usize) -> [State<N>; 3] {
 }
 
 /// The derivative of a reset. It is NaN if the reset ends the execution nearby.
-fn reset_jacobian<T, const N: usize>(
+pub(super) fn reset_jacobian<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     surface: T::Surface,
@@ -81,59 +84,5 @@ where
 
     fn reset_jacobian(&self, mode: M, surface: S, before: &State<N>) -> SMatrix<f64, N, N> {
         reset_jacobian(self, mode, surface, before)
-    }
-}
-
-#[cfg(feature = "ode")]
-mod integrated {
-    //! Integrated models: the flow by its variational equation.
-
-    use super::{gradient, jacobian, reset_jacobian};
-    use crate::model::{Integrated, Model, Part};
-    use crate::ode::{Linearized, integrated_jacobian};
-    use crate::sensitivity::Differentiable;
-    use crate::state::State;
-    use crate::system::HybridSystem;
-    use nalgebra::SMatrix;
-    use std::fmt::Debug;
-
-    /// The Jacobian of the field by central differences, with about ten digits.
-    impl<M, S, Y, F, P, const N: usize> Linearized<N> for Model<M, S, State<N>, Integrated<F>, P>
-    where
-        M: Copy + Eq + Debug,
-        S: Copy + Eq + Debug,
-        Y: Into<State<N>>,
-        F: Fn(M, &State<N>) -> Y,
-        P: Part<M, S, State<N>>,
-    {
-        fn field_jacobian(&self, mode: M, state: &State<N>) -> SMatrix<f64, N, N> {
-            let none = || State::repeat(f64::NAN);
-            jacobian(state, |state| self.vector_field(mode, state).unwrap_or_else(none))
-        }
-    }
-
-    /// The derivative of the flow by its variational equation, the others by central differences of the closures. All have
-    /// about ten digits, or those of the tolerances.
-    impl<M, S, Y, F, P, const N: usize> Differentiable<N> for Model<M, S, State<N>, Integrated<F>, P>
-    where
-        M: Copy + Eq + Debug,
-        S: Copy + Eq + Debug,
-        Y: Into<State<N>>,
-        F: Fn(M, &State<N>) -> Y,
-        P: Part<M, S, State<N>>,
-    {
-        /// All entries are NaN if the integration fails.
-        fn flow_jacobian(&self, mode: M, start: &State<N>, time: f64) -> SMatrix<f64, N, N> {
-            integrated_jacobian(self, mode, start, time, self.motion.tolerances)
-                .unwrap_or_else(|_| SMatrix::repeat(f64::NAN))
-        }
-
-        fn guard_gradient(&self, surface: S, state: &State<N>) -> State<N> {
-            gradient(state, |state| self.guard_value(surface, state))
-        }
-
-        fn reset_jacobian(&self, mode: M, surface: S, before: &State<N>) -> SMatrix<f64, N, N> {
-            reset_jacobian(self, mode, surface, before)
-        }
     }
 }
