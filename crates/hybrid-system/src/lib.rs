@@ -78,6 +78,7 @@
 
 mod advance;
 mod arc;
+mod arrival;
 mod chain;
 mod checkpoint;
 #[cfg(feature = "serde")]
