@@ -24,7 +24,7 @@ pub struct Trajectory<M, S> {
     pub modes: Vec<M>,
     /// The states: one row for each sample, one column for each component.
     pub states: DMatrix<f64>,
-    /// True for one row at each time of the grid. At the time of an event it is the row after the last jump of that instant.
+    /// True for one row at each time of the grid, also if the grid has it twice. At the time of an event it is the row after the last jump of that instant.
     pub on_grid: Vec<bool>,
     /// The events, in columns.
     pub events: EventColumns<M, S>,
@@ -175,7 +175,8 @@ impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug> Rows<M, S> {
         if end <= arc.time {
             return Ok(());
         }
-        let between = &grid[at_start..grid.partition_point(|&time| time < end)];
+        let mut between = grid[at_start..grid.partition_point(|&time| time < end)].to_vec();
+        between.dedup();
         let last_state = match &arc.end {
             ArcEnd::Event(event) => Some(&event.before),
             ArcEnd::Sliding { sliding, .. } => Some(&sliding.state),
