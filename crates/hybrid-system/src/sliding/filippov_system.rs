@@ -8,7 +8,7 @@ use super::sliding_point::Sliding;
 use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
-use crate::ode::{integrated_crossing, integrated_flow};
+use crate::ode::{integrated_crossing, integrated_flow, integrated_states};
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 
@@ -24,6 +24,29 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
                 let end = integrated_flow(self, mode, start, time, self.tolerances);
                 self.on_surface(&Sides { surface, below, above }, end)
             }
+        }
+    }
+
+    fn flow_at(
+        &self,
+        mode: Self::Mode,
+        start: &T::State,
+        times: &[f64],
+    ) -> Result<Vec<T::State>, Error> {
+        match mode {
+            FilippovMode::Free(mode) => self.system.flow_at(mode, start, times),
+            FilippovMode::Sliding { surface, below, above, .. } => {
+                let states = integrated_states(self, mode, start, times, self.tolerances)?;
+                let sides = Sides { surface, below, above };
+                Ok(states.into_iter().map(|state| self.on_surface(&sides, state)).collect())
+            }
+        }
+    }
+
+    fn validate(&self, mode: Self::Mode, start: &T::State) -> Result<(), Error> {
+        match mode {
+            FilippovMode::Free(mode) => self.system.validate(mode, start),
+            FilippovMode::Sliding { below, .. } => self.system.validate(below, start),
         }
     }
 
