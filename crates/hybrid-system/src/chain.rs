@@ -15,6 +15,7 @@ const FEW: usize = 4;
 
 /// The events since time has passed for the last time, the last crossing included: modes and surfaces.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Chain<M, S> {
     pub(crate) events: SmallVec<[(M, S); FEW]>,
 }

@@ -199,6 +199,19 @@ pub enum Error {
         /// The components of the state.
         state: Vec<f64>,
     },
+    /// A search under bounds reached its budget of intervals.
+    #[error(
+        "no zero up to time {time}; the search up to {horizon} needs more than {intervals} intervals: set a larger \
+         budget, or a shorter horizon"
+    )]
+    IntervalBudget {
+        /// The time up to which there is no zero.
+        time: f64,
+        /// The horizon of the search.
+        horizon: f64,
+        /// The budget.
+        intervals: usize,
+    },
     /// An integration cannot go on: the field is infinite or NaN just after this state, however short the step.
     #[error(
         "the field is not finite just after time {time}, where the last state is {state:?}: let an event end the arc \
@@ -209,5 +222,62 @@ pub enum Error {
         time: f64,
         /// Its components.
         state: Vec<f64>,
+    },
+    /// A list of preset times that does not rise.
+    #[error(
+        "preset time number {index} is {time}, after {before}: the times must be finite and rise strictly"
+    )]
+    BadClock {
+        /// Position in the list, from 0.
+        index: usize,
+        /// The time.
+        time: f64,
+        /// The time before it; −∞ for the first one.
+        before: f64,
+    },
+    /// A sliding motion that starts beside its surface.
+    #[error(
+        "a sliding motion cannot start beside its surface {surface}: the guard is {value:e}, and its rounding error \
+         is below {largest:e}; start in a free mode"
+    )]
+    OffSurface {
+        /// Name of the surface.
+        surface: String,
+        /// The value of its guard.
+        value: f64,
+        /// The largest value that counts as zero.
+        largest: f64,
+    },
+    /// A sliding motion that has more than one continuation.
+    #[error(
+        "the motion along surface {surface} is not unique from time {time} of its arc on: {reason}; the model must \
+         have a mode for it"
+    )]
+    SlidingNotUnique {
+        /// Name of the surface.
+        surface: String,
+        /// Time since the start of the arc.
+        time: f64,
+        /// The reason.
+        reason: &'static str,
+    },
+    /// Two guards of one mode have the same surface: their events could not be told apart.
+    #[error("surface {surface} has two guards in one mode: give each of them a name of its own")]
+    SurfaceTwice {
+        /// Name of the surface.
+        surface: String,
+    },
+    /// Guards of different modes have the same surface and different functions.
+    #[error(
+        "surface {surface} has two guard functions, with values {first} and {second} at one state: give each of them a \
+         name of its own, or use the same function"
+    )]
+    TwoGuardFunctions {
+        /// Name of the surface.
+        surface: String,
+        /// The value of one function at the start of an arc.
+        first: f64,
+        /// The value of another one there.
+        second: f64,
     },
 }

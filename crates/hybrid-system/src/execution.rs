@@ -1,12 +1,13 @@
 //! Executions: arcs and events in hybrid time, one after the other.
 
 use crate::arc::{Arc, ArcEnd, Event};
+use crate::arrival::Arrival;
 use crate::chain::Chain;
 use crate::crossing::{Certainty, Crossing, EventKind, MOST_INTERVALS, NextEvent, Search};
 use crate::error::Error;
 use crate::guard::Role;
 use crate::sliding::{AtOnce, Sliding, sliding_point};
-use crate::start_rule::{Arrival, LeavingGuards, Start, start_of_arc};
+use crate::start_rule::{LeavingGuards, Start, start_of_arc};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem, Reset};
 use crate::time_sum::TimeSum;
@@ -50,6 +51,7 @@ impl Limits {
 
 /// Why an execution ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Stop {
     /// The limit on time was reached.
     TimeLimit,
@@ -83,6 +85,7 @@ pub struct Execution<'a, T: HybridSystem> {
 
 /// Everything that decides how an execution goes on.
 #[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Point<M, S, X> {
     pub(crate) mode: M,
     pub(crate) state: X,
@@ -95,7 +98,7 @@ pub(crate) struct Point<M, S, X> {
     /// The events since time has passed for the last time.
     pub(crate) chain: Chain<M, S>,
     /// The last crossing, if no time has passed since.
-    pub(crate) arrival: Option<Arrival<S, X>>,
+    pub(crate) arrival: Option<Arrival<M, S, X>>,
 }
 
 impl<'a, T: HybridSystem> Execution<'a, T> {
@@ -129,7 +132,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The next arc. The state of the execution moves to the end of the arc.
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
-        if let Some(limit) = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, false) {
+        if let Some(limit) = self.at.history.zeno_limit(false) {
             return Ok(self.zeno_arc(limit));
         }
         // The time of an event at the limit may be rounded up beyond it.
@@ -142,7 +145,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 | Error::UndecidedSign { .. }
                 | Error::Grazing { .. }),
             ) => {
-                let limit = self.at.history.zeno_limit(self.at.time.value(), self.at.jump, true);
+                let limit = self.at.history.zeno_limit(true);
                 return limit.map(|limit| self.zeno_arc(limit)).ok_or(hidden);
             }
             found => found?,
@@ -159,7 +162,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                     return Ok(self.arc_without_event(horizon, None, certainty));
                 }
                 if crossing.kind == EventKind::AtStart
-                    && let Some(sliding) = self.sliding(crossing.surface)?
+                    && let Some(sliding) = self.sliding(crossing.surface)
                 {
                     return Ok(self.sliding_arc(sliding));
                 }
@@ -277,7 +280,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             EventKind::Crossing | EventKind::Touch => {
                 let flow =
                     FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-                let arrival = Arrival::new(&flow, surface, &state, (duration, time_error));
+                let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
                 self.at.arrival = Some(arrival);
             }
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
@@ -290,7 +293,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         self.at.initial = false;
         match after {
             Some((mode, state)) => {
-                self.at.history.push(duration, state.clone());
+                self.at.history.push(duration, time_error, time, state.clone());
                 (self.at.mode, self.at.state) = (mode, state);
             }
             None => {
@@ -323,10 +326,12 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// Moves on to a state without an event.
     fn advance(&mut self, duration: f64, state: T::State) {
         if duration > 0.0 {
+            // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
+            let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+            self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
             self.at.time = self.at.time.plus(duration);
             self.at.state = state;
             self.at.chain.clear();
-            self.at.arrival = None;
             self.at.initial = false;
         }
     }
@@ -344,17 +349,19 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     }
 
     /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
-    fn sliding(
-        &self,
-        surface: T::Surface,
-    ) -> Result<Option<Sliding<T::Mode, T::Surface, T::State>>, Error> {
+    fn sliding(&self, surface: T::Surface) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
+        let last = self.at.chain.last();
+        // A crossing of another surface says nothing about the distance from this one.
+        let of_last = |arrival: &&Arrival<T::Mode, T::Surface, T::State>| {
+            last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
+        };
         let at = AtOnce {
             mode: self.at.mode,
             surface,
             state: &self.at.state,
             time: self.at.time.value(),
-            last: self.at.chain.last(),
-            before: self.at.arrival.as_ref().map(Arrival::before),
+            last,
+            before: self.at.arrival.as_ref().filter(of_last).map(Arrival::before),
         };
         sliding_point(self.system, &at)
     }
@@ -376,18 +383,17 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
     /// gives a mode.
     fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
-        let now = self.at.time.value();
-        if limit.time > self.limits.time {
+        let horizon = self.at.time.until(self.limits.time).max(0.0);
+        if limit.remainder > horizon {
             self.stop = Some(Stop::TimeLimit);
             let certainty = Certainty::Exact;
-            return self
-                .new_arc((self.limits.time - now).max(0.0), ArcEnd::TimeLimit { certainty });
+            return self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
         }
         let after = self.system.rest(self.at.mode, &limit.state);
-        let (time, state) = (limit.time, limit.state.clone());
+        let (remainder, state) = (limit.remainder, limit.state.clone());
         let end = ArcEnd::Zeno { limit, after: after.clone() };
-        let arc = self.new_arc((time - now).max(0.0), end);
-        self.at.time = TimeSum::new(time);
+        let arc = self.new_arc(remainder, end);
+        self.at.time = self.at.time.plus(remainder);
         self.at.jump += 1;
         self.at.initial = false;
         self.at.history.clear();
@@ -408,7 +414,12 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
         if self.at.state.is_finite() {
-            return Ok(());
+            let initial = self.at.initial;
+            return if initial {
+                self.system.validate(self.at.mode, &self.at.state)
+            } else {
+                Ok(())
+            };
         }
         Err(Error::StateNotFinite {
             time: self.at.time.value(),

@@ -15,6 +15,7 @@
 //! | [`Enclosure`] | bounds on a guard, given by the model |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
+//! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
@@ -93,24 +94,36 @@
 //! Numer. Algorithms 53 (2010). The two pairs of the feature `ode` and their coefficients are his, from his
 //! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
+mod advance;
 mod arc;
+mod arrival;
 mod chain;
+mod checkpoint;
+#[cfg(feature = "serde")]
+mod checkpoint_writer;
+mod clock;
 mod crossing;
+mod durations;
 mod error;
 mod execution;
 mod guard;
+mod model;
 #[cfg(feature = "ode")]
 mod ode;
 mod searched;
 mod sensitivity;
+mod series_fit;
 mod sliding;
 mod start_rule;
 mod state;
 mod system;
 mod time_sum;
+mod trajectory;
 mod zeno;
 
 pub use arc::{Arc, ArcEnd, Event};
+pub use checkpoint::Checkpoint;
+pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
     Certainty, Crossing, Enclosure, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
     Search, bracketed_root, golden_section_minimum,
@@ -119,6 +132,12 @@ pub use error::Error;
 pub use execution::{Execution, Limits, Stop};
 pub use guard::{Direction, Guard, Role, Touch};
 #[cfg(feature = "ode")]
+pub use model::Integrated;
+pub use model::{
+    Bounds, Clock, ClosedForm, Jump, JumpEverywhere, Model, Motion, Outcome, Part, Rest, Signal,
+    Slide, Terminal, Watch,
+};
+#[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
     integrated_states,
@@ -126,8 +145,11 @@ pub use ode::{
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use sliding::Sliding;
+#[cfg(feature = "ode")]
+pub use sliding::{Filippov, FilippovMode, FilippovSurface};
 pub use state::{State, StateVector};
 pub use system::{HybridSystem, Reset, default_search};
+pub use trajectory::{EventColumns, Trajectory};
 pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]

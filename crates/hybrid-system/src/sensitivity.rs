@@ -10,7 +10,7 @@
 //! with the reset R, the vector fields f⁻ and f⁺ on both sides, and the guard g: statement (10) of
 //! [mathematics](crate::mathematics). If the orbit only grazes the surface, ∇g·f⁻ = 0, and there is no such matrix.
 
-use crate::arc::{Arc, ArcEnd, Event};
+use crate::arc::{Arc, ArcEnd};
 use crate::error::Error;
 use crate::state::State;
 use crate::system::HybridSystem;
@@ -103,10 +103,18 @@ where
     T: Differentiable<N>,
 {
     let along = transition(system, arc)?;
+    if let ArcEnd::Sliding { sliding, after: Some((mode, after)) } = &arc.end {
+        // The sliding motion starts where the state is: DR = I.
+        let at = (sliding.surface, &sliding.state, sliding.time);
+        let (field_before, arrival) = arrival(system, arc.mode, at)?;
+        let kink = field(system, *mode, after)? - field_before;
+        return Ok((SMatrix::identity() - kink * arrival) * along);
+    }
     let Some(event) = arc.event() else { return Ok(along) };
     // An event that ends the execution has no state after it.
     let Some((mode, after)) = event.after else { return Ok(along) };
-    let (field_before, arrival) = arrival(system, arc.mode, event)?;
+    let (field_before, arrival) =
+        arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // Ξ = DR − (f⁺ − DR f⁻) ∂τ/∂x⁻: if the orbit arrives later by δτ, it moves longer by δτ before the event and
     // shorter by δτ after it.
@@ -131,7 +139,8 @@ where
     let none = Error::NoSensitivity { time: arc.time };
     let event = arc.event().filter(|event| event.after.is_some()).ok_or(none)?;
     let along = transition(system, arc)?;
-    let (field_before, arrival) = arrival(system, arc.mode, event)?;
+    let (field_before, arrival) =
+        arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // The state on the surface changes by Φδx₀ + f⁻δτ.
     let on_surface = along + field_before * (arrival * along);
@@ -146,8 +155,7 @@ fn transition<T, const N: usize>(
 where
     T: Differentiable<N>,
 {
-    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Zeno { .. } | ArcEnd::Sliding { .. })
-    {
+    if !arc.duration.is_finite() || matches!(arc.end, ArcEnd::Zeno { .. }) {
         return Err(Error::NoSensitivity { time: arc.time });
     }
     let along = system.flow_jacobian(arc.mode, &arc.start, arc.duration);
@@ -170,16 +178,16 @@ where
 fn arrival<T, const N: usize>(
     system: &T,
     mode: T::Mode,
-    event: &Event<T::Mode, T::Surface, State<N>>,
+    (surface, before, time): (T::Surface, &State<N>, f64),
 ) -> Result<(State<N>, RowSVector<f64, N>), Error>
 where
     T: Differentiable<N>,
 {
-    let gradient = system.guard_gradient(event.surface, &event.before);
-    let field_before = field(system, mode, &event.before)?;
+    let gradient = system.guard_gradient(surface, before);
+    let field_before = field(system, mode, before)?;
     let rate = gradient.dot(&field_before);
     if !(rate.abs() > SMALLEST_RATE * gradient.norm() * field_before.norm()) {
-        return Err(Error::GrazingSensitivity { time: event.time, rate });
+        return Err(Error::GrazingSensitivity { time, rate });
     }
     Ok((field_before, -gradient.transpose() / rate))
 }

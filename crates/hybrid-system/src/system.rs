@@ -105,6 +105,17 @@ pub trait HybridSystem {
         None
     }
 
+    /// Finds misuse of the model before its first arc, from the initial mode and state.
+    ///
+    /// Default: no check.
+    ///
+    /// # Errors
+    /// The misuse, with its remedy.
+    fn validate(&self, mode: Self::Mode, start: &Self::State) -> Result<(), Error> {
+        let _ = (mode, start);
+        Ok(())
+    }
+
     /// A bound on the rounding error of [`guard_value`](Self::guard_value) by its own arithmetic, for an exact state.
     ///
     /// Default: `None`, and the error is measured.

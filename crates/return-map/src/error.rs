@@ -21,10 +21,10 @@ pub enum Error {
     /// The execution failed.
     #[error("the execution failed: {0}")]
     Execution(#[from] hybrid_system::Error),
-    /// A window that is empty or not finite, or too few samples.
+    /// A window that is empty or not finite, or a number of samples that is too small or too large.
     #[error(
         "cannot search [{left}, {right}] with {samples} samples: the ends must be finite, the left one smaller, and \
-         at least 3 samples are needed"
+         the samples from 3 to ten million"
     )]
     BadWindow {
         /// Left end.
@@ -44,5 +44,13 @@ pub enum Error {
         residual: f64,
         /// Newton steps taken.
         steps: usize,
+    },
+    /// A period that is too long for a search.
+    #[error("cannot search a point of period {period}: the period must be at most {most}")]
+    BadPeriod {
+        /// The requested period.
+        period: usize,
+        /// The longest period that is searched.
+        most: usize,
     },
 }

@@ -37,6 +37,10 @@ const TANGENT_ULPS: f64 = 8.0;
 /// an ulp.
 const CROSSING_RESIDUAL: f64 = 1e-8;
 
+/// Most samples. Ten million evaluations of a return map take some minutes. A count far above this is a mistake, such as
+/// a count of pixels that overflowed, and the search would not end in a usable time.
+const MOST_SAMPLES: usize = 10_000_000;
+
 /// The fixed points of `map` that `samples` equally spaced points of [left, right] reveal, from left to right.
 ///
 /// A sign change of f(x) − x between neighbouring samples is refined to full precision. An extremum of f(x) − x is
@@ -56,53 +60,62 @@ const CROSSING_RESIDUAL: f64 = 1e-8;
 /// ```
 ///
 /// # Errors
-/// [`Error::BadWindow`] for an empty or infinite window, and for fewer than three samples.
+/// [`Error::BadWindow`] for an empty or infinite window, for fewer than three samples, and for more than ten million.
 pub fn fixed_points(
     map: impl Fn(f64) -> Option<f64>,
     left: f64,
     right: f64,
     samples: usize,
 ) -> Result<Vec<FixedPoint>, Error> {
-    if !(left < right) || !(right - left).is_finite() || samples < 3 {
+    if !(left < right) || !(right - left).is_finite() || !(3..=MOST_SAMPLES).contains(&samples) {
         return Err(Error::BadWindow { left, right, samples });
     }
     let gap = |x: f64| map(x).map(|image| image - x);
-    let at = |k: usize| left + (right - left) * (k as f64 / (samples - 1) as f64);
-    let values: Vec<Option<f64>> = (0..samples).map(|k| gap(at(k))).collect();
-    let mut found = Vec::new();
-    for k in 0..samples {
-        if values[k] == Some(0.0) {
-            found.push(fixed_sample(&values, k, at(k)));
+    let last = samples - 1;
+    // The sum may round to a place beyond the right end, where the map may not be defined.
+    let at = |k: usize| {
+        if k == last {
+            right
+        } else {
+            (left + (right - left) * (k as f64 / last as f64)).min(right)
         }
-        if let Some(&[Some(a), Some(b)]) = values.get(k..k + 2)
+    };
+    let mut found = Vec::new();
+    // Three neighbouring samples are kept, so that the memory does not depend on their number.
+    let (mut before, mut here) = (None, gap(left));
+    for k in 0..samples {
+        let after = if k < last { gap(at(k + 1)) } else { None };
+        if here == Some(0.0) {
+            found.push(fixed_sample(before, after, at(k)));
+        }
+        if let (Some(a), Some(b)) = (here, after)
             && (a < 0.0) != (b < 0.0)
-            // A sample on the diagonal has been reported above.
+            // A sample on the diagonal is reported by itself.
             && a != 0.0
             && b != 0.0
         {
             found.extend(transverse_point(gap, at(k), at(k + 1)));
         }
-        if let Some(&[Some(a), Some(b), Some(c)]) = values.get(k..k + 3) {
+        if let (Some(a), Some(b), Some(c)) = (before, here, after) {
             // The middle sample is the nearest to the diagonal, and all three are on one side of it. The factor
             // `side` turns a maximum below the diagonal into a minimum.
             let side = b.signum();
             let one_sided = b != 0.0 && a * side > 0.0 && c * side > 0.0;
             if one_sided && b.abs() <= a.abs() && b.abs() < c.abs() {
-                found.extend(tangent_point(|x| gap(x).map(|g| g * side), at(k), at(k + 2)));
+                found.extend(tangent_point(|x| gap(x).map(|g| g * side), at(k - 1), at(k + 1)));
             }
         }
+        (before, here) = (here, after);
     }
     found.sort_by(|a, b| a.location.total_cmp(&b.location));
     found.dedup_by(|a, b| a.location == b.location);
     Ok(found)
 }
 
-/// The fixed point at a sample with f(x) = x exactly. It is tangent if both neighbouring samples are on one side of
-/// the diagonal. A neighbour without a value, or on the diagonal too, makes it transverse.
-fn fixed_sample(values: &[Option<f64>], k: usize, location: f64) -> FixedPoint {
-    let neighbour =
-        |k: Option<usize>| k.and_then(|k| values.get(k).copied().flatten()).unwrap_or(0.0);
-    let (before, after) = (neighbour(k.checked_sub(1)), neighbour(Some(k + 1)));
+/// The fixed point at a sample with f(x) = x exactly, given f(x) − x at the neighbouring samples. It is tangent if both
+/// are on one side of the diagonal. A neighbour without a value, or on the diagonal too, makes it transverse.
+fn fixed_sample(before: Option<f64>, after: Option<f64>, location: f64) -> FixedPoint {
+    let (before, after) = (before.unwrap_or(0.0), after.unwrap_or(0.0));
     let one_sided = before != 0.0 && after != 0.0 && before.signum() == after.signum();
     let intersection = if one_sided { Intersection::Tangent } else { Intersection::Transverse };
     FixedPoint { location, residual: 0.0, intersection }

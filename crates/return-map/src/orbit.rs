@@ -14,17 +14,22 @@ pub fn orbit(map: impl Fn(f64) -> Option<f64>, start: f64) -> impl Iterator<Item
 
 /// The corners of an orbit's cobweb: (x₀, x₀), (x₀, x₁), (x₁, x₁), (x₁, x₂), …, for at most `steps` steps.
 ///
-/// It has fewer steps if the orbit ends.
+/// It has fewer steps if the orbit ends. The corners are computed one by one, so that a large `steps` needs no memory.
 ///
 /// ```
 /// let web = return_map::cobweb(|x| Some(x / 2.0), 1.0, 1);
-/// assert_eq!(web, [(1.0, 1.0), (1.0, 0.5), (0.5, 0.5)]);
+/// assert_eq!(web.collect::<Vec<_>>(), [(1.0, 1.0), (1.0, 0.5), (0.5, 0.5)]);
 /// ```
-pub fn cobweb(map: impl Fn(f64) -> Option<f64>, start: f64, steps: usize) -> Vec<(f64, f64)> {
-    let points: Vec<f64> = orbit(map, start).take(steps.saturating_add(1)).collect();
-    let mut web = vec![(start, start)];
-    for pair in points.windows(2) {
-        web.extend([(pair[0], pair[1]), (pair[1], pair[1])]);
-    }
-    web
+pub fn cobweb(
+    map: impl Fn(f64) -> Option<f64>,
+    start: f64,
+    steps: usize,
+) -> impl Iterator<Item = (f64, f64)> {
+    let mut from = start;
+    let corners = orbit(map, start).skip(1).take(steps).flat_map(move |to| {
+        let step = [(from, to), (to, to)];
+        from = to;
+        step
+    });
+    std::iter::once((start, start)).chain(corners)
 }

@@ -27,6 +27,10 @@ const NEWTON_STEPS: usize = 50;
 /// lower the residual, the direction is wrong, or the residual is the noise of the map.
 const HALVINGS: usize = 30;
 
+/// The longest period. The error of fᵖ grows with p, and every Newton step evaluates f some p times: a million steps of a
+/// return map take a minute. A period far above this is a mistake, and the search would not end in a usable time.
+const LONGEST_PERIOD: usize = 1_000_000;
+
 /// A Newton step that no longer lowers the residual is attributed to noise of the map if it is at most this,
 /// relative to the point. The noise of an integrated return map is of the order of its flow's tolerance, far above
 /// an ulp: at tolerances up to 10⁻¹² it is below this with a margin of 100. A smaller value would refuse the periodic
@@ -50,7 +54,8 @@ const NOISE: f64 = 1e-10;
 ///
 /// # Errors
 /// [`Error::NoPeriodicPoint`] for a period of 0, for a singular derivative, and if the steps end before the residual
-/// is of the size of rounding, or of the noise of the map (Newton steps under 10⁻¹⁰). Errors of the map.
+/// is of the size of rounding, or of the noise of the map (Newton steps under 10⁻¹⁰). [`Error::BadPeriod`] for a period
+/// above a million. Errors of the map.
 pub fn periodic_point<const K: usize>(
     map: impl Fn(&SVector<f64, K>) -> Result<SVector<f64, K>, Error>,
     start: &SVector<f64, K>,
@@ -101,6 +106,9 @@ fn newton<const K: usize>(
     start: &SVector<f64, K>,
     period: usize,
 ) -> Result<PeriodicPoint<K>, Error> {
+    if period > LONGEST_PERIOD {
+        return Err(Error::BadPeriod { period, most: LONGEST_PERIOD });
+    }
     let displacement = |x: &SVector<f64, K>| Ok::<_, Error>(iterate(&map, x, period)? - x);
     let none = |residual: f64, steps: usize| Error::NoPeriodicPoint { residual, steps };
     if period == 0 {
@@ -229,6 +237,11 @@ mod tests {
         let gap = |x: &Vector1<f64>| Ok(Vector1::new(x[0] * x[0] + 1.0));
         assert!(periodic_point(gap, &Vector1::new(0.3), 1).is_err());
         assert!(periodic_point(gap, &Vector1::new(0.3), 0).is_err());
+        let half = |x: &Vector1<f64>| Ok(x * 0.5);
+        assert!(matches!(
+            periodic_point(half, &Vector1::new(0.3), usize::MAX),
+            Err(Error::BadPeriod { period: usize::MAX, .. })
+        ));
         let nowhere = |_: &Vector1<f64>| Ok(Vector1::new(f64::NAN));
         assert!(periodic_point(nowhere, &Vector1::new(0.3), 1).is_err());
     }

@@ -29,7 +29,8 @@ pub struct OneSidedStability {
     /// The stability over all distances.
     pub stability: Stability,
     /// Pairs (δ, δ − δ′) of a distance and its decrease in one step; the decrease is negative if the distance grows.
-    /// The pairs run from the largest δ to the smallest. Points that change sides or have no image are left out.
+    /// The pairs run from the largest δ to the smallest. Points that change sides or have no image are left out. At
+    /// most 2098 distances exist.
     pub approach: Vec<(f64, f64)>,
 }
 
@@ -53,7 +54,8 @@ impl OneSidedStability {
 /// `displacement` is the map in the coordinate δ = |x − x*|. It maps a distance to the distance of the image on the
 /// same side. The result is negative if the image is on the other side, and `None` if there is no image. A model that
 /// knows its map near the fixed point can compute it without cancellation. `count` distances are probed: `largest`, its
-/// half, its quarter and so on.
+/// half, its quarter and so on. The sequence ends at the smallest positive number, after 2098 halvings at most: a larger
+/// `count` probes no more. If `largest` is not positive and finite, no distance is probed.
 ///
 /// ```
 /// use return_map::{Side, Stability, one_sided_stability};
@@ -75,6 +77,10 @@ pub fn one_sided_stability(
     let (mut nearer, mut farther, mut other) = (0, 0, 0);
     let mut distance = largest;
     for _ in 0..count {
+        // Half of the smallest positive number rounds to 0, which is the fixed point itself.
+        if !(distance > 0.0 && distance.is_finite()) {
+            break;
+        }
         match displacement(distance) {
             Some(image) if image >= 0.0 => {
                 approach.push((distance, distance - image));

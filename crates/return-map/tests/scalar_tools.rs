@@ -4,7 +4,10 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use proptest::prelude::*;
-use return_map::{Error, Intersection, Side, Stability, fixed_points, one_sided_stability, orbit};
+use return_map::{
+    Error, Intersection, Side, Stability, cobweb, fixed_points, one_sided_stability, orbit,
+};
+use std::cell::Cell;
 
 proptest! {
     /// The map x + s (x − a)(x − b)² has a transverse fixed point a and a tangent one b.
@@ -46,9 +49,13 @@ fn a_change_of_sides_is_undecided() {
 
 #[test]
 fn bad_windows_are_errors() {
-    for (left, right, samples) in
-        [(1.0, 0.0, 10), (0.0, 1.0, 2), (0.0, f64::NAN, 10), (0.0, f64::INFINITY, 10)]
-    {
+    for (left, right, samples) in [
+        (1.0, 0.0, 10),
+        (0.0, 1.0, 2),
+        (0.0, f64::NAN, 10),
+        (0.0, f64::INFINITY, 10),
+        (0.0, 1.0, usize::MAX),
+    ] {
         assert!(matches!(fixed_points(Some, left, right, samples), Err(Error::BadWindow { .. })));
     }
 }
@@ -57,4 +64,45 @@ fn bad_windows_are_errors() {
 fn an_orbit_ends_where_the_map_has_no_value() {
     let map = |x: f64| (x > 1.0).then_some(x / 2.0);
     assert_eq!(orbit(map, 8.0).collect::<Vec<_>>(), [8.0, 4.0, 2.0, 1.0]);
+}
+
+/// Some windows end where left + (right − left) rounds to a number above `right`.
+#[test]
+fn no_sample_lies_outside_the_window() {
+    for k in 1..2000 {
+        let (left, right) = (-0.001 * f64::from(k), 0.1 / f64::from(k));
+        for samples in [3, 7, 50] {
+            let ends = Cell::new((f64::INFINITY, f64::NEG_INFINITY));
+            let map = |x: f64| {
+                ends.set((ends.get().0.min(x), ends.get().1.max(x)));
+                Some(x * x - 0.3 * x)
+            };
+            fixed_points(map, left, right, samples).unwrap();
+            assert_eq!(ends.get(), (left, right));
+        }
+    }
+    // The case itself: without care the last sample is above the right end.
+    let beyond = (1..2000).any(|k| {
+        let (left, right) = (-0.001 * f64::from(k), 0.1 / f64::from(k));
+        left + (right - left) > right
+    });
+    assert!(beyond);
+}
+
+/// The distances 1, ½, ¼, … end at the smallest positive number, 2⁻¹⁰⁷⁴.
+#[test]
+fn a_billion_distances_end_at_the_smallest_number() {
+    let probed = one_sided_stability(|d| Some(0.25 * d), Side::Right, 1.0, 1_000_000_000);
+    assert_eq!((probed.stability, probed.approach.len()), (Stability::Attracting, 1075));
+    assert_eq!(probed.approach[1074], (f64::from_bits(1), f64::from_bits(1)));
+    for largest in [f64::INFINITY, f64::NAN, 0.0, -1.0] {
+        let probed = one_sided_stability(Some, Side::Right, largest, usize::MAX);
+        assert_eq!((probed.stability, probed.approach.len()), (Stability::Undecided, 0));
+    }
+}
+
+#[test]
+fn a_cobweb_of_endless_steps_is_drawn_as_far_as_it_is_read() {
+    let web = cobweb(|x| Some(x / 2.0), 1.0, usize::MAX);
+    assert_eq!(web.skip(3).take(2).collect::<Vec<_>>(), [(0.5, 0.25), (0.25, 0.25)]);
 }

@@ -79,7 +79,9 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         let found =
             match panel.quasi_polynomial.first_crossing(Direction::Falling, panel.horizon)? {
                 FirstCrossing::At { time, .. } => Some((time, Marker::Disc)),
-                FirstCrossing::Grazing { time, .. } => Some((time, Marker::Diamond)),
+                FirstCrossing::Touch { time, .. } | FirstCrossing::Undecided { time, .. } => {
+                    Some((time, Marker::Diamond))
+                }
                 FirstCrossing::Never => None,
             };
         if let Some((time, marker)) = found {

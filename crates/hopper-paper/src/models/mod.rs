@@ -1,6 +1,10 @@
-//! Figures of the generic crates: how guards are met, and a published model of a valve.
+//! Figures of the generic crates: how guards are met, what happens at surfaces, and example models.
 
+mod eccentric_cylinder;
+mod forced_oscillator;
 mod guards;
+mod scene_panel;
+mod semantics;
 mod valve;
 
 use crate::error::Error;
@@ -11,4 +15,11 @@ use crate::job::Job;
 pub type Draw = fn(&Job) -> Result<Figure, Error>;
 
 /// All figures, by name.
-pub const ALL: &[(&str, Draw)] = &[("guards", guards::figure), ("valve", valve::figure)];
+pub const ALL: &[(&str, Draw)] = &[
+    ("guards", guards::figure),
+    ("semantics_instant", semantics::events_at_one_instant),
+    ("semantics_touch", semantics::sliding_and_touches),
+    ("eccentric_cylinder", eccentric_cylinder::figure),
+    ("forced_oscillator", forced_oscillator::figure),
+    ("valve", valve::figure),
+];

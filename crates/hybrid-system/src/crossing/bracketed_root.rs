@@ -56,12 +56,48 @@ pub fn bracketed_root(
     right: f64,
 ) -> Result<f64, Error> {
     let (at_left, at_right) = (function(left), function(right));
+    let (low, high) = last_bracket(function, (left, at_left), (right, at_right))?;
+    // The crate's own iterate is not used: it may lie outside the last bracket.
+    Ok(if low.1.abs() < high.1.abs() { low.0 } else { high.0 })
+}
+
+/// The first double behind the root between two known points: there the function is zero, or has the sign of the second
+/// point. At the double before it has the sign of the first point.
+pub(crate) fn root_beyond(
+    mut function: impl FnMut(f64) -> f64,
+    before: (f64, f64),
+    beyond: (f64, f64),
+) -> Result<f64, Error> {
+    let (low, high) = last_bracket(&mut function, before, beyond)?;
+    let (mut left, mut right) = (low.0, high.0);
+    // The last bracket is some ulps wide.
+    loop {
+        let middle = left + 0.5 * (right - left);
+        if middle <= left || middle >= right {
+            return Ok(right);
+        }
+        let value = function(middle);
+        if value != 0.0 && value.signum() == low.1.signum() {
+            left = middle;
+        } else {
+            right = middle;
+        }
+    }
+}
+
+/// Two points, an ulp or two apart, at which the function has the signs of the two given points, or is zero at the
+/// second.
+fn last_bracket(
+    mut function: impl FnMut(f64) -> f64,
+    (left, at_left): (f64, f64),
+    (right, at_right): (f64, f64),
+) -> Result<((f64, f64), (f64, f64)), Error> {
     for (at, value) in [(left, at_left), (right, at_right)] {
         if !value.is_finite() || !at.is_finite() {
             return Err(Error::NotFinite { at, value });
         }
         if value == 0.0 {
-            return Ok(at);
+            return Ok(((at, value), (at, value)));
         }
     }
     if at_left.signum() == at_right.signum() {
@@ -75,7 +111,12 @@ pub fn bracketed_root(
     let mut high = (right, at_right);
     let mut not_finite = None;
     let scaled = |x: f64| {
-        let value = function(x);
+        // The crate evaluates the ends of its bracket again.
+        let value = match x {
+            x if x == low.0 => low.1,
+            x if x == high.0 => high.1,
+            x => function(x),
+        };
         if !value.is_finite() {
             not_finite.get_or_insert((x, value));
             return 0.0; // an exact zero ends the search; the error is returned below
@@ -95,8 +136,7 @@ pub fn bracketed_root(
         return Err(Error::NotFinite { at, value });
     }
     match outcome {
-        // The crate's own iterate is not used: it may lie outside the last bracket.
-        Ok(_) => Ok(if low.1.abs() < high.1.abs() { low.0 } else { high.0 }),
+        Ok(_) => Ok((low, high)),
         Err(SearchError::NoConvergency) => {
             Err(Error::NoConvergence { left, right, iterations: MOST_ITERATIONS })
         }

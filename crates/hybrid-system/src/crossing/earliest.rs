@@ -1,49 +1,83 @@
-//! The earliest crossing of all guards of a mode.
+//! The earliest event of all guards of a mode.
 
 use super::certainty::Certainty;
-use super::first_crossing::FirstCrossing;
 use super::guarded_flow::GuardedFlow;
 use super::next_event::{Crossing, EventKind, NextEvent};
-use super::same_instant::sooner;
-use super::sampled::sampled_crossing;
+use super::one_guard::OneGuard;
+use super::sampled::sampled_event;
 use super::search_request::Search;
-use super::under_bounds::crossing_under_bounds;
+use super::under_bounds::event_under_bounds;
 use crate::error::Error;
-use crate::guard::Role;
+use crate::guard::{Role, Touch};
+use smallvec::SmallVec;
 
-/// The error of a crossing in closed form, in ulps of its time. `bracketed_root` stops at a bracket of two ulps, and the
-/// step past the root adds one or two.
-const TIME_ULPS: f64 = 4.0;
+/// Guards of one mode that are handled without allocating. Most models have fewer.
+const FEW: usize = 8;
+
+/// Rounding of the time itself, in ulps: the root lies between two neighbouring doubles, and the later one is returned.
+const TIME_ULPS: f64 = 2.0;
+
+/// A candidate for the earliest event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Candidate {
+    /// Time of the event.
+    pub(crate) time: f64,
+    /// Bound on the error of the time.
+    pub(crate) error: f64,
+    /// Index of the guard in the list of the mode.
+    pub(crate) index: usize,
+    /// The value of the guard, if this is a touch.
+    pub(crate) touch: Option<f64>,
+}
+
+impl Candidate {
+    /// True if this event comes before the other one by more than their errors.
+    ///
+    /// Guards are searched in the order in which the model lists them. Therefore the guard listed first is returned among
+    /// events at the same instant.
+    pub(crate) fn is_sooner_than(&self, other: &Candidate) -> bool {
+        self.time + self.error < other.time - other.error
+    }
+}
 
 /// The default search of [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing).
 pub(crate) fn earliest_crossing<F: GuardedFlow>(
     flow: &F,
     search: &Search<F::Surface>,
 ) -> Result<NextEvent<F::Surface, F::State>, Error> {
-    let horizon = search.horizon;
-    // Times with the index of their guard in the list.
-    let mut earliest: Option<(f64, usize)> = None;
-    let mut grazing: Option<(f64, f64, usize)> = None;
-    let mut without_bounds = Vec::new();
+    if !(search.horizon >= 0.0) {
+        return Err(Error::BadLimit { what: "the horizon of a search", value: search.horizon });
+    }
+    let mut earliest: Option<Candidate> = None;
+    // The search is complete up to this time.
+    let mut until = search.horizon;
+    let mut unfinished = false;
+    let mut without_bounds = SmallVec::<[usize; FEW]>::new();
     let guards = flow.guards();
     for (index, &guard) in guards.iter().enumerate() {
         if guard.role == Role::Clock {
             continue;
         }
-        match crossing_under_bounds(flow, horizon, guard)? {
-            Some(FirstCrossing::At { time, .. })
-                if earliest.is_none_or(|earliest| sooner(time, earliest.0)) =>
-            {
-                earliest = Some((time, index));
+        let (time, error, touch) = match event_under_bounds(flow, guard, search, until)? {
+            Some(OneGuard::Crossing { time, error }) => (time, error, None),
+            Some(OneGuard::Touch { time, error, value }) => (time, error, Some(value)),
+            Some(OneGuard::BudgetEnded { time }) => {
+                (until, unfinished) = (time, true);
+                earliest = earliest.filter(|earliest| earliest.time <= time);
+                continue;
             }
-            Some(FirstCrossing::Grazing { time, value })
-                if grazing.is_none_or(|(first, ..)| time < first) =>
-            {
-                grazing = Some((time, value, index));
+            Some(OneGuard::Quiet) => continue,
+            None => {
+                without_bounds.push(index);
+                continue;
             }
-            // A later crossing, a later grazing, or none.
-            Some(_) => {}
-            None => without_bounds.push(index),
+        };
+        let found =
+            Candidate { time, error: error + TIME_ULPS * f64::EPSILON * time, index, touch };
+        if earliest.is_none_or(|earliest| found.is_sooner_than(&earliest)) {
+            // A guard that is searched later may come at the same instant: up to the sum of both errors later.
+            until = until.min(time + 2.0 * found.error);
+            earliest = Some(found);
         }
     }
     let mut certainty = Certainty::Certain;
@@ -55,30 +89,35 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
         // This holds even if a guard under bounds is crossed first: a crossing of a sampled guard before it may have
         // been missed.
         certainty = Certainty::Sampled { interval };
-        let until = earliest.map_or(horizon, |(time, _)| time);
-        let sampled = sampled_crossing(flow, until, interval, &without_bounds)?;
-        if let Some(found) = sampled
-            && earliest.is_none_or(|earliest| found < earliest)
+        let sampled = sampled_event(flow, search, (until, interval), &without_bounds)?;
+        if let Some(time) = sampled.unfinished {
+            (until, unfinished) = (time, true);
+            earliest = earliest.filter(|earliest| earliest.time <= time);
+        }
+        if let Some(found) = sampled.first
+            && earliest.is_none_or(|earliest| {
+                found.is_sooner_than(&earliest)
+                    || found.index < earliest.index && !earliest.is_sooner_than(&found)
+            })
         {
             earliest = Some(found);
         }
     }
-    // A grazing after the earliest crossing never happens: the reset comes before it.
-    if let Some((time, value, index)) = grazing
-        && earliest.is_none_or(|(first, _)| time <= first)
-    {
-        let surface = format!("{:?}", guards[index].surface);
-        return Err(Error::Grazing { surface, time, value });
-    }
-    Ok(match earliest {
-        Some((time, index)) => NextEvent::Crossing(Crossing {
-            surface: guards[index].surface,
-            time,
-            time_error: TIME_ULPS * f64::EPSILON * time,
-            state: flow.state(time),
-            kind: EventKind::Crossing,
-            certainty,
-        }),
-        None => NextEvent::None { state: None, certainty },
-    })
+    let Some(Candidate { time, error, index, touch }) = earliest else {
+        return Ok(if unfinished {
+            NextEvent::Unfinished { time: until, state: flow.state(until), certainty }
+        } else {
+            NextEvent::None { state: None, certainty }
+        });
+    };
+    let surface = guards[index].surface;
+    let kind = match touch {
+        None => EventKind::Crossing,
+        Some(_) if guards[index].touch == Touch::Event => EventKind::Touch,
+        Some(value) => {
+            return Err(Error::Grazing { surface: format!("{surface:?}"), time, value });
+        }
+    };
+    let state = flow.state(time);
+    Ok(NextEvent::Crossing(Crossing { surface, time, time_error: error, state, kind, certainty }))
 }

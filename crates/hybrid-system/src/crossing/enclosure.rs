@@ -40,4 +40,9 @@ impl Enclosure {
     pub(crate) fn widened(&self, by: f64) -> Self {
         Enclosure { low: self.low - by, high: self.high + by }
     }
+
+    /// The interval of the differences from `level`.
+    pub(crate) fn above(&self, level: f64) -> Self {
+        Enclosure { low: self.low - level, high: self.high - level }
+    }
 }

@@ -12,9 +12,9 @@
 //! `under_bounds` chooses between the first two. `bracketed_root` refines a change of sign, `step_past_root` moves the
 //! result to the far side of the surface, and `closest_approach` describes a grazing.
 
+mod bounded;
 mod bracketed_root;
 mod certainty;
-mod closest_approach;
 mod departure;
 mod earliest;
 mod enclosure;
@@ -25,15 +25,22 @@ mod guard_rate;
 mod guard_rounding;
 mod guarded_flow;
 mod next_event;
+mod one_guard;
+mod quasi_layers;
 mod quasi_polynomial;
 mod quasi_polynomial_search;
+mod quasi_term;
+mod rounded;
 mod same_instant;
 mod sampled;
 mod search_request;
 mod step_past_root;
 mod under_bounds;
+mod zero_search;
 mod zero_test;
 
+#[cfg(feature = "ode")]
+pub(crate) use bounded::{Bounded, Leave};
 pub use bracketed_root::bracketed_root;
 pub use certainty::Certainty;
 pub(crate) use departure::{Departure, departure};
@@ -42,7 +49,9 @@ pub use enclosure::Enclosure;
 pub use first_crossing::FirstCrossing;
 pub use golden_section::golden_section_minimum;
 pub(crate) use guard_rate::guard_rate;
-pub(crate) use guard_rounding::guard_rounding;
+#[cfg(feature = "ode")]
+pub(crate) use guard_rounding::{change_by_components, side_of_surface};
+pub(crate) use guard_rounding::{guard_rounding, is_far, rounding_of_state};
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::QuasiPolynomial;
@@ -52,3 +61,7 @@ pub(crate) use search_request::MOST_INTERVALS;
 pub use search_request::{Leaving, Search};
 #[cfg(feature = "ode")]
 pub(crate) use step_past_root::step_to_sign;
+#[cfg(feature = "ode")]
+pub(crate) use zero_search::{Found, ZeroSearch};
+#[cfg(feature = "ode")]
+pub(crate) use zero_test::ZeroTest;

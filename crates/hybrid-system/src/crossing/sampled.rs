@@ -1,114 +1,171 @@
 //! Guards known by their values only: a change of sign between two samples.
 
-use super::bracketed_root::bracketed_root;
+use super::bracketed_root::root_beyond;
+use super::earliest::Candidate;
+use super::guard_rounding::guard_rounding;
 use super::guarded_flow::GuardedFlow;
-use super::same_instant::sooner;
-use super::step_past_root::step_to_sign;
+use super::search_request::Search;
 use crate::error::Error;
-use crate::guard::Guard;
+use crate::guard::{Guard, Touch};
 use std::fmt::Debug;
 
-/// The first crossing among the guards with these indices, and the index of the crossed guard.
+/// Most samples of one search, unless the budget of steps is smaller: a limit for a search that would take days. At some
+/// 30 ns for a flow in closed form these samples take half a minute. The search then ends unfinished, and can go on. A
+/// smaller number would end searches that a user is willing to wait for.
+const MOST_SAMPLES: u64 = 1_000_000_000;
+
+/// Half of the width over which the slope at a crossing is taken, relative to the sampling interval. The guard is nearly
+/// straight over it. A smaller width would lose the slope in the rounding of the guard.
+const SLOPE_REACH: f64 = 1e-4;
+
+/// The result of a search by samples.
+pub(crate) struct SampledEvent {
+    /// The first event.
+    pub(crate) first: Option<Candidate>,
+    /// The time at which the budget of samples ended, if it did.
+    pub(crate) unfinished: Option<f64>,
+}
+
+/// The first event of the guards with these indices, up to `until`.
 ///
 /// # Errors
-/// [`Error::BadSamplingInterval`] if the samples would not advance to the horizon; [`Error::NotFinite`] for a guard
-/// that is not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`].
-pub(crate) fn sampled_crossing<F>(
+/// [`Error::BadSamplingInterval`] if the samples would not advance to the end; [`Error::NotFinite`] for a guard that is
+/// not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`].
+pub(crate) fn sampled_event<F: GuardedFlow>(
     flow: &F,
-    horizon: f64,
-    interval: f64,
+    search: &Search<F::Surface>,
+    (until, interval): (f64, f64),
     indices: &[usize],
-) -> Result<Option<(f64, usize)>, Error>
-where
-    F: GuardedFlow,
-{
-    // The last condition: samples at an interval below an ulp of the horizon would never reach it.
-    if !(interval > 0.0) || !horizon.is_finite() || horizon + interval == horizon {
-        return Err(Error::BadSamplingInterval { interval, horizon });
+) -> Result<SampledEvent, Error> {
+    // The last condition: samples at an interval below an ulp of the end would never reach it.
+    if !(interval > 0.0) || !until.is_finite() || until + interval == until {
+        return Err(Error::BadSamplingInterval { interval, horizon: until });
     }
     let guards = flow.guards();
     let mut sampled: Vec<SampledGuard<F::Surface>> = indices
         .iter()
         .map(|&index| {
-            let value = flow.guard_value(guards[index].surface, flow.start());
+            let guard = guards[index];
+            let value = flow.guard_value(guard.surface, flow.start());
             if !value.is_finite() {
                 return Err(Error::NotFinite { at: 0.0, value });
             }
-            Ok(SampledGuard::new(guards[index], value))
+            let side = search.side(guard.surface).or((value != 0.0).then(|| value.signum()));
+            Ok(SampledGuard { guard, side, since: 0.0, zero: None })
         })
         .collect::<Result<_, _>>()?;
-    let mut sample = 0u64;
-    loop {
-        sample += 1;
+    let budget = u64::try_from(search.steps).unwrap_or(u64::MAX).min(MOST_SAMPLES);
+    let mut time = 0.0;
+    for sample in 1..=budget {
         // A product instead of a sum: rounding does not accumulate over many samples.
-        let time = (sample as f64 * interval).min(horizon);
+        time = (sample as f64 * interval).min(until);
         let state = flow.state(time);
-        let mut earliest: Option<(f64, usize)> = None;
+        let mut first: Option<Candidate> = None;
         for (guard, &index) in sampled.iter_mut().zip(indices) {
             let surface = guard.guard.surface;
             let value = flow.guard_value(surface, &state);
             if !value.is_finite() {
                 return Err(Error::NotFinite { at: time, value });
             }
-            let Some((left, right)) = guard.advance(time, value, interval)? else { continue };
-            let along = |time: f64| flow.guard_at(surface, time);
-            let root = bracketed_root(along, left, right)?;
-            let at = step_to_sign(along, root, right, value);
-            if earliest.is_none_or(|(best, _)| sooner(at, best)) {
-                earliest = Some((at, index));
+            let found = match guard.advance(time, value, interval)? {
+                Sample::Quiet => continue,
+                Sample::Touch { time } => {
+                    Candidate { time, error: interval, index, touch: Some(0.0) }
+                }
+                Sample::Crossing { left, right, side } => {
+                    let (time, error) = crossing(flow, surface, (left, right), side, interval)?;
+                    Candidate { time, error, index, touch: None }
+                }
+            };
+            if first.is_none_or(|first| found.is_sooner_than(&first)) {
+                first = Some(found);
             }
         }
-        if earliest.is_some() || time >= horizon {
-            return Ok(earliest);
+        if first.is_some() || time >= until {
+            return Ok(SampledEvent { first, unfinished: None });
         }
     }
+    Ok(SampledEvent { first: None, unfinished: Some(time) })
+}
+
+/// The crossing between two times, coming from `side`, with its error.
+fn crossing<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    (left, right): (f64, f64),
+    side: f64,
+    interval: f64,
+) -> Result<(f64, f64), Error> {
+    let value = |time: f64| flow.guard_at(surface, time);
+    let (at_left, at_right) = (value(left), value(right));
+    // A guard that leaves its zero at the start may not have the sign of its side there yet.
+    if at_left * side <= 0.0 {
+        return Ok((left, interval));
+    }
+    let time = root_beyond(value, (left, at_left), (right, at_right))?;
+    let reach = SLOPE_REACH * (right - left);
+    let (before, after) = ((time - reach).max(left), (time + reach).min(right));
+    let slope = (value(after) - value(before)).abs() / (after - before);
+    let state = flow.state(time);
+    let rounding = guard_rounding(&state, &state, |state| flow.guard_value(surface, state))
+        + flow.guard_error(surface, &state).unwrap_or(0.0);
+    // One ulp between the two doubles at the root. NaN for 0/0 is dropped by `min`.
+    let error = (rounding / slope).min(right - left) + f64::EPSILON * time;
+    Ok((time, error))
+}
+
+/// What a sample shows.
+enum Sample {
+    /// No event.
+    Quiet,
+    /// The guard was zero at a sample, and came back to the side from which it came.
+    Touch { time: f64 },
+    /// The guard is crossed between two times, coming from `side`.
+    Crossing { left: f64, right: f64, side: f64 },
 }
 
 /// One guard, sampled from the start of an arc.
 struct SampledGuard<S> {
     guard: Guard<S>,
-    /// The last sample at which the guard was not zero, and its value there; `None` if it was zero at all of them.
-    last_nonzero: Option<(f64, f64)>,
+    /// The side of the surface, ±1; `None` as long as the guard is zero since the start.
+    side: Option<f64>,
+    /// The last sample at which the guard was on that side.
+    since: f64,
     /// The first of the samples since then, at all of which the guard is exactly zero.
-    first_zero: Option<f64>,
+    zero: Option<f64>,
 }
 
 impl<S: Copy + Debug> SampledGuard<S> {
-    fn new(guard: Guard<S>, at_start: f64) -> Self {
-        let last_nonzero = (at_start != 0.0).then_some((0.0, at_start));
-        SampledGuard { guard, last_nonzero, first_zero: None }
-    }
-
-    /// Takes the next sample. Returns a bracket of the root if the guard has been crossed in its direction.
+    /// Takes the next sample.
     ///
     /// | before | now | meaning |
     /// |---|---|---|
     /// | any | 0 | undecided until the next value that is not zero |
     /// | 0 since the start | beyond the surface | error: crossed at once, or gone and come back between two samples |
     /// | 0 since the start | before the surface | left the start, no crossing |
+    /// | one side, with zeros in between | the same side | touch |
     /// | one side | other side, admitted | crossing |
-    fn advance(
-        &mut self,
-        time: f64,
-        value: f64,
-        interval: f64,
-    ) -> Result<Option<(f64, f64)>, Error> {
+    fn advance(&mut self, time: f64, value: f64, interval: f64) -> Result<Sample, Error> {
         if value == 0.0 {
-            self.first_zero.get_or_insert(time);
-            return Ok(None);
+            self.zero.get_or_insert(time);
+            return Ok(Sample::Quiet);
         }
-        let zero = self.first_zero.take();
-        match self.last_nonzero.replace((time, value)) {
-            None if self.guard.direction.leads_to(value) => Err(Error::UndecidedStart {
-                surface: format!("{:?}", self.guard.surface),
-                interval,
-            }),
-            Some((since, before)) if self.guard.direction.admits(before, value) => {
-                // A sample that is exactly zero is the first root. With this sample as left end the bracket returns it;
-                // with `since` the root finder could return a later one.
-                Ok(Some((zero.unwrap_or(since), time)))
+        let now = value.signum();
+        let (zero, since) = (self.zero.take(), std::mem::replace(&mut self.since, time));
+        let Guard { surface, direction, touch, .. } = self.guard;
+        match self.side.replace(now) {
+            None if direction.leads_to(value) => {
+                Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval })
             }
-            _ => Ok(None),
+            // A sample that is exactly zero is the first root. With this sample as right end the bracket returns it; the
+            // root finder could return a later one otherwise.
+            Some(side) if direction.admits(side, now) => {
+                Ok(Sample::Crossing { left: since, right: zero.unwrap_or(time), side })
+            }
+            Some(side) if side == now && touch != Touch::Ignore => {
+                Ok(zero.map_or(Sample::Quiet, |time| Sample::Touch { time }))
+            }
+            _ => Ok(Sample::Quiet),
         }
     }
 }

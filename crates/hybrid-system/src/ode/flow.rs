@@ -5,11 +5,11 @@ use super::search::search;
 use super::tolerances::Tolerances;
 use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
-use crate::state::{State, StateVector};
+use crate::state::StateVector;
 use crate::system::HybridSystem;
 
 /// The state after `time` along ẋ = f(x): the value that [`HybridSystem::flow`](crate::HybridSystem::flow) returns in a
-/// mode without closed form. A negative time leads backward.
+/// mode without closed form.
 ///
 /// If the integration fails before `time`, all components are NaN. [`Arc::state`](crate::Arc::state) and executions
 /// return such a state as an error; [`integrated_states`] gives the reason.
@@ -148,15 +148,15 @@ fn between(a: f64, x: f64, b: f64) -> bool {
 /// # Errors
 /// [`Error::Grazing`] where a guard comes within rounding of its surface; [`Error::UndecidedStart`] if rounding
 /// hides how a guard leaves a start on its surface; the errors of [`Integration`].
-pub fn integrated_crossing<T, const N: usize>(
+pub fn integrated_crossing<T>(
     system: &T,
     mode: T::Mode,
-    start: &State<N>,
+    start: &T::State,
     request: &Search<T::Surface>,
     tolerances: Tolerances,
-) -> Result<NextEvent<T::Surface, State<N>>, Error>
+) -> Result<NextEvent<T::Surface, T::State>, Error>
 where
-    T: HybridSystem<State = State<N>> + ?Sized,
+    T: HybridSystem + ?Sized,
 {
     let field = field_of(system, mode);
     search(system, mode, start, request, field, tolerances)

@@ -1,226 +1,157 @@
-//! One guard that is followed along an integrated flow, from step to step, to its first crossing.
+//! One guard along one step of an integrated flow: a source of the search for zeros.
 
-use super::polynomial_test::{LEFT_ZERO, PolynomialTest, test, test_leaving_zero};
-use super::step::Step;
-use crate::crossing::{bracketed_root, guard_rounding, step_to_sign};
+use super::chebyshev::{CHEBYSHEV, NODES};
+use super::polynomial_test::{largest, scatter, side_after_zero, zero_test};
+use crate::crossing::{Bounded, Enclosure, Leave, ZeroTest};
 use crate::error::Error;
-use crate::guard::Direction;
-use crate::state::State;
+use std::cell::{Cell, OnceCell};
 
-/// Depth of halving of one step, and so the length of the list of open intervals, which is on the stack. 53 halvings
-/// reach the rounding of times in the middle of a step. Near time zero doubles are denser, and more halvings would be
-/// possible. An interval at this depth is treated as hidden by rounding.
-const MOST_HALVINGS: usize = 64;
+/// On intervals shorter than this part of the step, 2⁻³⁰, a smooth guard is a straight line within rounding: its bend is
+/// 2⁻⁶⁰ of its size on the step. What else its values show is the rounding of its own arithmetic. On longer intervals
+/// a kink or a narrow bump could be taken for rounding. Shorter ones would take more halvings to the same result.
+const STRAIGHT: f64 = 1.0 / 1_073_741_824.0;
 
-/// Most intervals of one step that are tested: a limit for a search that would not end. The search then ends with
-/// [`Error::NoConvergence`].
-const MOST_INTERVALS: usize = 100_000;
+/// A guard that is not a number somewhere on an interval is searched on shorter ones, down to this part of the step:
+/// 2⁻⁴⁰. So a crossing before a region without values is found. A shorter interval would find a crossing closer to that
+/// region.
+const SHORTEST_WITHOUT_VALUES: f64 = 1.0 / 1_099_511_627_776.0;
 
-/// Rounding error of an interpolant, in units of that of the largest state on its step. The value is an estimate, not
-/// derived: with the factors of `guard_rounding` it is 6·10⁻¹⁴ of the state. Measured on the problem of `schemes`, steps of
-/// 1/16 and 1/32: the pair 9(8) is wrong by 2·10⁻¹⁶, the pair 8(7) by 10⁻¹³. So rounding can exceed the estimate with the
-/// pair 8(7). That pair is used at tolerances from 2·10⁻¹¹ on, where the flow itself is known less well. If the value is
-/// too small, rounding is taken for a crossing; if it is too large, grazings are reported too early.
-const INTERPOLANT_ROUNDING: f64 = 64.0;
+/// A guard that started at zero has left it when a value on the interval exceeds its rounding error by this factor. Below
+/// it no test shows a side. A larger factor needs a longer interval, which may hold the next crossing already.
+const LEFT_ZERO: f64 = 16.0;
 
-/// A shorter first step is tried if the rounding of the guard on the step exceeds the rounding at the start by this
-/// factor, four times the factor of every step. Below this factor a shorter step could not show more.
-const COARSE: f64 = 4.0 * INTERPOLANT_ROUNDING;
+/// The distance between two neighbouring nodes in the middle of an interval, relative to its length: sin(π/32). A guard
+/// is looked at this often at least.
+const NODE_DISTANCE: f64 = 0.098;
 
-/// Length of the shorter first step, relative to the one that was too long. The rounding of the interpolant shrinks
-/// with it, by two digits at a time. A shorter step would often be shorter than necessary, and cost more steps after
-/// it. A longer one would need more tries, each of which starts the integration again.
-const SHORTER: f64 = 0.01;
+/// Most intervals at a start on the surface: 53 halvings to the rounding of the time, and as many steps back. A guard that
+/// shows no side then is hidden.
+const MOST_INTERVALS: usize = 128;
 
-/// The state is moved along its rate by this distance, relative to its size, to compute the rate of a guard at the
-/// start. The distance is about √ε, as for finite differences: the rounding of the difference is 1e-8 of it, and so is
-/// the effect of the guard's second derivative.
-const DIFFERENCE_REACH: f64 = 1e-8;
-
-/// A guard has a rate at the start if its change over both sides exceeds this multiple of its bend. Where the bend
-/// is as large as the change, the guard may fall on one side and rise on the other, and the difference has no
-/// meaning.
-const STRAIGHT: f64 = 1.0;
-
-/// A step is skipped if the guard's smallest distance from zero is more than one half of its variation.
-const AWAY: f64 = 2.0;
-
-/// A guard, followed from step to step.
-pub(super) struct FollowedGuard {
-    direction: Direction,
-    /// The side of the surface, ±1; `None` as long as the guard has not left the zero it started at.
-    side: Option<f64>,
-    /// The sign of the guard's rate at the start; `None` if rounding hides it.
-    rate: Option<f64>,
-    /// The guard's value at the start.
-    start: f64,
-    /// Rounding error of that value.
-    start_rounding: f64,
+/// A guard as a function of time on one step: values on the interpolant of the step, with their rounding.
+pub(super) struct GuardOnStep<A, R> {
+    along: A,
+    rounding: R,
+    from: f64,
+    to: f64,
+    /// The longest interval that is tested.
+    longest: f64,
+    /// The result of `rounding`, computed at its first use.
+    known_rounding: OnceCell<f64>,
+    /// The rounding of the guard's own arithmetic, as far as it has been seen on this step.
+    own: Cell<f64>,
 }
 
-/// The result of the search on one step.
-pub(super) enum StepOutcome {
-    /// A crossing.
-    Crossing {
-        /// Time of the crossing.
-        time: f64,
-    },
-    /// The guard comes so close to zero that rounding hides whether it crosses.
-    Grazing {
-        /// Time of the grazing.
-        time: f64,
-        /// Value of the guard there.
-        value: f64,
-    },
-    /// Rounding hides how the guard leaves its start. Either the guard starts too close to zero for a step of this
-    /// length, or it left zero to one side and is found on the other.
-    HiddenByRounding {
-        /// End of the hidden time.
-        until: f64,
-    },
-    /// No crossing.
-    NoCrossing,
-}
-
-impl FollowedGuard {
-    /// Starts at `start`, with the rate of the state there. The guard counts as zero there if its value is within the
-    /// rounding of the state.
-    pub(super) fn new<const N: usize>(
-        direction: Direction,
-        start: &State<N>,
-        rate: &State<N>,
-        guard: impl Fn(&State<N>) -> f64,
-    ) -> Result<Self, Error> {
-        let value = guard(start);
-        if !value.is_finite() {
-            return Err(Error::NotFinite { at: 0.0, value });
-        }
-        let rounding = guard_rounding(start, start, &guard);
-        let side = (value.abs() > rounding).then(|| value.signum());
-        // A central difference. The second difference tests whether it is meaningful.
-        let reach = DIFFERENCE_REACH * (1.0 + start.amax()) / rate.amax();
-        let (ahead, behind) = (guard(&(start + rate * reach)), guard(&(start - rate * reach)));
-        let (change, bend) = (ahead - behind, ahead + behind - 2.0 * value);
-        let straight = change.abs() > rounding && change.abs() > STRAIGHT * bend.abs();
-        let rate = straight.then(|| change.signum());
-        Ok(FollowedGuard { direction, side, rate, start: value, start_rounding: rounding })
+impl<A: Fn(f64) -> f64, R: Fn() -> f64> GuardOnStep<A, R> {
+    /// The guard `along` the step [`from`, `to`]. `rounding()` estimates the error of its values by the rounding of the
+    /// state. The guard is evaluated at least every `check_interval`.
+    pub(super) fn new(along: A, rounding: R, (from, to): (f64, f64), check_interval: f64) -> Self {
+        let longest = check_interval / NODE_DISTANCE;
+        let (known_rounding, own) = (OnceCell::new(), Cell::new(0.0));
+        GuardOnStep { along, rounding, from, to, longest, known_rounding, own }
     }
 
-    /// True if the guard stays on its side along a step, as far as these values show: the smallest distance from
-    /// zero is more than half of the difference between the largest and the smallest.
-    ///
-    /// This test is no bound. A dip to zero and back is visible in the values if it takes an eighth of the step.
-    pub(super) fn stays_away(&self, values: impl Iterator<Item = f64>) -> bool {
-        let Some(side) = self.side else { return false };
-        let (mut nearest, mut farthest) = (f64::INFINITY, 0.0);
-        for value in values {
-            let distance = side * value;
-            // The condition is also true for NaN, which the polynomial's test then returns as an error.
-            if !(distance > 0.0) {
-                return false;
-            }
-            nearest = if distance < nearest { distance } else { nearest };
-            farthest = if distance > farthest { distance } else { farthest };
-        }
-        AWAY * nearest > farthest - nearest
+    /// An estimate of the error of the values.
+    pub(super) fn error(&self) -> f64 {
+        self.known_rounding.get_or_init(&self.rounding).max(self.own.get())
     }
 
-    /// The first crossing on a step, no later than `until`.
-    pub(super) fn crossing<const N: usize>(
-        &mut self,
-        step: &Step<State<N>>,
-        until: f64,
-        guard: impl Fn(&State<N>) -> f64,
-    ) -> Result<StepOutcome, Error> {
-        let along = |time: f64| guard(&step.state(time));
-        let size = step.magnitude() * INTERPOLANT_ROUNDING;
-        let rounding_near = |time: f64| guard_rounding(&step.state(time), &size, &guard);
-        let hidden = || Ok(StepOutcome::HiddenByRounding { until: SHORTER * step.to });
-        // True for a first step on which the rounding of the interpolant hides more than the rounding of the state.
-        let coarse = step.from == 0.0 && rounding_near(step.from) > COARSE * self.start_rounding;
-        let may_cross = self.side.is_some_and(|side| self.direction.admits(side, -side));
-        if coarse && may_cross && self.start.abs() <= LEFT_ZERO * rounding_near(step.from) {
-            return hidden();
-        }
-        // Invariant: no crossing in (step.from, left], and the guard is on `side` just after `left`. The rest is
-        // divided into intervals; the first `open` entries of `ends` are their right ends, the nearest one last.
-        let mut left = step.from;
-        let mut ends = [until; MOST_HALVINGS];
-        let mut open = 1;
-        for _ in 0..MOST_INTERVALS {
-            if open == 0 {
-                return Ok(StepOutcome::NoCrossing);
-            }
-            let right = ends[open - 1];
-            if left >= right {
-                open -= 1;
-                continue;
-            }
-            let rounding = rounding_near(left).max(rounding_near(right));
-            let answer = match self.side {
-                None => test_leaving_zero(along, left, right, rounding)?,
-                Some(_) => test(along, left, right, rounding)?,
-            };
-            let side_after = match answer {
-                PolynomialTest::NoZero { sign } => Some(sign),
-                PolynomialTest::Monotone { slope } => self.side_after(along(right), slope),
-                // The guard has not left its start yet: the next interval decides.
-                PolynomialTest::WithinRounding if self.side.is_none() => None,
-                PolynomialTest::WithinRounding | PolynomialTest::Undecided => {
-                    let middle = left + 0.5 * (right - left);
-                    let narrow = middle <= left || middle >= right || open == MOST_HALVINGS;
-                    if !narrow && !matches!(answer, PolynomialTest::WithinRounding) {
-                        ends[open] = middle;
-                        open += 1;
-                        continue;
-                    }
-                    if coarse {
-                        return hidden();
-                    }
-                    return Ok(StepOutcome::Grazing { time: middle, value: along(middle) });
+    /// The values at the nodes of an interval minus `level`; `None` if the interval is to be halved because one of them is
+    /// not a number.
+    fn values_at_nodes(
+        &self,
+        left: f64,
+        right: f64,
+        level: f64,
+    ) -> Result<Option<[f64; NODES]>, Error> {
+        let (middle, radius) = (left + 0.5 * (right - left), 0.5 * (right - left));
+        let mut values = [0.0; NODES];
+        for (value, node) in values.iter_mut().zip(CHEBYSHEV.nodes) {
+            // Rounding must not lead outside the step.
+            let at = (middle + radius * node).clamp(left, right);
+            *value = (self.along)(at) - level;
+            if !value.is_finite() {
+                let shortest = SHORTEST_WITHOUT_VALUES * (self.to - self.from);
+                if right - left > shortest && middle > left && middle < right {
+                    return Ok(None);
                 }
-            };
-            if let (Some(before), Some(after)) = (self.side, side_after)
-                && self.direction.admits(before, after)
-            {
-                let time = root(along, left, right, before)?;
-                return Ok(StepOutcome::Crossing { time });
+                return Err(Error::NotFinite { at, value: *value });
             }
-            // The guard left a start at zero to the side of its rate. Then it came back and passed through zero within
-            // rounding: this interval contains a crossing that no test has shown.
-            if let (None, Some(after), Some(rate)) = (self.side, side_after, self.rate)
-                && rate != after
-                && self.direction.leads_to(after)
-            {
-                return Ok(StepOutcome::HiddenByRounding { until: right });
-            }
-            self.side = side_after.or(self.side);
-            left = right;
         }
-        Err(Error::NoConvergence { left, right: step.to, iterations: MOST_INTERVALS })
-    }
-
-    /// The side after an interval on which the guard is monotone, with its `value` at the end.
-    fn side_after(&self, value: f64, slope: f64) -> Option<f64> {
-        match self.side {
-            None => Some(slope),
-            Some(side) if slope * side < 0.0 && value * side < 0.0 => Some(-side),
-            same => same,
-        }
+        Ok(Some(values))
     }
 }
 
-/// The zero in an interval that the guard enters on the side `before` and leaves on the other.
-fn root(along: impl Fn(f64) -> f64, left: f64, right: f64, before: f64) -> Result<f64, Error> {
-    // By the test the sign changes in the interval. Within rounding the computed values may show no change at one of
-    // the ends. Then that end is the zero.
-    if along(left) * before <= 0.0 {
-        return Ok(left);
+impl<A: Fn(f64) -> f64, R: Fn() -> f64> Bounded for GuardOnStep<A, R> {
+    fn value(&self, time: f64) -> f64 {
+        (self.along)(time)
     }
-    let at_right = along(right);
-    if at_right * before >= 0.0 {
-        return Ok(right);
+
+    fn at(&self, time: f64) -> Result<Enclosure, Error> {
+        let value = (self.along)(time);
+        if !value.is_finite() {
+            return Err(Error::NotFinite { at: time, value });
+        }
+        Ok(Enclosure::around(value, self.error()))
     }
-    let root = bracketed_root(&along, left, right)?;
-    Ok(step_to_sign(along, root, right, at_right))
+
+    fn test(&self, left: f64, right: f64, level: f64) -> Result<ZeroTest, Error> {
+        if right - left > self.longest {
+            return Ok(ZeroTest::Undecided);
+        }
+        let Some(values) = self.values_at_nodes(left, right, level)? else {
+            return Ok(ZeroTest::Undecided);
+        };
+        let found = zero_test(&values, self.error());
+        if matches!(found, ZeroTest::Undecided) && right - left < STRAIGHT * (self.to - self.from) {
+            self.own.set(self.own.get().max(scatter(&values)));
+            if largest(&values) <= 2.0 * self.error() {
+                return Ok(ZeroTest::Hidden);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Tries shorter and shorter intervals from the start on, until one of them shows a side, or rounding hides all of
+    /// its values. Behind a hidden interval the first one that shows a side decides.
+    fn leave(&self, from: f64, until: f64, error: f64) -> Result<Leave, Error> {
+        let start = (self.along)(from);
+        let error = error.max(self.error());
+        let (mut hidden, mut right) = (from, until.min(from + self.longest));
+        for _ in 0..MOST_INTERVALS {
+            if let Some(values) = self.values_at_nodes(hidden, right, start)? {
+                let shown = if largest(&values) <= LEFT_ZERO * error {
+                    if right >= until {
+                        return Ok(Leave::Stays);
+                    }
+                    let length = right - hidden;
+                    (hidden, right) = (right, (right + length).min(until));
+                    continue;
+                } else if hidden == from {
+                    side_after_zero(&values, error)
+                } else if let ZeroTest::NoZero { sign } = zero_test(&values, error) {
+                    Some(sign)
+                } else {
+                    None
+                };
+                if let Some(side) = shown {
+                    return Ok(Leave::To { time: right, side });
+                }
+            }
+            let middle = hidden + 0.5 * (right - hidden);
+            if middle <= hidden || middle >= right {
+                break;
+            }
+            right = middle;
+        }
+        Ok(Leave::Hidden)
+    }
+
+    fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
+        // The guard is monotone on the interval. Its mean rate stands for the rate at the zero.
+        let rate = ((self.along)(right) - (self.along)(left)).abs() / (right - left);
+        let error = (self.along)(time).abs() + self.error();
+        // 0/0 for a guard that is exactly zero: `min` drops NaN.
+        Ok((error / rate).min(right - left))
+    }
 }

@@ -11,6 +11,7 @@ mod flow;
 mod followed_guard;
 mod integration;
 mod inverse_root;
+mod polish;
 mod polynomial_test;
 mod rows;
 mod schemes;

@@ -1,43 +1,82 @@
-//! The first crossing of all guards of a mode along an integrated flow.
+//! The first event of all guards of a mode along an integrated flow.
 
-use super::followed_guard::{FollowedGuard, StepOutcome};
+use super::followed_guard::GuardOnStep;
 use super::integration::Integration;
+use super::polish::{Accuracy, polished, rate, time_error};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
-    Certainty, Crossing, EventKind, NextEvent, Search, bracketed_root, sooner, step_to_sign,
+    Certainty, Crossing, EventKind, Found, NextEvent, Search, ZeroSearch, guard_rate,
+    guard_rounding, rounding_of_state, side_of_surface, sooner,
 };
 use crate::error::Error;
-use crate::guard::{Guard, Role};
-use crate::state::State;
+use crate::guard::{Guard, Role, Touch};
+use crate::state::StateVector;
 use crate::system::HybridSystem;
-
-/// The largest distances by which a crossing is moved when it is polished, in units of the step. The smallest distance
-/// that shows a change of sign is used. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary
-/// slope; a guard that is crossed slowly needs more. If the last value shows no change of sign, the crossing of the
-/// interpolant is kept.
-const POLISHING_REACHES: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
+use smallvec::SmallVec;
 
 /// Guards of one mode that are followed without allocating. With more guards each search allocates once.
 const GUARDS_ON_STACK: usize = 8;
 
-/// The first step after rounding has hidden a start, relative to the time up to which it was hidden. Another try is
-/// made only if that time is less than this part of the last first step. So first steps shrink by a factor of 4 at
-/// least, and the tries end. A value near 1 would repeat steps that differ too little to show more. A smaller one
-/// would give up where a somewhat shorter step shows the crossing.
-const SHORTER_FIRST_STEP: f64 = 0.5;
+/// Rounding error of an interpolant, in units of that of the largest state on its step. The value is an estimate, not
+/// derived: with the factors of `guard_rounding` it is 6·10⁻¹⁴ of the state. Measured on the problem of `schemes`, steps of
+/// 1/16 and 1/32: the pair 9(8) is wrong by 2·10⁻¹⁶, the pair 8(7) by 10⁻¹³. So rounding can exceed the estimate with the
+/// pair 8(7). That pair is used at tolerances from 2·10⁻¹¹ on, where the flow itself is known less well. If the value is
+/// too small, rounding is taken for a crossing; if it is too large, touches are reported too early.
+const INTERPOLANT_ROUNDING: f64 = 64.0;
 
-/// Follows `field` from `start` until a guard of `mode` is crossed, or to `horizon`.
-pub(super) fn search<T, const N: usize>(
+/// If rounding hides the guard at a time on the first step, and this multiple of the time is shorter than the step, the
+/// search is repeated with a first step of that length: the rounding of an interpolant shrinks with its step, until only
+/// the rounding of the state is left. The hidden time then lies in the middle of the step. A smaller number might end
+/// the step before it, a larger one leaves more rounding.
+const SHORTER_FIRST_STEP: f64 = 2.0;
+
+/// A repetition must shorten the first step by this factor at least, so that the repetitions end.
+const SHORTER: f64 = 0.5;
+
+/// A step is skipped if the guard's smallest distance from zero is more than one half of its variation.
+const AWAY: f64 = 2.0;
+
+/// The states that are compared with the surfaces before a step is skipped are this part of the step apart.
+const PARTS: f64 = 8.0;
+
+/// One guard, followed from step to step.
+struct Followed<S> {
+    guard: Guard<S>,
+    /// The stated error of the guard's own arithmetic, or zero.
+    stated: f64,
+    search: ZeroSearch,
+}
+
+/// What is found first on a step.
+struct Finding<'a, S> {
+    found: Found,
+    time: f64,
+    followed: &'a Followed<S>,
+    /// The guard had not left the zero at its start.
+    leaving: bool,
+}
+
+/// The result of a search with one choice of the first step.
+enum Outcome<S, X> {
+    Finished(NextEvent<S, X>),
+    /// Rounding hides an event on the first step; on a first step of this length it may be visible.
+    Hidden {
+        first_step: f64,
+    },
+}
+
+/// Follows `field` from `start` until a guard of `mode` has an event, or to the horizon of `request`.
+pub(super) fn search<T>(
     system: &T,
     mode: T::Mode,
-    start: &State<N>,
+    start: &T::State,
     request: &Search<T::Surface>,
-    field: impl Fn(f64, &State<N>) -> State<N>,
+    field: impl Fn(f64, &T::State) -> T::State,
     tolerances: Tolerances,
-) -> Result<NextEvent<T::Surface, State<N>>, Error>
+) -> Result<NextEvent<T::Surface, T::State>, Error>
 where
-    T: HybridSystem<State = State<N>> + ?Sized,
+    T: HybridSystem + ?Sized,
 {
     let horizon = request.horizon;
     if !(horizon >= 0.0) {
@@ -54,156 +93,274 @@ where
             .until(horizon)?
             .starting_with(first_step);
         let rate = field(0.0, start);
-        match search_once(system, mode, start, horizon, &rate, integration)? {
-            SearchOutcome::Finished(crossing) => {
-                let none = NextEvent::None { state: None, certainty: Certainty::Interpolated };
-                return Ok(crossing.map_or(none, NextEvent::Crossing));
-            }
-            // The rounding of an interpolant grows with the length of its step. A shorter first step therefore shows
-            // more, as long as the hidden time becomes shorter with it.
-            SearchOutcome::HiddenByRounding { until, .. }
-                if until < SHORTER_FIRST_STEP * first_step =>
-            {
-                first_step = SHORTER_FIRST_STEP * until;
-            }
-            // The hidden time does not become shorter: the rounding of the state itself hides the crossing.
-            SearchOutcome::HiddenByRounding { until, surface } => {
-                let surface = format!("{surface:?}");
-                return Err(Error::UndecidedStart { surface, interval: until });
-            }
+        let pass = Pass { system, mode, request, tolerances };
+        match pass.run(start, &rate, integration)? {
+            Outcome::Finished(next) => return Ok(next),
+            Outcome::Hidden { first_step: shorter } => first_step = shorter,
         }
     }
 }
 
-/// The result of a search with one choice of the first step.
-enum SearchOutcome<S, X> {
-    /// The first crossing; `None` if there is none up to the horizon.
-    Finished(Option<Crossing<S, X>>),
-    /// Rounding hides how this guard leaves its start, up to this time.
-    HiddenByRounding { until: f64, surface: S },
-}
-
-fn search_once<T, F, const N: usize>(
-    system: &T,
+/// A search with one choice of the first step.
+struct Pass<'a, T: HybridSystem + ?Sized> {
+    system: &'a T,
     mode: T::Mode,
-    start: &State<N>,
-    horizon: f64,
-    rate: &State<N>,
-    mut integration: Integration<F, State<N>>,
-) -> Result<SearchOutcome<T::Surface, State<N>>, Error>
-where
-    T: HybridSystem<State = State<N>> + ?Sized,
-    F: Fn(f64, &State<N>) -> State<N>,
-{
-    let guards = system.guards(mode);
-    let value = |surface| move |state: &State<N>| -> f64 { system.guard_value(surface, state) };
-    let mut on_stack: [Option<FollowedGuard>; GUARDS_ON_STACK] = [const { None }; GUARDS_ON_STACK];
-    let mut on_heap = Vec::new();
-    let followed = if guards.len() <= GUARDS_ON_STACK {
-        &mut on_stack[..guards.len()]
-    } else {
-        on_heap.resize_with(guards.len(), || None);
-        &mut on_heap[..]
-    };
-    for (followed, guard) in followed.iter_mut().zip(guards) {
-        if guard.role != Role::Clock {
-            *followed =
-                Some(FollowedGuard::new(guard.direction, start, rate, value(guard.surface))?);
+    request: &'a Search<'a, T::Surface>,
+    tolerances: Tolerances,
+}
+
+impl<T: HybridSystem + ?Sized> Pass<'_, T> {
+    fn run<F>(
+        &self,
+        start: &T::State,
+        rate: &T::State,
+        mut integration: Integration<F, T::State>,
+    ) -> Result<Outcome<T::Surface, T::State>, Error>
+    where
+        F: Fn(f64, &T::State) -> T::State,
+    {
+        let horizon = self.request.horizon;
+        let mut budget = self.request.intervals;
+        let mut followed: SmallVec<[Followed<T::Surface>; GUARDS_ON_STACK]> = SmallVec::new();
+        for guard in self.system.guards(self.mode).iter().filter(|guard| guard.role != Role::Clock)
+        {
+            followed.push(self.follow(*guard, start, rate)?);
         }
+        let mut steps = 0;
+        while !integration.ended() && !integration.at_rest() {
+            if steps >= self.request.steps || integration.steps_left() == 0 || budget == 0 {
+                let (time, state) = (integration.interval().1, integration.state());
+                let certainty = Certainty::Interpolated;
+                return Ok(Outcome::Finished(NextEvent::Unfinished { time, state, certainty }));
+            }
+            integration.step()?;
+            steps += 1;
+            // In the common case neither the stages of the interpolant nor the polynomial of a guard are computed.
+            let until = integration.interval().1.min(horizon);
+            if followed.iter_mut().all(|followed| self.stays_away(followed, &integration, until)) {
+                continue;
+            }
+            let step = integration.last_step()?;
+            let first = self.first_on_step(&mut followed, &step, until, &mut budget)?;
+            let Some(Finding { found, time, followed, leaving }) = first else { continue };
+            let first_step = SHORTER_FIRST_STEP * time;
+            let hidden = leaving || matches!(found, Found::Touch { .. } | Found::Undecided { .. });
+            if hidden && step.from == 0.0 && first_step > 0.0 && first_step < SHORTER * step.to {
+                return Ok(Outcome::Hidden { first_step });
+            }
+            let surface = followed.guard.surface;
+            let name = || format!("{surface:?}");
+            let value = |state: &T::State| self.system.guard_value(surface, state);
+            let accuracy = Accuracy { tolerances: self.tolerances, steps };
+            let kind = match found {
+                _ if leaving => {
+                    return Err(Error::UndecidedStart { surface: name(), interval: time });
+                }
+                Found::Touch { value, .. } | Found::Undecided { value, .. }
+                    if followed.guard.touch == Touch::Error =>
+                {
+                    return Err(Error::Grazing { surface: name(), time, value });
+                }
+                Found::Touch { .. } | Found::Undecided { .. } => EventKind::Touch,
+                _ => EventKind::Crossing,
+            };
+            let (time, state) = if kind == EventKind::Touch {
+                (time, step.state(time))
+            } else {
+                polished(&mut integration, &step, time, until, value)?
+            };
+            let mut time_error = time_error(&step, time, &state, value, accuracy);
+            if let Found::Touch { error, .. } = found {
+                time_error = time_error.max(error);
+            }
+            let certainty = Certainty::Interpolated;
+            let crossing = Crossing { surface, time, time_error, state, kind, certainty };
+            return Ok(Outcome::Finished(NextEvent::Crossing(crossing)));
+        }
+        self.at_horizon(&followed, integration, steps).map(Outcome::Finished)
     }
-    while integration.interval().1 < horizon {
-        // The state stays for ever, and no guard changes.
-        if integration.at_rest() {
-            break;
+
+    /// How a guard starts: on a side, or on its surface.
+    fn follow(
+        &self,
+        guard: Guard<T::Surface>,
+        start: &T::State,
+        rate: &T::State,
+    ) -> Result<Followed<T::Surface>, Error> {
+        let Guard { surface, direction, .. } = guard;
+        let along = |state: &T::State| self.system.guard_value(surface, state);
+        let value = along(start);
+        if !value.is_finite() {
+            return Err(Error::NotFinite { at: 0.0, value });
         }
-        integration.step()?;
-        // In the common case neither the stages of the interpolant nor the polynomial of a guard are computed.
-        let all_stay_away = followed.iter().zip(guards).all(|(followed, guard)| {
-            let values = integration.samples().map(|state| value(guard.surface)(&state));
-            followed.as_ref().is_none_or(|followed| followed.stays_away(values))
-        });
-        if all_stay_away {
-            continue;
+        let stated = self.system.guard_error(surface, start);
+        let known = self.request.side(surface);
+        let search = match side_of_surface(start, stated, along) {
+            Some(side) if known.is_none() => ZeroSearch::on_side(direction, 0.0, side),
+            _ => {
+                // An exact zero has no error of its own.
+                let error = match stated {
+                    _ if value == 0.0 => 0.0,
+                    Some(stated) => rounding_of_state(start, start, along) + stated,
+                    None => guard_rounding(start, start, along),
+                };
+                let side = known.or_else(|| guard_rate(start, rate, error, along).map(f64::signum));
+                ZeroSearch::leaving(direction, (0.0, value), error, side)
+            }
+        };
+        Ok(Followed { guard, stated: stated.unwrap_or(0.0), search })
+    }
+
+    /// True if the guard stays on its side along the last step, as far as a few values show: the smallest distance from
+    /// zero is more than half of the difference between the largest and the smallest. The search then moves to `until`.
+    ///
+    /// This test is no bound. A dip to zero and back is visible in the values if it takes an eighth of the step.
+    fn stays_away<F>(
+        &self,
+        followed: &mut Followed<T::Surface>,
+        integration: &Integration<F, T::State>,
+        until: f64,
+    ) -> bool
+    where
+        F: Fn(f64, &T::State) -> T::State,
+    {
+        let Some(side) = followed.search.clear_side() else { return false };
+        let (from, to) = integration.interval();
+        if to - from > PARTS * self.tolerances.check_interval {
+            return false;
         }
-        let step = integration.last_step()?;
-        let until = step.to.min(horizon);
-        let mut first: Option<(f64, T::Surface)> = None;
-        let mut grazing: Option<(f64, f64, T::Surface)> = None;
-        for (followed, guard) in followed.iter_mut().zip(guards) {
-            let Some(followed) = followed else { continue };
-            match followed.crossing(&step, until, value(guard.surface))? {
-                StepOutcome::Crossing { time }
-                    if first.is_none_or(|(best, _)| sooner(time, best)) =>
-                {
-                    first = Some((time, guard.surface));
+        let (mut nearest, mut farthest) = (f64::INFINITY, 0.0);
+        for state in integration.samples() {
+            let distance = side * self.system.guard_value(followed.guard.surface, &state);
+            // The condition is also true for NaN, which the polynomial's test then returns as an error.
+            if !(distance > 0.0) {
+                return false;
+            }
+            nearest = if distance < nearest { distance } else { nearest };
+            farthest = if distance > farthest { distance } else { farthest };
+        }
+        let away = AWAY * nearest > farthest - nearest;
+        if away {
+            followed.search = ZeroSearch::on_side(followed.guard.direction, until, side);
+        }
+        away
+    }
+
+    /// The first crossing or touch of all guards on a step, no later than `until`. Of two at the same instant, that of the
+    /// guard that is listed first.
+    fn first_on_step<'a>(
+        &self,
+        followed: &'a mut [Followed<T::Surface>],
+        step: &Step<T::State>,
+        until: f64,
+        budget: &mut usize,
+    ) -> Result<Option<Finding<'a, T::Surface>>, Error> {
+        let mut first: Option<Finding<T::Surface>> = None;
+        let mut failure: Option<(f64, Error)> = None;
+        for followed in followed.iter_mut() {
+            let guard = followed.guard;
+            let on_step = self.on_step(step, guard.surface, followed.stated);
+            let horizon = until >= self.request.horizon;
+            let leaving = followed.search.is_leaving();
+            let found = loop {
+                match followed.search.advance(&on_step, until, horizon, budget) {
+                    Ok(Found::Touch { .. } | Found::Undecided { .. })
+                        if guard.touch == Touch::Ignore => {}
+                    other => break other,
                 }
-                StepOutcome::Grazing { time, value }
-                    if grazing.is_none_or(|(best, ..)| time < best) =>
-                {
-                    grazing = Some((time, value, guard.surface));
+            };
+            let time = match &found {
+                Ok(
+                    Found::Crossing { time, .. }
+                    | Found::Touch { time, .. }
+                    | Found::Undecided { time, .. },
+                ) => *time,
+                Ok(Found::Nothing | Found::BudgetEnded) => continue,
+                // A region without values: an event before it counts.
+                Err(Error::NotFinite { at, .. }) => *at,
+                Err(_) => {
+                    return Err(found
+                        .err()
+                        .unwrap_or(Error::UndecidedSign { order: 0, value: 0.0 }));
                 }
-                StepOutcome::HiddenByRounding { until } => {
-                    return Ok(SearchOutcome::HiddenByRounding { until, surface: guard.surface });
+            };
+            match found {
+                Ok(found) if first.as_ref().is_none_or(|first| sooner(time, first.time)) => {
+                    first = Some(Finding { found, time, followed, leaving });
                 }
-                // A later crossing, a later grazing, or none.
+                Err(error) if failure.as_ref().is_none_or(|(first, _)| time < *first) => {
+                    failure = Some((time, error));
+                }
+                // Later than another one.
                 _ => {}
             }
         }
-        // A grazing after the first crossing never happens: the reset comes before it.
-        if let Some((time, value, surface)) = grazing
-            && first.is_none_or(|(best, _)| time <= best)
-        {
-            return Err(Error::Grazing { surface: format!("{surface:?}"), time, value });
-        }
-        if let Some((time, surface)) = first {
-            let value = value(surface);
-            let (time, state) = polished(&mut integration, &step, time, until, value)?;
-            return Ok(SearchOutcome::Finished(Some(Crossing {
-                surface,
-                time,
-                // A few times the local error: the tolerance over the rate is not known here yet.
-                time_error: 8.0 * f64::EPSILON * time,
-                state,
-                kind: EventKind::Crossing,
-                certainty: Certainty::Interpolated,
-            })));
+        match failure {
+            Some((time, error)) if first.as_ref().is_none_or(|first| time < first.time) => {
+                Err(error)
+            }
+            _ => Ok(first),
         }
     }
-    Ok(SearchOutcome::Finished(None))
-}
 
-/// A crossing without the rounding error of the interpolant, and its state.
-///
-/// A separate step from the start of the last step to `time` gives the state without that error. The difference between
-/// the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing is searched
-/// again next to the old one.
-fn polished<F, const N: usize>(
-    integration: &mut Integration<F, State<N>>,
-    step: &Step<State<N>>,
-    time: f64,
-    until: f64,
-    guard: impl Fn(&State<N>) -> f64,
-) -> Result<(f64, State<N>), Error>
-where
-    F: Fn(f64, &State<N>) -> State<N>,
-{
-    // Here the separate step would have length zero.
-    if time <= step.from {
-        return Ok((time, step.state(time)));
+    /// A guard as a function of time on a step.
+    fn on_step(
+        &self,
+        step: &Step<T::State>,
+        surface: T::Surface,
+        stated: f64,
+    ) -> GuardOnStep<impl Fn(f64) -> f64, impl Fn() -> f64> {
+        let value = move |state: &T::State| self.system.guard_value(surface, state);
+        // The largest of three places stands for the step: at one of them a guard may have a rate of zero.
+        let rounding = move || {
+            let magnitude = step.magnitude();
+            let size =
+                magnitude.from_fn_like(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
+            let middle = step.from + 0.5 * (step.to - step.from);
+            [step.from, middle, step.to]
+                .map(|time| stated + rounding_of_state(&step.state(time), &size, value))
+                .into_iter()
+                .fold(0.0, f64::max)
+        };
+        let along = move |time: f64| value(&step.state(time));
+        let checked = self.tolerances.check_interval;
+        GuardOnStep::new(along, rounding, (step.from, step.to), checked)
     }
-    let correction = integration.directly_at(time)? - step.state(time);
-    let corrected = |time: f64| step.state(time) + correction;
-    let along = |time: f64| guard(&corrected(time));
-    for fraction in POLISHING_REACHES {
-        let reach = fraction * (step.to - step.from);
-        let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
-        let (before, after) = (along(left), along(right));
-        if before.signum() != after.signum() {
-            let root = bracketed_root(along, left, right)?;
-            let time = step_to_sign(along, root, right, after).min(until);
-            return Ok((time, corrected(time)));
+
+    /// No event before the horizon. A guard on its way to the surface that is nearer to it than its error has its event on
+    /// the horizon: the field is not evaluated beyond.
+    fn at_horizon<F>(
+        &self,
+        followed: &[Followed<T::Surface>],
+        mut integration: Integration<F, T::State>,
+        steps: usize,
+    ) -> Result<NextEvent<T::Surface, T::State>, Error>
+    where
+        F: Fn(f64, &T::State) -> T::State,
+    {
+        let state = integration.state();
+        let certainty = Certainty::Interpolated;
+        let accuracy = Accuracy { tolerances: self.tolerances, steps };
+        for Followed { guard, search, .. } in followed {
+            let Some(side) = search.clear_side() else { continue };
+            let surface = guard.surface;
+            let value = |state: &T::State| self.system.guard_value(surface, state);
+            if !guard.direction.admits(side, -side)
+                || integration.at_rest()
+                || !(value(&state).abs() <= accuracy.guard_error(&state, value))
+            {
+                continue;
+            }
+            let step = integration.last_step()?;
+            if !(side * rate(&step, step.to, value) < 0.0) {
+                continue;
+            }
+            let time = step.to;
+            let time_error = time_error(&step, time, &state, value, accuracy);
+            let kind = EventKind::Crossing;
+            let crossing = Crossing { surface, time, time_error, state, kind, certainty };
+            return Ok(NextEvent::Crossing(crossing));
         }
+        Ok(NextEvent::None { state: Some(state), certainty })
     }
-    // The guard is crossed so slowly that the correction moves the crossing farther than the last reach.
-    Ok((time, step.state(time)))
 }

@@ -22,6 +22,9 @@ pub struct Tolerances {
     /// No step is longer, in the unit of time; infinite by default. Something that the field does only for a short time
     /// (a pulse of a forcing) is seen by every step if this is shorter than that time.
     pub longest_step: f64,
+    /// Every guard is looked at this often at least, in the unit of time; infinite by default. A guard that is beyond its
+    /// surface for a longer time is then found, however long the steps are.
+    pub check_interval: f64,
     /// Most steps of one integration, rejected ones included.
     pub steps: usize,
 }
@@ -39,6 +42,7 @@ impl Tolerances {
             absolute: tolerance,
             absolute_each: None,
             longest_step: f64::INFINITY,
+            check_interval: f64::INFINITY,
             steps: MOST_STEPS,
         }
     }
@@ -55,6 +59,13 @@ impl Tolerances {
     #[must_use]
     pub const fn longest_step(mut self, time: f64) -> Self {
         self.longest_step = time;
+        self
+    }
+
+    /// As `self`, with a look at every guard this often at least.
+    #[must_use]
+    pub const fn check_interval(mut self, time: f64) -> Self {
+        self.check_interval = time;
         self
     }
 
@@ -82,6 +93,10 @@ impl Tolerances {
         if !(self.longest_step > 0.0) {
             let what = "the longest step of an integration";
             return Err(Error::BadLimit { what, value: self.longest_step });
+        }
+        if !(self.check_interval > 0.0) {
+            let what = "the check interval of an integration";
+            return Err(Error::BadLimit { what, value: self.check_interval });
         }
         Ok(())
     }

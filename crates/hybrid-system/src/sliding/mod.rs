@@ -1,9 +1,37 @@
 //! What happens on a surface at which the fields of both sides point?
 //!
-//! `detection` decides whether an execution ends at such a surface. `sliding_point` describes the end of an arc at such a surface.
+//! An execution recognises such a surface by the signs of two `rates` (`detection`), and its arc ends in a
+//! `sliding_point`. [`Filippov`] makes a mode for the motion along the surface (feature `ode`):
+//!
+//! | question | file |
+//! |---|---|
+//! | What is ġ, and is its sign certain? | `rates`, by differences in `directional` |
+//! | Which field is tangent to the surface, and which point of the surface is next? | `sliding_field` |
+//! | Which modes and surfaces does the wrapped system have? | `filippov_modes` |
+//! | How does it move? | `filippov`, as a hybrid system `filippov_system` |
+//! | What happens at other surfaces? | `crossing_while_sliding` |
+//! | What are its derivatives? | `filippov_sensitivity` |
 
 mod detection;
+mod directional;
+mod rates;
+mod sliding_field;
 mod sliding_point;
 
+#[cfg(feature = "ode")]
+mod crossing_while_sliding;
+#[cfg(feature = "ode")]
+mod filippov;
+#[cfg(feature = "ode")]
+mod filippov_modes;
+#[cfg(feature = "ode")]
+mod filippov_sensitivity;
+#[cfg(feature = "ode")]
+mod filippov_system;
+
 pub(crate) use detection::{AtOnce, sliding_point};
+#[cfg(feature = "ode")]
+pub use filippov::Filippov;
+#[cfg(feature = "ode")]
+pub use filippov_modes::{FilippovMode, FilippovSurface};
 pub use sliding_point::Sliding;

@@ -1,0 +1,325 @@
+//! The durations of the last arcs: do they have a sum although there is no end of them?
+//!
+//! Two records are kept: the last few durations, for series that fall fast, and marks at which the durations have fallen to
+//! a half since the mark before, for series that fall slowly. An arc of no duration is not recorded: several events
+//! at one instant are one event here.
+
+use crate::series_fit::{Fit, Period, geometric, power_law};
+use crate::time_sum::TimeSum;
+
+/// Longest period that is looked for, in events: two guards that are crossed alternately give period 2, and 4 leaves
+/// room for twice as many. A Zeno limit of a longer period is not recognised, and the execution ends at its limit on
+/// events. A larger number costs a longer record, and more tests of every short arc.
+pub(crate) const LONGEST_PERIOD: usize = 4;
+
+/// Number of durations in the record, a power of two: enough for six periods of four events, and for a few events that
+/// are dropped because of their errors.
+const KEPT: usize = 32;
+
+/// Number of marks in the record: eight durations that fall to a half each, a factor of 128 in all. A larger number
+/// would ask for longer series before a power law is recognised.
+const MARKS: usize = 8;
+
+/// Periods that are compared in the usual case. Five slopes between them within one per cent are unlikely by chance.
+const USUAL_PERIODS: usize = 6;
+
+/// Periods that are compared if rounding hides the next event. The execution cannot continue in any other way then.
+const FEWEST_PERIODS: usize = 3;
+
+/// Largest difference of the slopes, relative to the largest, in the usual case; see [`USUAL_PERIODS`]. A surface that
+/// moves or curves changes the slope in proportion to the duration, which is below 10⁻¹² of the time so far.
+const USUAL_SPREAD: f64 = 0.01;
+
+/// The same if rounding hides the next event. The last durations have rounding errors then, so that slopes differ more.
+const HIDDEN_SPREAD: f64 = 0.1;
+
+/// Largest remainder, relative to the time so far, in the usual case. It is the error of an execution that stops there.
+/// It is far below every tolerance of a model, and above the rounding of the time, 10⁻¹⁶.
+const USUAL_REMAINDER: f64 = 1e-12;
+
+/// Largest remainder, relative to the time so far, if rounding hides the next event, or for a slow power law. A guard at
+/// a surface of size 1 hides a bounce of duration T if its height, of order T², is below 10⁻¹⁶. The remainder may
+/// therefore be about 10⁻⁷, and larger for large coordinates. Under a power law k⁻² the remainder is 10⁻⁵ after 10⁵
+/// events; 10⁻¹² would need 10¹².
+const LARGEST_REMAINDER: f64 = 1e-5;
+
+/// Least order μ of a slow power law: durations fall like k^(−μ/(μ−1)), here k^−3.5 and slower. A faster series reaches
+/// the usual remainder within some 10⁵ events.
+const SLOW_ORDER: f64 = 1.4;
+
+/// Largest order μ that is recognised, for durations that fall like k^−1.14. Durations 1/k, which have no limit, are the
+/// case μ = ∞. A larger number would come closer to them.
+const LARGEST_ORDER: f64 = 8.0;
+
+/// Largest error of the limit of a slow power law, relative to the time so far. The execution goes on until then.
+const SLOW_ERROR: f64 = 1e-10;
+
+/// In the usual case durations must have fallen by this factor since they fell for the first time. A few short
+/// arcs that happen to shrink, such as those between nearly simultaneous events, are not a series that has fallen for long.
+const LEAST_FALL: f64 = 1e3;
+
+/// The longest last arc, relative to the time so far, that may be followed by a Zeno limit. It only delays the recognition
+/// of a limit whose factor is below 10⁻⁹.
+const LONGEST_LAST_ARC: f64 = 1e-3;
+
+/// Rounding of a duration and of the state after it, relative, in ulps: each of the two is rounded once or twice.
+const ROUNDING_ULPS: f64 = 4.0;
+
+/// The most events that are dropped at the end of the record if rounding hides the next event. A bounce of velocity v on
+/// a surface of size 1 has a relative error of 10⁻¹⁶/v², so that with a restitution of ½ each dropped event reduces the
+/// error by a factor of 4. For restitutions near 1 the marks are used.
+const MOST_DROPPED: usize = 8;
+
+/// The sum of all further durations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Remainder {
+    /// Time from the last event to the limit.
+    pub(crate) time: f64,
+    /// Bound on the error of the limit.
+    pub(crate) error: f64,
+    /// Events in one period.
+    pub(crate) period: usize,
+    /// The length of the last period.
+    pub(crate) length: f64,
+    /// The order μ of the law: 1 for a geometric series.
+    pub(crate) order: f64,
+}
+
+/// An event at which durations have fallen to a half since the mark before.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Mark {
+    pub(crate) time: TimeSum,
+    /// The last four durations, the newest first.
+    pub(crate) durations: [f64; LONGEST_PERIOD],
+    /// Bound on the error of each of their sums.
+    pub(crate) error: f64,
+    /// The sum of all four.
+    pub(crate) sum: f64,
+}
+
+/// The record.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Durations {
+    /// A ring of durations.
+    pub(crate) durations: [f64; KEPT],
+    /// Their errors.
+    pub(crate) errors: [f64; KEPT],
+    /// Number of durations pushed since the record is empty.
+    pub(crate) count: usize,
+    /// A ring of marks.
+    pub(crate) marks: [Mark; MARKS],
+    /// Number of marks since durations have grown for the last time.
+    pub(crate) marked: usize,
+    /// True if the newest event is a mark.
+    pub(crate) fresh: bool,
+    /// The sum of four durations at the first mark.
+    pub(crate) largest: f64,
+    /// Time of the newest event.
+    pub(crate) now: TimeSum,
+    /// The sum of all durations of the execution, and of their errors.
+    pub(crate) elapsed: f64,
+    pub(crate) error: f64,
+}
+
+impl Durations {
+    pub(crate) const fn new() -> Self {
+        let mark = Mark {
+            time: TimeSum::new(0.0),
+            durations: [0.0; LONGEST_PERIOD],
+            error: 0.0,
+            sum: 0.0,
+        };
+        Durations {
+            durations: [0.0; KEPT],
+            errors: [0.0; KEPT],
+            count: 0,
+            marks: [mark; MARKS],
+            marked: 0,
+            fresh: false,
+            largest: 0.0,
+            now: TimeSum::new(0.0),
+            elapsed: 0.0,
+            error: 0.0,
+        }
+    }
+
+    /// The next arc: its duration with the error, above zero, and the time of the event at its end.
+    pub(crate) fn push(&mut self, duration: f64, error: f64, now: TimeSum) {
+        let place = self.count % KEPT;
+        (self.durations[place], self.errors[place]) = (duration, error);
+        self.count += 1;
+        self.now = now;
+        self.elapsed += duration;
+        self.error += error;
+        let last: [f64; LONGEST_PERIOD] = std::array::from_fn(|back| self.duration(back));
+        let sum = last[0] + last[1] + (last[2] + last[3]);
+        let before = self.marks[(self.marked + MARKS - 1) % MARKS].sum;
+        let grows = self.marked == 0 || sum > before;
+        self.fresh = grows || sum <= 0.5 * before;
+        if grows {
+            (self.marked, self.largest) = (0, sum);
+        }
+        if self.fresh {
+            let error = (0..LONGEST_PERIOD).map(|back| self.duration_error(back)).sum();
+            self.marks[self.marked % MARKS] = Mark { time: now, durations: last, error, sum };
+            self.marked += 1;
+        }
+    }
+
+    /// Forgets all arcs but the sums of time and errors.
+    pub(crate) fn clear(&mut self) {
+        (self.count, self.marked, self.fresh) = (0, 0, false);
+    }
+
+    /// The duration `back` arcs before the newest; 0 before the record begins.
+    fn duration(&self, back: usize) -> f64 {
+        if back < self.count { self.durations[(self.count - 1 - back) % KEPT] } else { 0.0 }
+    }
+
+    fn duration_error(&self, back: usize) -> f64 {
+        if back >= self.count {
+            return 0.0;
+        }
+        let place = (self.count - 1 - back) % KEPT;
+        self.errors[place] + ROUNDING_ULPS * f64::EPSILON * self.durations[place]
+    }
+
+    /// The sum of all further durations in the usual case; `None` if they are not recognised as a convergent series.
+    pub(crate) fn remainder(&self) -> Option<Remainder> {
+        // This test makes the record cheap for an execution whose durations do not fall.
+        let sum = self.duration(0) + self.duration(1) + (self.duration(2) + self.duration(3));
+        if !(LEAST_FALL * sum <= self.largest) {
+            return None;
+        }
+        (1..=LONGEST_PERIOD).find_map(|period| {
+            let fast = self.recent(period, 0, USUAL_PERIODS).and_then(|periods| {
+                let fit = geometric(&periods, USUAL_SPREAD)?;
+                self.accepted(fit, &periods, period, USUAL_REMAINDER)
+            });
+            fast.or_else(|| self.slow(period))
+        })
+    }
+
+    /// The same from marks, at a new mark.
+    fn slow(&self, period: usize) -> Option<Remainder> {
+        if !self.fresh || self.marked < MARKS {
+            return None;
+        }
+        let periods = self.marked_periods(period, 0, MARKS)?;
+        let newest = &periods[MARKS - USUAL_PERIODS..];
+        if let Some(fit) = geometric(newest, USUAL_SPREAD) {
+            return self.accepted(fit, newest, period, USUAL_REMAINDER);
+        }
+        // The remainder of a power law is larger than that of the straight line through the last two lengths. This
+        // test saves the fit while the remainder is large.
+        let [.., before, last] = periods.as_slice() else { return None };
+        let line = last.length * (last.end - before.end) / (before.length - last.length);
+        if !(line <= LARGEST_REMAINDER * self.elapsed) {
+            return None;
+        }
+        let fit = power_law(newest).filter(|fit| fit.order <= LARGEST_ORDER)?;
+        if fit.order >= SLOW_ORDER && fit.error <= SLOW_ERROR * self.elapsed {
+            return self.accepted(fit, newest, period, LARGEST_REMAINDER);
+        }
+        self.accepted(fit, newest, period, USUAL_REMAINDER)
+    }
+
+    /// The sum of all further durations if rounding hides the next event.
+    ///
+    /// The last durations have large errors then. The limit is predicted from several earlier events, and the prediction
+    /// with the smallest bound is taken.
+    pub(crate) fn remainder_if_hidden(&self) -> Option<Remainder> {
+        if self.count == 0 || !(self.duration(0) < LONGEST_LAST_ARC * self.elapsed) {
+            return None;
+        }
+        (1..=LONGEST_PERIOD).find_map(|period| {
+            let recent = (0..=MOST_DROPPED).filter_map(|dropped| {
+                (FEWEST_PERIODS..=USUAL_PERIODS).find_map(|number| {
+                    let periods = self.recent(period, dropped, number)?;
+                    let fit = geometric(&periods, HIDDEN_SPREAD)?;
+                    self.accepted(fit, &periods, period, LARGEST_REMAINDER)
+                })
+            });
+            let marked = (0..MARKS - FEWEST_PERIODS).filter_map(|dropped| {
+                let number = MARKS.min(self.marked).checked_sub(dropped)?.min(USUAL_PERIODS);
+                let periods = self.marked_periods(period, dropped, number)?;
+                let fit = geometric(&periods, HIDDEN_SPREAD)
+                    .or_else(|| power_law(&periods).filter(|fit| fit.order <= LARGEST_ORDER))?;
+                self.accepted(fit, &periods, period, LARGEST_REMAINDER)
+            });
+            recent.chain(marked).min_by(|a, b| a.error.total_cmp(&b.error))
+        })
+    }
+
+    /// `number` periods one after the other, the oldest first, after dropping the newest events.
+    fn recent(&self, period: usize, dropped: usize, number: usize) -> Option<Periods> {
+        if dropped + number * period > self.count.min(KEPT) {
+            return None;
+        }
+        let mut periods = Periods::new();
+        let mut end = -(0..dropped).map(|back| self.duration(back)).sum::<f64>();
+        for index in 0..number {
+            let first = dropped + index * period;
+            let length = (first..first + period).map(|back| self.duration(back)).sum();
+            let error = (first..first + period).map(|back| self.duration_error(back)).sum();
+            periods.push(Period { end, length, error });
+            end -= length;
+        }
+        periods.reverse();
+        Some(periods)
+    }
+
+    /// The periods at `number` marks, the oldest first, after dropping the newest marks.
+    fn marked_periods(&self, period: usize, dropped: usize, number: usize) -> Option<Periods> {
+        if number < FEWEST_PERIODS || dropped + number > self.marked.min(MARKS) {
+            return None;
+        }
+        let mut periods = Periods::new();
+        for back in dropped..dropped + number {
+            let mark = &self.marks[(self.marked - 1 - back) % MARKS];
+            let length: f64 = mark.durations[..period].iter().sum();
+            if !(length > 0.0) {
+                return None;
+            }
+            periods.push(Period { end: mark.time.since(self.now), length, error: mark.error });
+        }
+        periods.reverse();
+        Some(periods)
+    }
+
+    /// The remainder after the newest event from a fit, if it is not above `largest` of the time so far.
+    fn accepted(
+        &self,
+        fit: Fit,
+        periods: &[Period],
+        period: usize,
+        largest: f64,
+    ) -> Option<Remainder> {
+        let last = periods.last()?;
+        // An error δ of an event changes its time by δ and the next speeds by the acceleration times δ. For a bounce this
+        // changes all further durations by 2δ/T of their size, T the duration before it.
+        let mean = last.length / period as f64;
+        let amplification = 1.0 + 2.0 * fit.remainder / (fit.order * mean);
+        let accumulated = self.error + ROUNDING_ULPS * f64::EPSILON * self.elapsed;
+        let time = last.end + fit.remainder;
+        // The limit is not earlier than the newest event.
+        let error = fit.error + (-time).max(0.0);
+        let accepted = time + error <= largest * self.elapsed || {
+            // Errors of the events do not shrink with further events.
+            largest == LARGEST_REMAINDER && time <= largest * self.elapsed
+        };
+        let length = (0..period).map(|back| self.duration(back)).sum();
+        accepted.then_some(Remainder {
+            time: time.max(0.0),
+            error: error + amplification * accumulated,
+            period,
+            length,
+            order: fit.order,
+        })
+    }
+}
+
+/// A list of periods.
+type Periods = smallvec::SmallVec<[Period; MARKS]>;

@@ -1,0 +1,47 @@
+//! Parts with bounds on a guard along the flow, so that its crossings are found with certainty.
+
+use super::part::Part;
+use crate::crossing::{Enclosure, QuasiPolynomial};
+
+/// A guard along the flow as a quasi-polynomial.
+#[derive(Debug, Clone, Copy)]
+pub struct Signal<S, F> {
+    pub(super) surface: S,
+    pub(super) signal: F,
+}
+
+impl<M, S, X, F> Part<M, S, X> for Signal<S, F>
+where
+    S: Copy + Eq,
+    F: Fn(M, &X) -> Option<QuasiPolynomial>,
+{
+    #[inline]
+    fn quasi_polynomial(&self, mode: M, surface: S, start: &X) -> Option<QuasiPolynomial> {
+        if surface == self.surface { (self.signal)(mode, start) } else { None }
+    }
+}
+
+/// Enclosures of a guard and its derivatives along the flow.
+#[derive(Debug, Clone, Copy)]
+pub struct Bounds<S, F> {
+    pub(super) surface: S,
+    pub(super) enclosure: F,
+}
+
+impl<M, S, X, F> Part<M, S, X> for Bounds<S, F>
+where
+    S: Copy + Eq,
+    F: Fn(M, &X, u32, (f64, f64)) -> Option<Enclosure>,
+{
+    #[inline]
+    fn enclosure(
+        &self,
+        mode: M,
+        surface: S,
+        start: &X,
+        order: u32,
+        times: (f64, f64),
+    ) -> Option<Enclosure> {
+        if surface == self.surface { (self.enclosure)(mode, start, order, times) } else { None }
+    }
+}

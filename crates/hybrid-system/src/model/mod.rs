@@ -1,0 +1,30 @@
+//! How is a model written with closures?
+//!
+//! A [`Model`] has a motion (`motion`: a flow in closed form, or a field that is integrated) and parts: guards with their
+//! resets and clocks (`guarded`), bounds on guards (`bounds`), the modes after Zeno limits and sliding points
+//! (`continued`). Each part has a type of its own, and a model contains the nested pairs of its parts (`part`). The
+//! compiler therefore sees every closure, and a model costs as much time as the same model by the trait. `guard_lists`
+//! has the guards of each mode. `system` implements [`HybridSystem`](crate::HybridSystem).
+
+mod bounds;
+mod continued;
+mod guard_lists;
+mod guarded;
+#[cfg(feature = "ode")]
+mod integrated;
+#[allow(clippy::module_inception)]
+mod model;
+mod motion;
+mod outcome;
+mod part;
+mod system;
+
+pub use bounds::{Bounds, Signal};
+pub use continued::{Rest, Slide};
+pub use guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
+#[cfg(feature = "ode")]
+pub use integrated::Integrated;
+pub use model::Model;
+pub use motion::{ClosedForm, Motion};
+pub use outcome::Outcome;
+pub use part::Part;

@@ -1,0 +1,110 @@
+//! A model written with closures is a hybrid system.
+
+use super::model::Model;
+use super::motion::Motion;
+use super::part::Part;
+use crate::crossing::{Enclosure, NextEvent, QuasiPolynomial, Search};
+use crate::error::Error;
+use crate::guard::Guard;
+use crate::sliding::Sliding;
+use crate::state::StateVector;
+use crate::system::{HybridSystem, Reset};
+use std::fmt::Debug;
+
+impl<M, S, X, F, P> HybridSystem for Model<M, S, X, F, P>
+where
+    M: Copy + Eq + Debug,
+    S: Copy + Eq + Debug,
+    X: StateVector,
+    F: Motion<M, X>,
+    P: Part<M, S, X>,
+{
+    type State = X;
+    type Mode = M;
+    type Surface = S;
+
+    #[inline]
+    fn flow(&self, mode: M, start: &X, time: f64) -> X {
+        self.motion.flow(self, mode, start, time)
+    }
+
+    #[inline]
+    fn guards(&self, mode: M) -> &[Guard<S>] {
+        self.guards.of(mode)
+    }
+
+    /// g(x); NaN for a surface that the model does not have.
+    #[inline]
+    fn guard_value(&self, surface: S, state: &X) -> f64 {
+        self.parts.value(surface, state).unwrap_or(f64::NAN)
+    }
+
+    /// Mode and state after the event. [`Reset::Stop`] for a surface that is no guard of the mode.
+    #[inline]
+    fn reset(&self, mode: M, surface: S, before: &X) -> Reset<M, X> {
+        self.parts.reset(mode, surface, before).unwrap_or(Reset::Stop)
+    }
+
+    fn rest(&self, mode: M, limit: &X) -> Option<(M, X)> {
+        self.parts.rest(mode, limit)
+    }
+
+    fn slide(&self, sliding: &Sliding<M, S, X>) -> Option<(M, X)> {
+        self.parts.slide(sliding)
+    }
+
+    #[inline]
+    fn vector_field(&self, mode: M, state: &X) -> Option<X> {
+        self.motion.field(mode, state)
+    }
+
+    fn next_time(&self, mode: M, surface: S, after: f64) -> Option<f64> {
+        self.parts.next_time(mode, surface, after).flatten()
+    }
+
+    #[inline]
+    fn guard_quasi_polynomial(&self, mode: M, surface: S, start: &X) -> Option<QuasiPolynomial> {
+        self.parts.quasi_polynomial(mode, surface, start)
+    }
+
+    #[inline]
+    fn guard_enclosure(
+        &self,
+        mode: M,
+        surface: S,
+        start: &X,
+        order: u32,
+        times: (f64, f64),
+    ) -> Option<Enclosure> {
+        self.parts.enclosure(mode, surface, start, order, times)
+    }
+
+    fn flow_at(&self, mode: M, start: &X, times: &[f64]) -> Result<Vec<X>, Error> {
+        self.motion.states(self, mode, start, times)
+    }
+
+    /// Finds surfaces that are used twice.
+    ///
+    /// # Errors
+    /// [`Error::SurfaceTwice`] and [`Error::TwoGuardFunctions`].
+    fn validate(&self, _: M, start: &X) -> Result<(), Error> {
+        self.guards.check()?;
+        for &surface in self.guards.repeated() {
+            let first = self.guard_value(surface, start);
+            if let Some(second) = self.parts.other_value(surface, start, first) {
+                let surface = format!("{surface:?}");
+                return Err(Error::TwoGuardFunctions { surface, first, second });
+            }
+        }
+        Ok(())
+    }
+
+    fn first_crossing(
+        &self,
+        mode: M,
+        start: &X,
+        search: &Search<S>,
+    ) -> Result<NextEvent<S, X>, Error> {
+        self.motion.first_crossing(self, mode, start, search)
+    }
+}

@@ -1,0 +1,299 @@
+//! The system with sliding modes, as a hybrid system.
+
+use super::crossing_while_sliding::after_crossing;
+use super::detection::same_surface;
+use super::filippov::{Filippov, Sides};
+use super::filippov_modes::{FilippovMode, FilippovSurface};
+use super::sliding_point::Sliding;
+use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
+use crate::error::Error;
+use crate::guard::{Guard, Touch};
+use crate::ode::{integrated_crossing, integrated_flow};
+use crate::state::{State, StateVector};
+use crate::system::{HybridSystem, Reset};
+
+impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippov<T> {
+    type State = T::State;
+    type Mode = FilippovMode<T::Mode, T::Surface>;
+    type Surface = FilippovSurface<T::Mode, T::Surface>;
+
+    fn flow(&self, mode: Self::Mode, start: &T::State, time: f64) -> T::State {
+        match mode {
+            FilippovMode::Free(mode) => self.system.flow(mode, start, time),
+            FilippovMode::Sliding { surface, below, above, .. } => {
+                let end = integrated_flow(self, mode, start, time, self.tolerances);
+                self.on_surface(&Sides { surface, below, above }, end)
+            }
+        }
+    }
+
+    fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>] {
+        self.guards.guards(mode, || match mode {
+            FilippovMode::Free(mode) => {
+                self.system.guards(mode).iter().map(|guard| of_model(*guard)).collect()
+            }
+            FilippovMode::Sliding { surface, partner, below, above } => {
+                // A rate that touches zero and goes back is no exit.
+                let mut guards = vec![
+                    Guard::falling(FilippovSurface::Tangent { surface, mode: below })
+                        .touch(Touch::Ignore),
+                    Guard::rising(FilippovSurface::Tangent { surface, mode: above })
+                        .touch(Touch::Ignore),
+                ];
+                let both = [below, above].map(|mode| self.system.guards(mode));
+                for guard in both.into_iter().flatten() {
+                    let own = guard.surface == surface || guard.surface == partner;
+                    if !own && !guards.contains(&of_model(*guard)) {
+                        guards.push(of_model(*guard));
+                    }
+                }
+                guards
+            }
+        })
+    }
+
+    fn guard_value(&self, surface: Self::Surface, state: &T::State) -> f64 {
+        match surface {
+            FilippovSurface::Model(surface) => self.system.guard_value(surface, state),
+            FilippovSurface::Tangent { surface, mode } => {
+                let field = self.system.vector_field(mode, state);
+                field.map_or(f64::NAN, |field| self.rate(surface, state, &field))
+            }
+        }
+    }
+
+    fn reset(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        before: &T::State,
+    ) -> Reset<Self::Mode, T::State> {
+        let free = |mode, state| Reset::Jump { mode: FilippovMode::Free(mode), state };
+        match (mode, surface) {
+            (FilippovMode::Free(mode), FilippovSurface::Model(surface)) => {
+                match self.system.reset(mode, surface, before) {
+                    Reset::Jump { mode, state } => free(mode, state),
+                    Reset::Stop => Reset::Stop,
+                }
+            }
+            // The field of this mode is tangent: the sliding motion goes over into it without a kink.
+            (_, FilippovSurface::Tangent { mode, .. }) => free(mode, before.clone()),
+            (
+                FilippovMode::Sliding { surface, partner, below, above },
+                FilippovSurface::Model(other),
+            ) => {
+                let sides = Sides { surface, below, above };
+                let after = after_crossing(self, (&sides, partner), other, before);
+                // A search has returned this as an error already.
+                after.unwrap_or(Reset::Stop)
+            }
+        }
+    }
+
+    fn rest(&self, mode: Self::Mode, limit: &T::State) -> Option<(Self::Mode, T::State)> {
+        let FilippovMode::Free(mode) = mode else { return None };
+        let (mode, state) = self.system.rest(mode, limit)?;
+        Some((FilippovMode::Free(mode), state))
+    }
+
+    /// The sliding mode on the surface. `None` where two sliding surfaces meet, and for a model without fields.
+    fn slide(
+        &self,
+        sliding: &Sliding<Self::Mode, Self::Surface, T::State>,
+    ) -> Option<(Self::Mode, T::State)> {
+        let (FilippovMode::Free(below), FilippovMode::Free(above)) = (sliding.below, sliding.above)
+        else {
+            return None;
+        };
+        let FilippovSurface::Model(surface) = sliding.surface else { return None };
+        sliding.field.as_ref()?;
+        let names = |mode| self.system.guards(mode).iter().map(|guard| guard.surface);
+        let is_partner = |&other: &T::Surface| {
+            let leads = |from, to| {
+                let after = self.system.reset(from, other, &sliding.state);
+                matches!(after, Reset::Jump { mode, .. } if mode == to)
+            };
+            other != surface
+                && same_surface(&self.system, surface, other, &sliding.state).is_some()
+                && (leads(below, above) || leads(above, below))
+        };
+        let partner = names(below).chain(names(above)).find(is_partner).unwrap_or(surface);
+        let state = self.on_surface(&Sides { surface, below, above }, sliding.state.clone());
+        Some((FilippovMode::Sliding { surface, partner, below, above }, state))
+    }
+
+    fn vector_field(&self, mode: Self::Mode, state: &T::State) -> Option<T::State> {
+        match mode {
+            FilippovMode::Free(mode) => self.system.vector_field(mode, state),
+            FilippovMode::Sliding { surface, below, above, .. } => {
+                self.field_on_surface(&Sides { surface, below, above }, state)
+            }
+        }
+    }
+
+    fn guard_error(&self, surface: Self::Surface, state: &T::State) -> Option<f64> {
+        let FilippovSurface::Model(surface) = surface else { return None };
+        self.system.guard_error(surface, state)
+    }
+
+    fn next_time(&self, mode: Self::Mode, surface: Self::Surface, after: f64) -> Option<f64> {
+        let FilippovSurface::Model(surface) = surface else { return None };
+        let of = |mode| self.system.next_time(mode, surface, after);
+        match mode {
+            FilippovMode::Free(mode) => of(mode),
+            FilippovMode::Sliding { below, above, .. } => match (of(below), of(above)) {
+                (Some(a), Some(b)) => Some(if a < b { a } else { b }),
+                (one, other) => one.or(other),
+            },
+        }
+    }
+
+    fn guard_quasi_polynomial(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        start: &T::State,
+    ) -> Option<QuasiPolynomial> {
+        let (FilippovMode::Free(mode), FilippovSurface::Model(surface)) = (mode, surface) else {
+            return None;
+        };
+        self.system.guard_quasi_polynomial(mode, surface, start)
+    }
+
+    fn guard_enclosure(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        start: &T::State,
+        order: u32,
+        times: (f64, f64),
+    ) -> Option<Enclosure> {
+        let (FilippovMode::Free(mode), FilippovSurface::Model(surface)) = (mode, surface) else {
+            return None;
+        };
+        self.system.guard_enclosure(mode, surface, start, order, times)
+    }
+
+    fn first_crossing(
+        &self,
+        mode: Self::Mode,
+        start: &T::State,
+        search: &Search<Self::Surface>,
+    ) -> Result<NextEvent<Self::Surface, T::State>, Error> {
+        match mode {
+            FilippovMode::Free(mode) => {
+                let leaving: Vec<_> = search.leaving.iter().filter_map(leaving_of_model).collect();
+                let search = Search {
+                    horizon: search.horizon,
+                    sampling_interval: search.sampling_interval,
+                    intervals: search.intervals,
+                    steps: search.steps,
+                    time: search.time,
+                    leaving: &leaving,
+                };
+                Ok(next_of_model(self.system.first_crossing(mode, start, &search)?))
+            }
+            FilippovMode::Sliding { surface, partner, below, above } => {
+                let sides = Sides { surface, below, above };
+                self.first_crossing_while_sliding(mode, (&sides, partner), start, search)
+            }
+        }
+    }
+}
+
+fn of_model<M, S: Copy>(guard: Guard<S>) -> Guard<FilippovSurface<M, S>> {
+    Guard {
+        surface: FilippovSurface::Model(guard.surface),
+        direction: guard.direction,
+        role: guard.role,
+        touch: guard.touch,
+    }
+}
+
+fn leaving_of_model<M, S: Copy>(leaving: &Leaving<FilippovSurface<M, S>>) -> Option<Leaving<S>> {
+    let FilippovSurface::Model(surface) = leaving.surface else { return None };
+    Some(Leaving { surface, side: leaving.side })
+}
+
+fn next_of_model<M, S, X>(next: NextEvent<S, X>) -> NextEvent<FilippovSurface<M, S>, X> {
+    match next {
+        NextEvent::Crossing(crossing) => NextEvent::Crossing(Crossing {
+            surface: FilippovSurface::Model(crossing.surface),
+            time: crossing.time,
+            time_error: crossing.time_error,
+            state: crossing.state,
+            kind: crossing.kind,
+            certainty: crossing.certainty,
+        }),
+        NextEvent::None { state, certainty } => NextEvent::None { state, certainty },
+        NextEvent::Unfinished { time, state, certainty } => {
+            NextEvent::Unfinished { time, state, certainty }
+        }
+    }
+}
+
+/// A state counts as on the surface within this multiple of the rounding of the guard. A state that was projected is
+/// within one; resets and sums of the model may add some more.
+const ON_SURFACE: f64 = 16.0;
+
+impl<T: HybridSystem<State = State<N>>, const N: usize> Filippov<T> {
+    fn first_crossing_while_sliding(
+        &self,
+        mode: FilippovMode<T::Mode, T::Surface>,
+        (sides, partner): (&Sides<T::Mode, T::Surface>, T::Surface),
+        start: &T::State,
+        search: &Search<FilippovSurface<T::Mode, T::Surface>>,
+    ) -> Result<NextEvent<FilippovSurface<T::Mode, T::Surface>, T::State>, Error> {
+        let value = self.system.guard_value(sides.surface, start);
+        let largest = ON_SURFACE * self.rounding(sides.surface, start);
+        if !(value.abs() <= largest) {
+            let surface = format!("{:?}", sides.surface);
+            return Err(Error::OffSurface { surface, value, largest });
+        }
+        let on = |state| self.on_surface(sides, state);
+        let not_unique = |time, reason| Error::SlidingNotUnique {
+            surface: format!("{:?}", sides.surface),
+            time,
+            reason,
+        };
+        match integrated_crossing(self, mode, start, search, self.tolerances)? {
+            NextEvent::Crossing(mut crossing) => {
+                crossing.state = on(crossing.state);
+                match crossing.surface {
+                    FilippovSurface::Model(other) => {
+                        after_crossing(self, (sides, partner), other, &crossing.state)
+                            .map_err(|reason| not_unique(crossing.time, reason.0))?;
+                    }
+                    FilippovSurface::Tangent { .. }
+                        if self.both_tangent(sides, &crossing.state) =>
+                    {
+                        return Err(not_unique(crossing.time, "both fields are tangent"));
+                    }
+                    FilippovSurface::Tangent { .. } => {}
+                }
+                Ok(NextEvent::Crossing(crossing))
+            }
+            NextEvent::None { state, certainty } => {
+                Ok(NextEvent::None { state: state.map(on), certainty })
+            }
+            NextEvent::Unfinished { time, state, certainty } => {
+                Ok(NextEvent::Unfinished { time, state: on(state), certainty })
+            }
+        }
+    }
+
+    /// True if both fields are tangent to the surface, within the tolerance of the flow.
+    fn both_tangent(&self, sides: &Sides<T::Mode, T::Surface>, state: &T::State) -> bool {
+        let Some(fields) = self.fields(sides, state) else { return false };
+        let (a, b) = fields.rates;
+        // Far from such a point one of the rates is as large as the difference of the fields allows.
+        let mut difference = fields.above.clone();
+        difference.add_scaled(-1.0, &fields.below);
+        let scale = TANGENT_TOLERANCES * self.tolerances.relative;
+        a.abs().max(b.abs()) <= scale * (difference.largest() + fields.below.largest())
+    }
+}
+
+/// Two rates that are within this multiple of the tolerance of zero, relative to the fields, cannot be told from two
+/// tangent fields: the errors of several steps add up in the state.
+const TANGENT_TOLERANCES: f64 = 100.0;
