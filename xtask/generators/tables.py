@@ -6,6 +6,7 @@ from typing import Callable, NamedTuple
 
 import basins
 import hops
+import scenes
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -57,4 +58,5 @@ TABLES = (
     _table("fates.jsonl", basins.fate, 60),
     _table("critical.json", basins.crisis, 10),
     _table("local_basin.json", basins.local_basin, 20),
+    _table("events.jsonl", scenes.scene, 5),
 )

@@ -23,7 +23,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 13] = [
+const TASKS: [Task; 14] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -72,6 +72,11 @@ const TASKS: [Task; 13] = [
     Task {
         name: "compare-peers",
         about: "Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index",
+        package: MEASUREMENTS,
+    },
+    Task {
+        name: "compare-events",
+        about: "Compare the events of known scenes with SciPy, heyoka and diffsol: needs Python and package indices",
         package: MEASUREMENTS,
     },
     Task {

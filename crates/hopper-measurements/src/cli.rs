@@ -25,6 +25,8 @@ enum Command {
     Speed(commands::speed::Options),
     /// Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index
     ComparePeers(commands::compare_peers::Options),
+    /// Compare the events of known scenes with SciPy, heyoka and diffsol: needs Python and both package indices
+    CompareEvents(commands::compare_events::Options),
 }
 
 /// Runs the command line.
@@ -35,5 +37,6 @@ pub fn run() -> Result<(), Error> {
         Command::WorkPrecision(options) => commands::work_precision::run(&options),
         Command::Speed(options) => commands::speed::run(&options),
         Command::ComparePeers(options) => commands::compare_peers::run(&options),
+        Command::CompareEvents(options) => commands::compare_events::run(&options),
     }
 }

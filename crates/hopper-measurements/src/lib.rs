@@ -11,11 +11,13 @@
 //! | `work_precision` | how much time and error does each way to compute a hop have? |
 //! | `speed` | how fast are hops and rasters, with their output checked first? |
 //! | `peers` | how do heyoka, SciPy and numba compare on the same hops? |
+//! | `events` | which events of known scenes do SciPy, heyoka, diffsol and this repository find? |
 
 mod bounds;
 pub mod cli;
 pub mod commands;
 mod error;
+mod events;
 mod peers;
 mod reference;
 mod speed;

@@ -101,20 +101,23 @@ impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
         Err(Error::StateNotFinite { time, jumps, state: state.components().to_vec() })
     }
 
-    /// The states at these times after the start of the arc, in ascending order. Along an integrated arc they take one
-    /// integration.
+    /// The states at many times after the start of the arc, which are in order: 0 ≤ t₀ ≤ t₁ ≤ …. An integrated mode that
+    /// overrides [`HybridSystem::flow_at`] is integrated once for all of them.
     ///
     /// # Errors
-    /// [`Error::StateNotFinite`] where the flow is not defined; the errors of an integration.
+    /// [`Error::StateNotFinite`] where the flow is not defined, and the errors of [`HybridSystem::flow_at`].
     pub fn states<T>(&self, system: &T, elapsed: &[f64]) -> Result<Vec<X>, Error>
     where
         T: HybridSystem<State = X, Mode = M, Surface = S>,
     {
-        let states = system.states(self.mode, &self.start, elapsed)?;
-        let bad = states.iter().zip(elapsed).find(|(state, _)| !state.is_finite());
-        let Some((state, elapsed)) = bad else { return Ok(states) };
-        let (time, jumps) = (self.time + elapsed, self.jump);
-        Err(Error::StateNotFinite { time, jumps, state: state.components().to_vec() })
+        let states = system.flow_at(self.mode, &self.start, elapsed)?;
+        match states.iter().zip(elapsed).find(|(state, _)| !state.is_finite()) {
+            None => Ok(states),
+            Some((state, elapsed)) => {
+                let (time, jumps) = (self.time + elapsed, self.jump);
+                Err(Error::StateNotFinite { time, jumps, state: state.components().to_vec() })
+            }
+        }
     }
 
     /// The event that ends the arc; `None` if the arc ends in another way.

@@ -87,6 +87,7 @@ pub(crate) struct Remainder {
 
 /// An event at which durations have fallen to a half since the mark before.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Mark {
     pub(crate) time: TimeSum,
     /// The last four durations, the newest first.
@@ -99,6 +100,7 @@ pub(crate) struct Mark {
 
 /// The record.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Durations {
     /// A ring of durations.
     pub(crate) durations: [f64; KEPT],

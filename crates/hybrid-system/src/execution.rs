@@ -352,7 +352,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         let last = self.at.chain.last();
         // A crossing of another surface says nothing about the distance from this one.
         let of_last = |arrival: &&Arrival<T::Surface, T::State>| {
-            last.is_some_and(|(_, surface)| surface == arrival.surface())
+            last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
         };
         let at = AtOnce {
             mode: self.at.mode,

@@ -41,6 +41,23 @@ pub trait HybridSystem {
     /// defined.
     fn flow(&self, mode: Self::Mode, start: &Self::State, time: f64) -> Self::State;
 
+    /// φ(t; x₀) at each of these times, which are in one order from zero on. Pictures and comparisons with data need many
+    /// states of one arc.
+    ///
+    /// Default: one call of [`flow`](Self::flow) for each time. An integrated mode returns `integrated_states(…)`
+    /// (feature `ode`), which integrates once.
+    ///
+    /// # Errors
+    /// None by default; the errors of the integration for an integrated mode.
+    fn flow_at(
+        &self,
+        mode: Self::Mode,
+        start: &Self::State,
+        times: &[f64],
+    ) -> Result<Vec<Self::State>, Error> {
+        Ok(times.iter().map(|&time| self.flow(mode, start, time)).collect())
+    }
+
     /// The guards of `mode`: only these surfaces are searched.
     ///
     /// Of guards that are crossed at the same instant, within the errors of the times, the one listed first is the event.
@@ -86,21 +103,6 @@ pub trait HybridSystem {
     fn vector_field(&self, mode: Self::Mode, state: &Self::State) -> Option<Self::State> {
         let _ = (mode, state);
         None
-    }
-
-    /// The states φ(t; x₀) at several times t, in ascending order. An integrated mode gives all of them in one integration.
-    ///
-    /// Default: [`flow`](Self::flow) for each time.
-    ///
-    /// # Errors
-    /// Those of an integration. States that are not finite are no error here.
-    fn states(
-        &self,
-        mode: Self::Mode,
-        start: &Self::State,
-        times: &[f64],
-    ) -> Result<Vec<Self::State>, Error> {
-        Ok(times.iter().map(|&time| self.flow(mode, start, time)).collect())
     }
 
     /// Finds misuse of the model before its first arc, from the initial mode and state.

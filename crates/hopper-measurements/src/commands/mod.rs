@@ -2,6 +2,7 @@
 
 pub mod check_bounds;
 pub mod check_reference;
+pub mod compare_events;
 pub mod compare_peers;
 pub mod speed;
 pub mod work_precision;

@@ -8,5 +8,5 @@ mod table;
 
 pub(crate) use compare::measure;
 pub(crate) use figure::peers_figure;
-pub(crate) use python::Python;
+pub(crate) use python::{Python, call};
 pub(crate) use table::{csv, markdown};

@@ -52,7 +52,7 @@ impl Python {
 }
 
 /// Runs a program to its end. The last lines of its messages are part of the error.
-fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
+pub(crate) fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
     let reason = |why: String| Error::Peers { reason: format!("{what} ({why})") };
     let output = Command::new(program)
         .args(arguments)

@@ -3,7 +3,7 @@
 use super::motion::Motion;
 use crate::crossing::{NextEvent, Search};
 use crate::error::Error;
-use crate::ode::{Tolerances, integrated_crossing, integrated_flow};
+use crate::ode::{Tolerances, integrated_crossing, integrated_flow, integrated_states};
 use crate::state::State;
 use crate::system::HybridSystem;
 
@@ -48,7 +48,7 @@ where
     where
         T: HybridSystem<Mode = M, State = State<N>>,
     {
-        Ok(times.iter().map(|&time| self.flow(system, mode, start, time)).collect())
+        integrated_states(system, mode, start, times, self.tolerances)
     }
 
     #[inline]

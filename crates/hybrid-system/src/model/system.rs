@@ -79,7 +79,7 @@ where
         self.parts.enclosure(mode, surface, start, order, times)
     }
 
-    fn states(&self, mode: M, start: &X, times: &[f64]) -> Result<Vec<X>, Error> {
+    fn flow_at(&self, mode: M, start: &X, times: &[f64]) -> Result<Vec<X>, Error> {
         self.motion.states(self, mode, start, times)
     }
 

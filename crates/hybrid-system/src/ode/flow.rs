@@ -12,45 +12,52 @@ use crate::system::HybridSystem;
 /// mode without closed form.
 ///
 /// If the integration fails before `time`, all components are NaN. [`Arc::state`](crate::Arc::state) and executions
-/// return such a state as an error; [`Integration`] gives the reason.
-pub fn integrated_flow<T>(
+/// return such a state as an error; [`integrated_states`] gives the reason.
+pub fn integrated_flow<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,
     start: &T::State,
     time: f64,
     tolerances: Tolerances,
-) -> T::State
-where
-    T: HybridSystem + ?Sized,
-{
-    let mut after = start.clone();
-    let flow = integrated_states(system, mode, start, &[time], tolerances, |_, state| {
-        after.clone_from(state)
-    });
-    if flow.is_ok() { after } else { start.from_fn_like(|_| f64::NAN) }
+) -> T::State {
+    let mut after = None;
+    let flow = visit_states(system, mode, start, &[time], tolerances, |state| after = Some(state));
+    match (flow, after) {
+        (Ok(()), Some(after)) => after,
+        _ => start.from_fn_like(|_| f64::NAN),
+    }
 }
 
-/// The states at many times along ẋ = f(x), in one integration: `visit` gets each time with its state, in the order of
-/// the times.
+/// The states at many times along ẋ = f(x), in one integration: the value that
+/// [`HybridSystem::flow_at`](crate::HybridSystem::flow_at) returns in a mode without closed form.
 ///
 /// The times are in one order, from zero on: 0 ≤ t₀ ≤ t₁ ≤ …, or 0 ≥ t₀ ≥ t₁ ≥ … for the flow backward in time. The last
 /// state is the end of a step, the others are values of interpolants, with errors like those of the steps.
 ///
 /// # Errors
-/// [`Error::BadLimit`] for times that are not finite or not in order, and the errors of [`Integration`].
-pub fn integrated_states<T>(
+/// [`Error::BadLimit`] for times that are not finite or not in order, [`Error::NoVectorField`] for a mode without field,
+/// and the errors of [`Integration`].
+pub fn integrated_states<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,
     start: &T::State,
     times: &[f64],
     tolerances: Tolerances,
-    mut visit: impl FnMut(f64, &T::State),
-) -> Result<(), Error>
-where
-    T: HybridSystem + ?Sized,
-{
+) -> Result<Vec<T::State>, Error> {
+    let mut states = Vec::with_capacity(times.len());
+    visit_states(system, mode, start, times, tolerances, |state| states.push(state))?;
+    Ok(states)
+}
+
+fn visit_states<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+    start: &T::State,
+    times: &[f64],
+    tolerances: Tolerances,
+    mut visit: impl FnMut(T::State),
+) -> Result<(), Error> {
     let Some(&end) = times.last() else { return Ok(()) };
-    let field = field_of(system, mode);
     let mut before = 0.0;
     for &time in times {
         // Each time lies between the one before and the end.
@@ -60,18 +67,22 @@ where
         before = time;
     }
     let mut times = times.iter().copied().peekable();
-    while let Some(time) = times.next_if_eq(&0.0) {
-        visit(time, start);
+    while times.next_if_eq(&0.0).is_some() {
+        visit(start.clone());
     }
     if times.peek().is_none() {
         return Ok(());
     }
+    if system.vector_field(mode, start).is_none() {
+        return Err(Error::NoVectorField { mode: format!("{mode:?}") });
+    }
+    let field = field_of(system, mode);
     let mut integration = Integration::new(field, start, tolerances)?.autonomous().until(end)?;
     while !integration.ended() {
         integration.step()?;
         let (from, to) = integration.interval();
         while let Some(time) = times.next_if(|&time| between(from, time, to)) {
-            visit(time, &integration.at(time)?);
+            visit(integration.at(time)?);
         }
     }
     Ok(())
@@ -152,11 +163,12 @@ where
 }
 
 /// f of a mode. Its components are NaN where the model gives no field.
-fn field_of<T>(system: &T, mode: T::Mode) -> impl Fn(f64, &T::State) -> T::State + '_
-where
-    T: HybridSystem + ?Sized,
-{
+fn field_of<T: HybridSystem + ?Sized>(
+    system: &T,
+    mode: T::Mode,
+) -> impl Fn(f64, &T::State) -> T::State + '_ {
     move |_, state| {
-        system.vector_field(mode, state).unwrap_or_else(|| state.from_fn_like(|_| f64::NAN))
+        let outside = || state.from_fn_like(|_| f64::NAN);
+        system.vector_field(mode, state).unwrap_or_else(outside)
     }
 }

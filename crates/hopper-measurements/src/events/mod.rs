@@ -1,0 +1,14 @@
+//! The events of the same scenes by SciPy, heyoka, diffsol and this repository, against known answers.
+
+mod answers;
+mod diffsol;
+mod found;
+mod model_lines;
+mod ours;
+mod table;
+mod verdict;
+
+pub(crate) use answers::{Answer, answers};
+pub(crate) use found::{by_diffsol, by_python, by_us};
+pub(crate) use table::{csv, markdown};
+pub(crate) use verdict::{Verdict, verdict};
