@@ -107,6 +107,7 @@ mod error;
 mod execution;
 mod guard;
 mod model;
+mod number;
 #[cfg(feature = "ode")]
 mod ode;
 mod searched;

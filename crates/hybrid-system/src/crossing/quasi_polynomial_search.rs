@@ -173,7 +173,10 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
             ZeroTest::NoZero { sign: value.signum() }
         } else if slope.abs() > turn {
             ZeroTest::Monotone { slope }
-        } else if value.abs() <= of_value.rounding && reach <= HIDDEN * of_value.rounding {
+        } else if value.abs() <= of_value.rounding
+            && reach <= HIDDEN * of_value.rounding
+            && of_value.rounding.is_finite()
+        {
             ZeroTest::Hidden
         } else {
             ZeroTest::Undecided
