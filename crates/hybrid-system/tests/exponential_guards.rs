@@ -185,8 +185,7 @@ fn inputs_out_of_range_are_errors_and_no_wrong_answers() {
 /// sin 10⁹t − 2 + 10⁻⁹t has its first zero after 10¹⁸ radians. Each oscillation takes some intervals.
 #[test]
 fn a_budget_that_ends_is_an_error_with_the_budget_and_the_remedy() {
-    let function =
-        QuasiPolynomial::sine(1.0, 1e9) + QuasiPolynomial::polynomial(&[-2.0, 1e-9]);
+    let function = QuasiPolynomial::sine(1.0, 1e9) + QuasiPolynomial::polynomial(&[-2.0, 1e-9]);
     let error = function.first_crossing_within(Direction::Either, 3e9, 1000).unwrap_err();
     let Error::IntervalBudget { time, intervals: 1000, .. } = error else { panic!("{error:?}") };
     assert!(time > 0.0 && time < 1e9);
