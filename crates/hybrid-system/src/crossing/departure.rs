@@ -14,14 +14,17 @@
 use super::certainty::Certainty;
 use super::enclosure_search::EnclosedGuard;
 use super::guard_rate::guard_rate;
-use super::guard_rounding::guard_rounding;
+use super::guard_rounding::rounding_of_state;
 use super::guarded_flow::GuardedFlow;
 use crate::error::Error;
 use crate::state::StateVector;
 
 /// Number of times after the start at which a guard is evaluated if the model gives no derivatives: LONGEST_LOOK · 2⁻³⁹,
-/// 2⁻³⁸, … 1. The shortest, 2·10⁻¹², is near the rounding of a guard that moves at a rate of 1.
+/// 2⁻³⁸, … 1.
 const LOOKS: i32 = 40;
+
+/// The shortest of these times, 2⁻³⁹ of the longest: 2·10⁻¹², near the rounding of a guard that moves at a rate of 1.
+const SHORTEST_LOOK: f64 = 1.0 / 549_755_813_888.0;
 
 /// The longest of these times, unless the limit on time comes earlier: one unit of time, because the scale of the model
 /// is not known.
@@ -41,14 +44,16 @@ pub(crate) enum Departure {
     Stays,
 }
 
-/// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`.
+/// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`. The part
+/// `rounding` of the error differs from state to state. The rest, by the error of the time of a crossing, is the same
+/// for states next to each other, and hides no rate.
 ///
 /// # Errors
 /// [`Error::UndecidedSign`] and [`Error::NotFinite`].
 pub(crate) fn departure<F: GuardedFlow>(
     flow: &F,
     surface: F::Surface,
-    error: f64,
+    (error, rounding): (f64, f64),
     horizon: f64,
 ) -> Result<Departure, Error> {
     let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
@@ -71,12 +76,12 @@ pub(crate) fn departure<F: GuardedFlow>(
             return Ok(Departure::Stays);
         }
         let value = |state: &F::State| flow.guard_value(surface, state);
-        if let Some(rate) = guard_rate(start, &field, error, value) {
+        if let Some(rate) = guard_rate(start, &field, rounding, value) {
             return Ok(to(rate, Certainty::Interpolated));
         }
     }
-    for halvings in (0..LOOKS).rev() {
-        let time = longest * 0.5f64.powi(halvings);
+    let mut time = SHORTEST_LOOK * longest;
+    for _ in 0..LOOKS {
         let state = flow.state(time);
         let value = flow.guard_value(surface, &state);
         if !value.is_finite() {
@@ -86,10 +91,11 @@ pub(crate) fn departure<F: GuardedFlow>(
         let largest = state.largest().max(start.largest());
         let size = state.from_fn_like(|_| largest);
         let guard = |state: &F::State| flow.guard_value(surface, state);
-        let later_error = guard_rounding(&state, &size, guard);
+        let later_error = rounding_of_state(&state, &size, guard);
         if value.abs() > LEFT_SURFACE * (error + later_error) {
             return Ok(to(value, Certainty::Sampled { interval: time }));
         }
+        time *= 2.0;
     }
     Ok(Departure::Stays)
 }
