@@ -66,7 +66,7 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! More: [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 40
+//! More: [what happens at a surface](semantics), [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 40
 //! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
 //! released.
 //!
@@ -155,6 +155,9 @@ pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}
+
+#[doc = include_str!("../docs/semantics.md")]
+pub mod semantics {}
 
 #[doc = include_str!("../docs/certainty.md")]
 pub mod certainty {}
