@@ -17,6 +17,8 @@
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
 //! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
+//! | [`Sliding`] | a point of a surface at which the fields on both sides point |
+//! | `Filippov` | a system that goes on along such surfaces (feature `ode`) |
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
@@ -66,7 +68,11 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
+<<<<<<< HEAD
 //! More: [what happens at a surface](semantics), [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 40
+=======
+//! More: [the mathematics](mathematics), [sliding](sliding_motion), [which certainty do I have?](certainty), and [a model of your own in 40
+>>>>>>> sliding
 //! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
 //! released.
 //!
@@ -83,7 +89,7 @@
 //! kind of guard.
 //!
 //! # Not here
-//! Stiff integrators, differential-algebraic equations, sliding along surfaces (a model can have a mode for that). The
+//! Stiff integrators, differential-algebraic equations, sliding along several surfaces at once. The
 //! sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its surface at the first
 //! sample.
 //!
@@ -161,6 +167,9 @@ pub mod semantics {}
 
 #[doc = include_str!("../docs/certainty.md")]
 pub mod certainty {}
+
+#[doc = include_str!("../docs/sliding.md")]
+pub mod sliding_motion {}
 
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}

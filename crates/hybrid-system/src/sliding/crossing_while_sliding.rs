@@ -45,7 +45,7 @@ pub(super) fn after_crossing<T: HybridSystem>(
 ) -> Result<Continued<T>, NotUnique> {
     let system = &filippov.system;
     // The direction in which the sliding motion passes through the other surface.
-    let field = filippov.field_on_surface(sides, state);
+    let field = filippov.field_at(sides, state);
     let rate = field.map_or(0.0, |field| filippov.rate(other, state, &field));
     let crossed = |guard: &&Guard<T::Surface>| {
         let admits = guard.direction == Direction::Either || guard.direction.leads_to(rate);

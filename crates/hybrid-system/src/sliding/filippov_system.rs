@@ -5,14 +5,16 @@ use super::detection::same_surface;
 use super::filippov::{Filippov, Sides};
 use super::filippov_modes::{FilippovMode, FilippovSurface};
 use super::sliding_point::Sliding;
-use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
+use crate::crossing::{
+    Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search, guard_rounding,
+};
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
-use crate::ode::{integrated_crossing, integrated_flow};
-use crate::state::{State, StateVector};
+use crate::ode::{Tolerances, integrated_crossing, integrated_flow};
+use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 
-impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippov<T> {
+impl<T: HybridSystem> HybridSystem for Filippov<T> {
     type State = T::State;
     type Mode = FilippovMode<T::Mode, T::Surface>;
     type Surface = FilippovSurface<T::Mode, T::Surface>;
@@ -126,7 +128,7 @@ impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippo
         match mode {
             FilippovMode::Free(mode) => self.system.vector_field(mode, state),
             FilippovMode::Sliding { surface, below, above, .. } => {
-                self.field_on_surface(&Sides { surface, below, above }, state)
+                self.integrated_field(&Sides { surface, below, above }, state)
             }
         }
     }
@@ -232,20 +234,32 @@ fn next_of_model<M, S, X>(next: NextEvent<S, X>) -> NextEvent<FilippovSurface<M,
     }
 }
 
-/// A state counts as on the surface within this multiple of the rounding of the guard. A state that was projected is
-/// within one; resets and sums of the model may add some more.
-const ON_SURFACE: f64 = 16.0;
+/// A sliding motion starts on its surface if the guard is zero within the change of the state by this multiple of the
+/// tolerances of the flow: nearer to the surface than the flow itself is known. Resets and sums of the model add errors
+/// to those of one step. A larger number would project starts that are visibly beside the surface.
+const START_TOLERANCES: f64 = 100.0;
 
-impl<T: HybridSystem<State = State<N>>, const N: usize> Filippov<T> {
+/// The result of a search of the system with sliding modes.
+type Next<T> = NextEvent<
+    FilippovSurface<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface>,
+    <T as HybridSystem>::State,
+>;
+
+impl<T: HybridSystem> Filippov<T> {
     fn first_crossing_while_sliding(
         &self,
         mode: FilippovMode<T::Mode, T::Surface>,
         (sides, partner): (&Sides<T::Mode, T::Surface>, T::Surface),
         start: &T::State,
         search: &Search<FilippovSurface<T::Mode, T::Surface>>,
-    ) -> Result<NextEvent<FilippovSurface<T::Mode, T::Surface>, T::State>, Error> {
-        let value = self.system.guard_value(sides.surface, start);
-        let largest = ON_SURFACE * self.rounding(sides.surface, start);
+    ) -> Result<Next<T>, Error> {
+        let guard = |state: &T::State| self.system.guard_value(sides.surface, state);
+        // In units of the roundings that `guard_rounding` applies to components.
+        let Tolerances { relative, absolute, .. } = self.tolerances;
+        let size = start.from_fn_like(|axis| {
+            START_TOLERANCES * (absolute + relative * start.components()[axis].abs()) / f64::EPSILON
+        });
+        let (value, largest) = (guard(start), guard_rounding(start, &size, guard));
         if !(value.abs() <= largest) {
             let surface = format!("{:?}", sides.surface);
             return Err(Error::OffSurface { surface, value, largest });
