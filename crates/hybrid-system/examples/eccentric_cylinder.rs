@@ -12,7 +12,10 @@ use nalgebra::Vector4;
 
 fn main() -> Result<(), Error> {
     println!("released at rest, the lowest point 1.02 above the floor, for 300 units of time");
-    println!("{:>4} {:>4} {:>8} {:>13} {:>13}  at the end", "e", "mu", "impacts", "contact after", "energy");
+    println!(
+        "{:>4} {:>4} {:>8} {:>13} {:>13}  at the end",
+        "e", "mu", "impacts", "contact after", "energy"
+    );
     for (restitution, rolling_resistance) in [(1.0, 0.0), (0.8, 0.0), (0.8, 0.1), (0.0, 0.1)] {
         let cylinder = EccentricCylinder {
             eccentricity: 0.3,

@@ -68,13 +68,9 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-<<<<<<< HEAD
-//! More: [what happens at a surface](semantics), [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 40
-=======
-//! More: [the mathematics](mathematics), [sliding](sliding_motion), [which certainty do I have?](certainty), and [a model of your own in 40
->>>>>>> sliding
-//! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
-//! released.
+//! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which
+//! certainty do I have?](certainty), and [a model of your own in 40 lines](guide). In the examples `bouncing_ball`,
+//! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
