@@ -50,9 +50,10 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! More: [the mathematics](mathematics), [sliding along a surface](sliding_motion), [which certainty do I
-//! have?](certainty), and [a model of your own in 20 lines](guide). The examples `bouncing_ball` and `plastic_landing` have
-//! bodies that rest on another one and are released; in `dry_friction` a mass sticks to a belt.
+//! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which
+//! certainty do I have?](certainty), and [a model of your own in 20 lines](guide). In the examples `bouncing_ball`,
+//! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in `dry_friction` a mass
+//! sticks to a belt.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
@@ -139,6 +140,9 @@ pub use zeno::ZenoLimit;
 
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}
+
+#[doc = include_str!("../docs/semantics.md")]
+pub mod semantics {}
 
 #[doc = include_str!("../docs/certainty.md")]
 pub mod certainty {}
