@@ -1,8 +1,8 @@
 //! How a checkpoint is written (feature `serde`).
 
+use crate::arrival::Arrival;
 use crate::checkpoint::Checkpoint;
 use crate::execution::Point;
-use crate::start_rule::Arrival;
 use crate::state::StateVector;
 use serde::ser::{Error, Serialize, SerializeStruct, Serializer};
 

@@ -1,12 +1,13 @@
 //! Executions: arcs and events in hybrid time, one after the other.
 
 use crate::arc::{Arc, ArcEnd, Event};
+use crate::arrival::Arrival;
 use crate::chain::Chain;
 use crate::crossing::{Certainty, Crossing, EventKind, MOST_INTERVALS, NextEvent, Search};
 use crate::error::Error;
 use crate::guard::Role;
 use crate::sliding::{AtOnce, Sliding, sliding_point};
-use crate::start_rule::{Arrival, LeavingGuards, Start, start_of_arc};
+use crate::start_rule::{LeavingGuards, Start, start_of_arc};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem, Reset};
 use crate::time_sum::TimeSum;
@@ -97,7 +98,7 @@ pub(crate) struct Point<M, S, X> {
     /// The events since time has passed for the last time.
     pub(crate) chain: Chain<M, S>,
     /// The last crossing, if no time has passed since.
-    pub(crate) arrival: Option<Arrival<S, X>>,
+    pub(crate) arrival: Option<Arrival<M, S, X>>,
 }
 
 impl<'a, T: HybridSystem> Execution<'a, T> {
@@ -351,7 +352,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     fn sliding(&self, surface: T::Surface) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
         let last = self.at.chain.last();
         // A crossing of another surface says nothing about the distance from this one.
-        let of_last = |arrival: &&Arrival<T::Surface, T::State>| {
+        let of_last = |arrival: &&Arrival<T::Mode, T::Surface, T::State>| {
             last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
         };
         let at = AtOnce {

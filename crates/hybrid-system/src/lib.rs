@@ -96,6 +96,7 @@
 
 mod advance;
 mod arc;
+mod arrival;
 mod chain;
 mod checkpoint;
 #[cfg(feature = "serde")]

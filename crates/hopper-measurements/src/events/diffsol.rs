@@ -21,6 +21,7 @@ pub(super) fn run_diffsol(folder: &Path, output: &Path) -> Result<(), Error> {
     let build: Vec<_> =
         build.into_iter().chain(["--target-dir", &text(&target)]).map(str::to_owned).collect();
     call(Path::new(&cargo), &build, "the program with diffsol could not be built")?;
-    let program = target.join("release").join(format!("peers-diffsol{}", std::env::consts::EXE_SUFFIX));
+    let program =
+        target.join("release").join(format!("peers-diffsol{}", std::env::consts::EXE_SUFFIX));
     call(&program, &[text(output)], "the program with diffsol failed")
 }

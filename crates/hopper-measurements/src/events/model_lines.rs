@@ -20,7 +20,8 @@ mod tests {
 
     #[test]
     fn lines_of_code_between_two_marks_are_counted() {
-        let rust = "x\n// begin ball\nfn ball() {\n    // why\n\n}\n// end\n// begin relay\ny\n// end\n";
+        let rust =
+            "x\n// begin ball\nfn ball() {\n    // why\n\n}\n// end\n// begin relay\ny\n// end\n";
         assert_eq!((model_lines(rust, "ball"), model_lines(rust, "relay")), (2, 1));
         let python = "# begin scipy ball\ndef ball():\n    # why\n    pass\n\n\n# end\n";
         assert_eq!((model_lines(python, "scipy ball"), model_lines(python, "ball")), (2, 0));

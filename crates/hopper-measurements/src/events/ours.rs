@@ -59,11 +59,10 @@ fn turning_points() -> Run {
 // end
 // begin van der Pol
 fn van_der_pol() -> Run {
-    let oscillator = Model::integrated(|(), x: &State<2>| {
-        [x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]]
-    })
-    .tolerance(TOLERANCE)
-    .observer(Guard::either("section"), |x| x[0]);
+    let oscillator =
+        Model::integrated(|(), x: &State<2>| [x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]])
+            .tolerance(TOLERANCE)
+            .observer(Guard::either("section"), |x| x[0]);
     Box::new(move || {
         let (mut run, mut times) = (oscillator.run((), [2.0, 0.0], 300.0), Vec::new());
         for arc in run.by_ref() {

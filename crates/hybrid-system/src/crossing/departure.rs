@@ -14,7 +14,7 @@
 use super::certainty::Certainty;
 use super::enclosure_search::EnclosedGuard;
 use super::guard_rate::guard_rate;
-use super::guard_rounding::guard_rounding;
+use super::guard_rounding::rounding_of_state;
 use super::guarded_flow::GuardedFlow;
 use crate::error::Error;
 use crate::state::StateVector;
@@ -91,7 +91,7 @@ pub(crate) fn departure<F: GuardedFlow>(
         let largest = state.largest().max(start.largest());
         let size = state.from_fn_like(|_| largest);
         let guard = |state: &F::State| flow.guard_value(surface, state);
-        let later_error = guard_rounding(&state, &size, guard);
+        let later_error = rounding_of_state(&state, &size, guard);
         if value.abs() > LEFT_SURFACE * (error + later_error) {
             return Ok(to(value, Certainty::Sampled { interval: time }));
         }

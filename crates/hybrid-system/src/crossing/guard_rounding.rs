@@ -90,15 +90,19 @@ pub(crate) fn side_of_surface<X: StateVector>(
     if value == 0.0 || value.is_nan() {
         return None;
     }
-    let reach = FAR_MOVE * state.largest();
-    let moved = state.from_fn_like(|axis| state.components()[axis] + reach);
-    let far = stated.is_none_or(|stated| stated < value.abs())
-        && (guard(&moved) - value).abs() <= FAR * value.abs();
+    let far = stated.is_none_or(|stated| stated < value.abs()) && is_far(state, value, &guard);
     let rounding = || match stated {
         Some(stated) => rounding_of_state(state, state, &guard) + stated,
         None => guard_rounding(state, state, &guard),
     };
     (far || value.abs() > rounding()).then(|| value.signum())
+}
+
+/// True if the guard, whose value at `state` is `value`, is clearly off its surface. This test takes one evaluation.
+pub(crate) fn is_far<X: StateVector>(state: &X, value: f64, guard: impl Fn(&X) -> f64) -> bool {
+    let reach = FAR_MOVE * state.largest();
+    let moved = state.from_fn_like(|axis| state.components()[axis] + reach);
+    value != 0.0 && (guard(&moved) - value).abs() <= FAR * value.abs()
 }
 
 /// The change of `guard` when component i changes by reach(i): the sum of all changes, or an estimate if there are many

@@ -49,9 +49,9 @@ pub use enclosure::Enclosure;
 pub use first_crossing::FirstCrossing;
 pub use golden_section::golden_section_minimum;
 pub(crate) use guard_rate::guard_rate;
-pub(crate) use guard_rounding::guard_rounding;
 #[cfg(feature = "ode")]
-pub(crate) use guard_rounding::{change_by_components, rounding_of_state, side_of_surface};
+pub(crate) use guard_rounding::{change_by_components, side_of_surface};
+pub(crate) use guard_rounding::{guard_rounding, is_far, rounding_of_state};
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::QuasiPolynomial;
