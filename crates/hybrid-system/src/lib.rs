@@ -12,7 +12,7 @@
 //! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
 //! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how certain it is: exact, certain, interpolated or sampled |
-//! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times sines and cosines; their first crossing, with certainty |
+//! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times exponentials, sines and cosines; their first crossing, with certainty |
 //! | [`Enclosure`] | bounds on a guard, given by the model |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
@@ -20,6 +20,8 @@
 //! | [`Checkpoint`] | an execution between two arcs, to be restored or saved (feature `serde`) |
 //! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
+//! | [`Sliding`] | a point of a surface at which the fields on both sides point |
+//! | `Filippov` | a system that goes on along such surfaces (feature `ode`) |
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
@@ -48,9 +50,10 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! More: [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 20
-//! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
-//! released.
+//! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which
+//! certainty do I have?](certainty), and [a model of your own in 20 lines](guide). In the examples `bouncing_ball`,
+//! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in `dry_friction` a mass
+//! sticks to a belt.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
@@ -65,7 +68,7 @@
 //! kind of guard.
 //!
 //! # Not here
-//! Stiff integrators, differential-algebraic equations, sliding along surfaces (a model can have a mode for that). The
+//! Stiff integrators, differential-algebraic equations, sliding along several surfaces at once. The
 //! sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its surface at the first
 //! sample.
 //!
@@ -90,6 +93,7 @@ mod error;
 mod execution;
 mod guard;
 mod model;
+mod number;
 #[cfg(feature = "ode")]
 mod ode;
 mod searched;
@@ -137,8 +141,14 @@ pub use zeno::ZenoLimit;
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}
 
+#[doc = include_str!("../docs/semantics.md")]
+pub mod semantics {}
+
 #[doc = include_str!("../docs/certainty.md")]
 pub mod certainty {}
+
+#[doc = include_str!("../docs/sliding.md")]
+pub mod sliding_motion {}
 
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}
