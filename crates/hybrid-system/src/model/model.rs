@@ -144,6 +144,8 @@ impl<M, S, X, F, P> Model<M, S, X, Integrated<F>, P> {
     }
 }
 
+// Each part of a model has a type of its own.
+#[allow(clippy::type_complexity)]
 impl<M, X, F, P> Model<M, usize, X, F, P>
 where
     M: Copy + Eq,
@@ -203,6 +205,8 @@ where
     }
 }
 
+// Each part of a model has a type of its own.
+#[allow(clippy::type_complexity)]
 impl<M, S, X, F, P> Model<M, S, X, F, P>
 where
     M: Copy + Eq,
