@@ -53,7 +53,9 @@ use std::marker::PhantomData;
 /// A surface has a name, a value of any type `S: Copy + Eq + Debug`. [`rising`](Self::rising),
 /// [`falling`](Self::falling) and [`either`](Self::either) number the surfaces: 0, 1, 2, … in the order in which they are
 /// added. [`guard`](Self::guard) takes a [`Guard`] with a name, for example of an enum, and with its role and its touch.
-/// A name is compared at every evaluation of a guard: numbers and enums are faster than texts.
+/// A name is compared at every evaluation of a guard. With numbers or an enum a thermostat takes 1 % more instructions than
+/// by the trait, and the section of a pendulum as well; with texts the thermostat takes 20 % more. The bench `front_end`
+/// has the models.
 ///
 /// | method | part of the model |
 /// |---|---|
@@ -142,6 +144,8 @@ impl<M, S, X, F, P> Model<M, S, X, Integrated<F>, P> {
     }
 }
 
+// Each part of a model has a type of its own.
+#[allow(clippy::type_complexity)]
 impl<M, X, F, P> Model<M, usize, X, F, P>
 where
     M: Copy + Eq,
@@ -201,6 +205,8 @@ where
     }
 }
 
+// Each part of a model has a type of its own.
+#[allow(clippy::type_complexity)]
 impl<M, S, X, F, P> Model<M, S, X, F, P>
 where
     M: Copy + Eq,
