@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use example_systems::eccentric_cylinder::{EccentricCylinder, Mode, Surface};
-use hybrid_system::{Arc, ArcEnd, Certainty, Execution, HybridSystem, Limits, State};
+use hybrid_system::{Arc, ArcEnd, Certainty, Execution, Limits, State};
 use nalgebra::Vector4;
 use pxfm::{f_cos, f_sin};
 

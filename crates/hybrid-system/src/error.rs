@@ -1,5 +1,6 @@
 //! The errors of this crate.
 
+use crate::number::{Number, Numbers};
 use thiserror::Error;
 
 /// Why an execution, a search or an integration failed.
@@ -7,7 +8,10 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Error {
     /// A function has the same sign at both ends of a bracket.
-    #[error("no sign change on [{left}, {right}]: values {at_left} and {at_right}")]
+    #[error(
+        "no sign change on [{left}, {right}]: values {at_left} and {at_right}",
+        left = Number(*.left), right = Number(*.right), at_left = Number(*.at_left), at_right = Number(*.at_right)
+    )]
     NoSignChange {
         /// Left end of the bracket.
         left: f64,
@@ -19,7 +23,10 @@ pub enum Error {
         at_right: f64,
     },
     /// A function, a bracket or a coefficient is infinite or NaN.
-    #[error("the function is {value} at {at}")]
+    #[error(
+        "the function is {value} at {at}",
+        at = Number(*.at), value = Number(*.value)
+    )]
     NotFinite {
         /// Argument of the function.
         at: f64,
@@ -27,7 +34,10 @@ pub enum Error {
         value: f64,
     },
     /// A search reached its limit of iterations or intervals.
-    #[error("the search on [{left}, {right}] did not end within {iterations} iterations")]
+    #[error(
+        "the search on [{left}, {right}] did not end within {iterations} iterations",
+        left = Number(*.left), right = Number(*.right)
+    )]
     NoConvergence {
         /// Left end of the part not searched yet, or of the bracket.
         left: f64,
@@ -43,7 +53,10 @@ pub enum Error {
         surface: String,
     },
     /// A sampling interval that is not positive, or too short to reach the horizon, or a horizon that is not finite.
-    #[error("cannot sample guards at an interval of {interval} up to time {horizon}")]
+    #[error(
+        "cannot sample guards at an interval of {interval} up to time {horizon}",
+        interval = Number(*.interval), horizon = Number(*.horizon)
+    )]
     BadSamplingInterval {
         /// The interval.
         interval: f64,
@@ -54,7 +67,8 @@ pub enum Error {
     /// have left to the other side and come back, within a sampling interval or within rounding.
     #[error(
         "guard {surface} is zero at the start and beyond its surface {interval} later: sample more often, or \
-         solve this crossing in the model"
+         solve this crossing in the model",
+        interval = Number(*.interval)
     )]
     UndecidedStart {
         /// Name of the guard's surface.
@@ -65,7 +79,8 @@ pub enum Error {
     /// A guard under bounds starts at zero, and rounding hides to which side it leaves: lower derivatives that may be
     /// zero could outweigh the first derivative that is not zero.
     #[error(
-        "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}"
+        "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}",
+        value = Number(*.value)
     )]
     UndecidedSign {
         /// Order of the first derivative that is not zero within rounding; 0 under enclosures, for the guard itself.
@@ -75,7 +90,8 @@ pub enum Error {
     },
     /// An enclosure whose lower bound is above its upper bound, or whose bounds are NaN.
     #[error(
-        "the enclosure of derivative {order} of the guard on [{from}, {to}] is no interval: [{low}, {high}]"
+        "the enclosure of derivative {order} of the guard on [{from}, {to}] is no interval: [{low}, {high}]",
+        from = Number(*.from), to = Number(*.to), low = Number(*.low), high = Number(*.high)
     )]
     BadEnclosure {
         /// Order of the derivative.
@@ -90,7 +106,10 @@ pub enum Error {
         high: f64,
     },
     /// A guard comes so close to its surface that rounding hides whether it crosses.
-    #[error("guard {surface} grazes its surface at time {time}, with value {value}")]
+    #[error(
+        "guard {surface} grazes its surface at time {time}, with value {value}",
+        time = Number(*.time), value = Number(*.value)
+    )]
     Grazing {
         /// Name of the guard's surface.
         surface: String,
@@ -102,7 +121,8 @@ pub enum Error {
     /// Too many events in a row without time passing.
     #[error(
         "{events} events in a row at time {time}, and the resets lead back to each other: {cycle}. Let a reset move the \
-         state away from the surface, or declare a guard that only watches an observer"
+         state away from the surface, or declare a guard that only watches an observer",
+        time = Number(*.time)
     )]
     TimelessChain {
         /// Time of the events.
@@ -115,7 +135,8 @@ pub enum Error {
     /// An execution starts beyond a surface, where its mode cannot flow.
     #[error(
         "the start is beyond the surface {surface} of mode {mode}: the guard is {value}, with a rounding error of \
-         {rounding}. Start on the other side, or declare the guard an observer"
+         {rounding}. Start on the other side, or declare the guard an observer",
+        value = Number(*.value), rounding = Number(*.rounding)
     )]
     StartsBeyond {
         /// Name of the mode.
@@ -145,7 +166,8 @@ pub enum Error {
     },
     /// A guard is crossed too slowly for a derivative: nearby orbits may miss the event.
     #[error(
-        "no sensitivity through the event at time {time}: the guard changes at a rate of {rate}"
+        "no sensitivity through the event at time {time}: the guard changes at a rate of {rate}",
+        time = Number(*.time), rate = Number(*.rate)
     )]
     GrazingSensitivity {
         /// Time of the event.
@@ -155,7 +177,8 @@ pub enum Error {
     },
     /// A sensitivity along an arc without an event at its end, or with a flow that has no derivative.
     #[error(
-        "no sensitivity along the arc from time {time}: it does not end in one event, or its flow has no derivative"
+        "no sensitivity along the arc from time {time}: it does not end in one event, or its flow has no derivative",
+        time = Number(*.time)
     )]
     NoSensitivity {
         /// Start of the arc.
@@ -168,7 +191,10 @@ pub enum Error {
         reason: String,
     },
     /// A limit, horizon or time that is negative or NaN, or infinite where a search needs a finite one.
-    #[error("{what} cannot be {value}")]
+    #[error(
+        "{what} cannot be {value}",
+        value = Number(*.value)
+    )]
     BadLimit {
         /// The quantity.
         what: &'static str,
@@ -176,13 +202,19 @@ pub enum Error {
         value: f64,
     },
     /// A tolerance that is not positive and finite.
-    #[error("a tolerance must be positive and finite, not {value}")]
+    #[error(
+        "a tolerance must be positive and finite, not {value}",
+        value = Number(*.value)
+    )]
     BadTolerance {
         /// The tolerance.
         value: f64,
     },
     /// An integration failed.
-    #[error("the integration stopped at time {time}: {reason}")]
+    #[error(
+        "the integration stopped at time {time}: {reason}",
+        time = Number(*.time)
+    )]
     Integration {
         /// The reason.
         reason: &'static str,
@@ -190,7 +222,10 @@ pub enum Error {
         time: f64,
     },
     /// A component of a state is infinite or NaN.
-    #[error("the state is not finite after {time} time units and {jumps} jumps: {state:?}")]
+    #[error(
+        "the state is not finite after {time} time units and {jumps} jumps: [{state}]",
+        time = Number(*.time), state = Numbers(.state)
+    )]
     StateNotFinite {
         /// Continuous time t.
         time: f64,
@@ -202,7 +237,8 @@ pub enum Error {
     /// A search under bounds reached its budget of intervals.
     #[error(
         "no zero up to time {time}; the search up to {horizon} needs more than {intervals} intervals: set a larger \
-         budget, or a shorter horizon"
+         budget, or a shorter horizon",
+        time = Number(*.time), horizon = Number(*.horizon)
     )]
     IntervalBudget {
         /// The time up to which there is no zero.
@@ -237,8 +273,8 @@ pub enum Error {
     },
     /// A sliding motion that starts beside its surface.
     #[error(
-        "a sliding motion cannot start beside its surface {surface}: the guard is {value:e}, and its rounding error \
-         is below {largest:e}; start in a free mode"
+        "a sliding motion cannot start beside its surface {surface}: the guard is {value:e}, and the tolerances of the \
+         flow allow {largest:e}; start in a free mode"
     )]
     OffSurface {
         /// Name of the surface.

@@ -65,7 +65,9 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let switch = role == Role::Switch;
         // The usual case: far from the surface, on a side where the mode flows.
         let beyond = switch && direction.is_beyond(now);
-        if !beyond && reached.is_none() && is_far(flow.start, now, value) {
+        // The crossed surface itself may be farther than that, by the error of the time of the crossing.
+        let crossed = arrival.is_some_and(|arrival| arrival.surface() == Some(surface));
+        if !beyond && reached.is_none() && !crossed && is_far(flow.start, now, value) {
             continue;
         }
         let rounding = rounding_at_start(flow, surface, now);

@@ -114,7 +114,7 @@ fn a_parabola_misses_touches_or_crosses() {
 /// roots of odd order are crossings, roots of even order are touches.
 #[test]
 fn roots_of_odd_order_are_crossings_and_of_even_order_touches() {
-    for order in 2..=5 {
+    for order in 2..=7 {
         let function = with_roots(&vec![1.0; order], 0.0);
         let found = function.first_crossing(Direction::Either, 3.0).unwrap();
         let (time, value) = match found {
@@ -125,7 +125,11 @@ fn roots_of_odd_order_are_crossings_and_of_even_order_touches() {
             FirstCrossing::Touch { time, value } if order % 2 == 0 => (time, value),
             _ => panic!("{order}: {found:?}"),
         };
-        assert!((time - 1.0).abs() < 2e-2 && value.abs() < 1e-13, "{order}: {time} {value}");
+        // Behind a hidden crossing the value is clear of rounding: the sum of the coefficients up to t = 3, 4ᵒʳᵈᵉʳ, times
+        // some 30ε. Its root is the length of the hidden interval.
+        let rounding = 4f64.powi(order as i32) * 30.0 * f64::EPSILON;
+        let length = 2.0 * rounding.powf(1.0 / order as f64);
+        assert!((time - 1.0).abs() < length && value.abs() < rounding, "{order}: {time} {value}");
     }
 }
 

@@ -163,7 +163,14 @@ fn each_root_is_found_once_at_and_between_samples() {
 
 #[test]
 fn samples_report_no_crossing_at_a_touch() {
-    assert!(crossings(|x| (x - 0.5) * (x - 0.5), Guard::either(Surface), 1.0, 0.25).is_empty());
+    let touch = |x: f64| (x - 0.5) * (x - 0.5);
+    let ignored = Guard::either(Surface).touch(Touch::Ignore);
+    assert!(crossings(touch, ignored, 1.0, 0.25).is_empty());
+    // A sample that is exactly zero shows the touch.
+    let clock = Clock { guard: touch, guards: [Guard::either(Surface).observer()] };
+    let limits = Limits::sampled(1.0, 100, 0.25);
+    let first = Execution::new(&clock, (), Vector1::new(0.0), limits).next().unwrap();
+    assert!(matches!(first, Err(Error::Grazing { time: 0.5, .. })), "{first:?}");
 }
 
 #[test]

@@ -56,7 +56,7 @@ pub fn bracketed_root(
     right: f64,
 ) -> Result<f64, Error> {
     let (at_left, at_right) = (function(left), function(right));
-    let (low, high) = last_bracket(function, (left, at_left), (right, at_right))?;
+    let [low, high] = last_bracket(function, (left, at_left), (right, at_right))?;
     // The crate's own iterate is not used: it may lie outside the last bracket.
     Ok(if low.1.abs() < high.1.abs() { low.0 } else { high.0 })
 }
@@ -68,7 +68,7 @@ pub(crate) fn root_beyond(
     before: (f64, f64),
     beyond: (f64, f64),
 ) -> Result<f64, Error> {
-    let (low, high) = last_bracket(&mut function, before, beyond)?;
+    let [low, high] = last_bracket(&mut function, before, beyond)?;
     let (mut left, mut right) = (low.0, high.0);
     // The last bracket is some ulps wide.
     loop {
@@ -91,13 +91,13 @@ fn last_bracket(
     mut function: impl FnMut(f64) -> f64,
     (left, at_left): (f64, f64),
     (right, at_right): (f64, f64),
-) -> Result<((f64, f64), (f64, f64)), Error> {
+) -> Result<[(f64, f64); 2], Error> {
     for (at, value) in [(left, at_left), (right, at_right)] {
         if !value.is_finite() || !at.is_finite() {
             return Err(Error::NotFinite { at, value });
         }
         if value == 0.0 {
-            return Ok(((at, value), (at, value)));
+            return Ok([(at, value), (at, value)]);
         }
     }
     if at_left.signum() == at_right.signum() {
@@ -136,7 +136,7 @@ fn last_bracket(
         return Err(Error::NotFinite { at, value });
     }
     match outcome {
-        Ok(_) => Ok((low, high)),
+        Ok(_) => Ok([low, high]),
         Err(SearchError::NoConvergency) => {
             Err(Error::NoConvergence { left, right, iterations: MOST_ITERATIONS })
         }

@@ -123,9 +123,13 @@ where
         for order in 1..=HIGHEST_ORDER {
             let Some(here) = self.enclosed(order, (from, from))? else { break };
             factorial *= f64::from(order);
-            if here.sign().is_none() {
+            let Some(side) = here.sign() else {
                 lower[order as usize] = here.magnitude() / factorial;
                 continue;
+            };
+            // On a stretch of length zero the derivative alone decides.
+            if !(until > from) {
+                return Ok(Leave::To { time: from, side });
             }
             let mut length = until - from;
             while from + length > from {

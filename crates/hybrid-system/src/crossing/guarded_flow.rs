@@ -1,6 +1,7 @@
 //! The part of a model that a search for crossings needs: one flow, and the guards along it.
 
 use super::enclosure::Enclosure;
+use super::guard_rounding::{guard_rounding, rounding_of_state};
 use super::quasi_polynomial::QuasiPolynomial;
 use crate::guard::Guard;
 use crate::state::StateVector;
@@ -43,6 +44,17 @@ pub(crate) trait GuardedFlow {
     /// Bounds on dᵏ/dtᵏ g(φ(t; x₀)), k = `order`, over an interval of time, if the model gives them.
     fn enclosure(&self, surface: Self::Surface, order: u32, times: (f64, f64))
     -> Option<Enclosure>;
+
+    /// The rounding error of g at a state: of the state, and of g's own operations, as far as the model states it or
+    /// they show it. The operations that give an exact zero have not rounded.
+    fn rounding_at(&self, surface: Self::Surface, state: &Self::State) -> f64 {
+        let value = |state: &Self::State| self.guard_value(surface, state);
+        match self.guard_error(surface, state) {
+            _ if value(state) == 0.0 => rounding_of_state(state, state, value),
+            Some(stated) => rounding_of_state(state, state, value) + stated,
+            None => guard_rounding(state, state, value),
+        }
+    }
 
     /// g(φ(t; x₀)).
     fn guard_at(&self, surface: Self::Surface, time: f64) -> f64 {

@@ -5,12 +5,14 @@
 //!
 //! | the model gives | file | no crossing is missed because |
 //! |---|---|---|
-//! | the guard as a quasi-polynomial | `quasi_polynomial_search` | bounds on g″ follow from the coefficients |
+//! | the guard as a quasi-polynomial | `quasi_polynomial_search` | bounds on g‴ and on rounding follow from the coefficients |
 //! | enclosures of g, g′, g″ | `enclosure_search` | the model's enclosures are bounds |
 //! | values only | `sampled` | no guarantee between two samples |
 //!
-//! `under_bounds` chooses between the first two. `bracketed_root` refines a change of sign, `step_past_root` moves the
-//! result to the far side of the surface, and `closest_approach` describes a grazing.
+//! `bounded` is what a source of bounds gives, and `zero_search` the search that uses it, also along integrated flows. Where
+//! rounding hides a function, the search decides behind the hidden interval: a crossing or a touch. `under_bounds` chooses
+//! the source for one guard. `bracketed_root` refines a change of sign. `departure` tells to which side a guard leaves its
+//! zero.
 
 mod bounded;
 mod bracketed_root;

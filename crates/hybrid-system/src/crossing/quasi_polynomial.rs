@@ -66,6 +66,14 @@ impl QuasiPolynomial {
         QuasiPolynomial { terms: vec![term.normalized()] }
     }
 
+    /// Adds a term to one of the same rate and frequency, or to the list.
+    fn push(&mut self, term: Term) {
+        match self.terms.iter_mut().find(|own| own.is_like(&term)) {
+            Some(own) => own.add(&term),
+            None => self.terms.push(term),
+        }
+    }
+
     pub(super) fn terms(&self) -> &[Term] {
         &self.terms
     }
@@ -122,12 +130,7 @@ impl QuasiPolynomial {
 impl std::ops::Add for QuasiPolynomial {
     type Output = Self;
     fn add(mut self, other: Self) -> Self {
-        for term in other.terms {
-            match self.terms.iter_mut().find(|own| own.is_like(&term)) {
-                Some(own) => own.add(&term),
-                None => self.terms.push(term),
-            }
-        }
+        other.terms.into_iter().for_each(|term| self.push(term));
         self
     }
 }
@@ -156,7 +159,7 @@ impl std::ops::Mul for QuasiPolynomial {
         for a in &self.terms {
             for b in &other.terms {
                 for term in a.times(b) {
-                    product = product + QuasiPolynomial { terms: vec![term] };
+                    product.push(term);
                 }
             }
         }

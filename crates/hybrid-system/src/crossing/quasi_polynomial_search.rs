@@ -173,7 +173,10 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
             ZeroTest::NoZero { sign: value.signum() }
         } else if slope.abs() > turn {
             ZeroTest::Monotone { slope }
-        } else if value.abs() <= of_value.rounding && reach <= HIDDEN * of_value.rounding {
+        } else if value.abs() <= of_value.rounding
+            && reach <= HIDDEN * of_value.rounding
+            && of_value.rounding.is_finite()
+        {
             ZeroTest::Hidden
         } else {
             ZeroTest::Undecided
@@ -245,7 +248,8 @@ fn leave(layers: &Layers, highest: usize, (from, until): (f64, f64), error: f64)
             return Some(Leave::Hidden);
         }
         let side = value.signum();
-        if order == 0 {
+        // On a stretch of length zero the derivative alone decides.
+        if order == 0 || !(until > from) {
             return Some(Leave::To { time: from * layers.unit(), side });
         }
         // (4): with c = g⁽ᵏ⁾/k! and |g⁽ᵏ⁺¹⁾| ≤ M on the next t, |c| ≥ 2 M t/(k+1)! leaves at least ½|c|tᵏ of the leading

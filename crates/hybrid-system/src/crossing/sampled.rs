@@ -2,7 +2,6 @@
 
 use super::bracketed_root::root_beyond;
 use super::earliest::Candidate;
-use super::guard_rounding::guard_rounding;
 use super::guarded_flow::GuardedFlow;
 use super::search_request::Search;
 use crate::error::Error;
@@ -107,8 +106,7 @@ fn crossing<F: GuardedFlow>(
     let (before, after) = ((time - reach).max(left), (time + reach).min(right));
     let slope = (value(after) - value(before)).abs() / (after - before);
     let state = flow.state(time);
-    let rounding = guard_rounding(&state, &state, |state| flow.guard_value(surface, state))
-        + flow.guard_error(surface, &state).unwrap_or(0.0);
+    let rounding = flow.rounding_at(surface, &state);
     // One ulp between the two doubles at the root. NaN for 0/0 is dropped by `min`.
     let error = (rounding / slope).min(right - left) + f64::EPSILON * time;
     Ok((time, error))

@@ -1,9 +1,8 @@
 //! One guard for which the model gives bounds.
 
 use super::bounded::Bounded;
-use super::enclosure::Enclosure;
 use super::enclosure_search::EnclosedGuard;
-use super::guard_rounding::guard_rounding;
+use super::guard_rounding::is_far;
 use super::guarded_flow::GuardedFlow;
 use super::one_guard::OneGuard;
 use super::quasi_polynomial_search::BoundedQuasiPolynomial;
@@ -55,13 +54,21 @@ fn first_event<F: GuardedFlow>(
     until: f64,
 ) -> Result<OneGuard, Error> {
     let Guard { surface, direction, touch, .. } = guard;
-    let at_start: Enclosure = bounded.at(0.0)?;
+    let (at_start, start) = (bounded.at(0.0)?, flow.start());
     let leaving = search.side(surface);
-    // A value that exceeds its own rounding by far needs no estimate of the rounding of the state.
-    let start = flow.start();
-    let of_state = guard_rounding(start, start, |state| flow.guard_value(surface, state));
-    let error = of_state + flow.guard_error(surface, start).unwrap_or(0.0);
-    let mut zeros = ZeroSearch::new(direction, (0.0, bounded.value(0.0)), at_start, error, leaving);
+    // The usual case, a guard far from its surface, needs no estimate of the rounding of the state.
+    let far = || {
+        let value = |state: &F::State| flow.guard_value(surface, state);
+        let now = value(start);
+        let stated = flow.guard_error(surface, start).unwrap_or(0.0);
+        stated < now.abs() && is_far(start, now, value)
+    };
+    let error = match leaving.is_none() && at_start.sign().is_some() && far() {
+        true => 0.0,
+        false => flow.rounding_at(surface, start),
+    };
+    let value = bounded.value(0.0);
+    let mut zeros = ZeroSearch::new(direction, (0.0, value), at_start, error, leaving);
     let mut budget = search.intervals;
     loop {
         let found = zeros.advance(bounded, until, until >= search.horizon, &mut budget)?;
@@ -69,6 +76,10 @@ fn first_event<F: GuardedFlow>(
             Found::Crossing { time, error, .. } => OneGuard::Crossing { time, error },
             // The search goes on behind the touch.
             Found::Touch { .. } if touch == Touch::Ignore => continue,
+            // An event is where the guard is clear again: the arc after it must not meet the same touch.
+            Found::Touch { error, value, until, .. } if touch == Touch::Event => {
+                OneGuard::Touch { time: until, error: 2.0 * error, value }
+            }
             // The value of the source may lack a factor.
             Found::Touch { time, error, .. } => {
                 OneGuard::Touch { time, error, value: flow.guard_at(surface, time) }

@@ -53,6 +53,8 @@ pub(crate) enum Found {
         error: f64,
         /// The computed value at that time.
         value: f64,
+        /// The end of the hidden interval: from this time on the function is clear of rounding again.
+        until: f64,
     },
     /// Rounding hides the function from some time up to the horizon.
     Undecided {
@@ -88,13 +90,17 @@ pub(crate) struct ZeroSearch {
     side: Option<f64>,
     /// The last time at which the function was clear of rounding, on `side`.
     clear: f64,
-    /// True as long as the function has not left the zero it started at.
+    /// True as long as it is not known how the function leaves the zero it started at.
     leaving: bool,
-    /// The value at the start, if it counts as zero. The zeros of g − level are searched until g is clear of its error.
+    /// True as long as the function has not been clear of the error of its start.
+    unclear: bool,
+    /// The value at the start, if it counts as zero. The zeros of g − level are searched as long as g is `unclear`.
     level: f64,
     /// The error of `level`.
     level_error: f64,
     hidden: Option<Hidden>,
+    /// The last crossing was found before the function had left its start clearly.
+    left_hidden: bool,
 }
 
 impl ZeroSearch {
@@ -106,9 +112,11 @@ impl ZeroSearch {
             side: Some(side),
             clear: time,
             leaving: false,
+            unclear: false,
             level: 0.0,
             level_error: 0.0,
             hidden: None,
+            left_hidden: false,
         }
     }
 
@@ -123,6 +131,7 @@ impl ZeroSearch {
         ZeroSearch {
             side,
             leaving: true,
+            unclear: true,
             level: value,
             level_error: error.max(value.abs()),
             ..Self::on_side(direction, time, 0.0)
@@ -156,10 +165,11 @@ impl ZeroSearch {
         self.side.filter(|_| !self.leaving && self.hidden.is_none())
     }
 
-    /// True if the function has not left the zero it started at.
+    /// True if the last crossing was found on the first interval that showed a side after the start at zero: rounding
+    /// hid how the function left its start, and that it came back.
     #[cfg(feature = "ode")]
-    pub(crate) fn is_leaving(&self) -> bool {
-        self.leaving
+    pub(crate) fn left_hidden(&self) -> bool {
+        self.left_hidden
     }
 
     /// Searches up to `until`. At the `horizon` no later stretch follows: a zero there, within rounding, is a crossing.
@@ -265,7 +275,7 @@ impl ZeroSearch {
         if let Some(hidden) = &mut self.hidden {
             let closest = closest(function, self.level, hidden, from, until);
             hidden.closest = Some(closest);
-            if horizon && !self.leaving {
+            if horizon && !self.unclear {
                 return Ok(Found::Undecided { time: closest.0, value: closest.1 });
             }
         }
@@ -291,20 +301,36 @@ impl ZeroSearch {
         let hidden = self.hidden.take();
         if sign == side {
             // A hidden interval at the start is not a touch: there the function leaves its zero.
-            let touch = hidden.filter(|_| !self.leaving).map(|hidden| {
-                let (time, value) = closest(function, self.level, &hidden, from, left);
-                Found::Touch { time, error: 0.5 * (left - hidden.from), value }
-            });
+            let touch = match hidden.filter(|_| !self.unclear) {
+                Some(hidden) => {
+                    let (time, value) = closest(function, self.level, &hidden, from, left);
+                    let until = self.clear_again(function, &hidden, (left, right), side)?;
+                    let error = 0.5 * (until - hidden.from);
+                    Some(Found::Touch { time, error, value, until })
+                }
+                None => None,
+            };
             self.pass(function, right, side)?;
             return Ok(touch);
         }
-        let found = if self.direction.admits(side, sign) {
-            // A stretch before this one is not known any more.
-            let after = self.clear.max(from);
-            let time = self.root(function, side, after, left, right)?;
-            let error = match hidden {
-                Some(hidden) => left - hidden.from,
-                None => function.root_error(time, after, right)?,
+        // Rounding hid how the function leaves its start, and now it is on the other side than its caller expected. If both
+        // directions count, no side is beyond the surface, and this is the side to which it left.
+        let at_start = self.leaving && self.direction == Direction::Either;
+        self.left_hidden = self.leaving;
+        let found = if self.direction.admits(side, sign) && !at_start {
+            let (time, error) = match hidden {
+                // Where the function is clear again. At an earlier time a new search would start in the same hidden
+                // interval, and could find a part of the same crossing.
+                Some(hidden) => {
+                    let time = self.clear_again(function, &hidden, (left, right), sign)?;
+                    (time, time - hidden.from)
+                }
+                None => {
+                    // A stretch before this one is not known any more.
+                    let after = self.clear.max(from);
+                    let time = self.root(function, side, after, left, right)?;
+                    (time, function.root_error(time, after, right)?)
+                }
             };
             Some(Found::Crossing { time, error, rising: side < 0.0 })
         } else {
@@ -314,12 +340,34 @@ impl ZeroSearch {
         Ok(found)
     }
 
+    /// The first of some times from `left` to `right` at which the function is clear of rounding behind a hidden interval.
+    /// It is monotone or clear there, and clear at `right`.
+    fn clear_again(
+        &self,
+        function: &impl Bounded,
+        hidden: &Hidden,
+        (left, right): (f64, f64),
+        sign: f64,
+    ) -> Result<f64, Error> {
+        let (mut time, mut step) = (left, (left - hidden.from).max(f64::EPSILON * left));
+        while time < right && function.at(time)?.above(self.level).sign() != Some(sign) {
+            time = (time + step).min(right);
+            step *= 2.0;
+        }
+        Ok(time)
+    }
+
     /// Moves to `time`, where the function is clearly on `side`.
     fn pass(&mut self, function: &impl Bounded, time: f64, side: f64) -> Result<(), Error> {
         (self.time, self.clear, self.side) = (time, time, Some(side));
         self.leaving = false;
-        if self.level != 0.0 && function.at(time)?.widened(self.level_error).sign() == Some(side) {
-            self.level = 0.0;
+        if self.unclear {
+            let value = function.at(time)?;
+            let is_clear =
+                |level: f64| value.above(level).widened(self.level_error).sign() == Some(side);
+            if is_clear(0.0) && is_clear(self.level) {
+                (self.unclear, self.level) = (false, 0.0);
+            }
         }
         Ok(())
     }
