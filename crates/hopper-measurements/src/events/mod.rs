@@ -8,7 +8,7 @@ mod ours;
 mod table;
 mod verdict;
 
-pub(crate) use answers::{Answer, answers};
+pub(crate) use answers::answers;
 pub(crate) use found::{by_diffsol, by_python, by_us};
 pub(crate) use table::{csv, markdown};
-pub(crate) use verdict::{Verdict, verdict};
+pub(crate) use verdict::verdict;
