@@ -30,13 +30,18 @@ VANISHES = mpfr("1e-11")
 FEW = mpfr("1e-10")
 # More steps mean that the method does not converge.
 MOST_STEPS = 12
+# The degree of the quadrature that a step over a kink is compared with, and its first stage after that at the start: the
+# stages before have lower orders.
+ROBUST = 3
+FIRST_ROBUST = 3
 # The interpolants are tabulated at this many Chebyshev nodes of the step (ode/chebyshev.rs).
 NODES = 16
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "crates" / "hybrid-system" / "src" / "ode" / "schemes"
 OUT = ROOT / "target" / "regenerate"
-# Published name, the higher order, the order of the interpolant, the file.
-PAIRS = (("9(8)", 9, 8, "nine.rs"), ("8(7)", 8, 8, "eight.rs"), ("6(5)", 6, 6, "six.rs"))
+# Published name, the higher order, the order of the interpolant, `kink_ratio` (schemes/scheme.rs; a test compares it
+# with the weights), the file.
+PAIRS = (("9(8)", 9, 8, 5, "nine.rs"), ("8(7)", 8, 8, 128, "eight.rs"), ("6(5)", 6, 6, 8, "six.rs"))
 HEADER = """\
 //! J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order {inside}.
 //!
@@ -266,7 +271,15 @@ def lines(items, indent):
     return "\n".join([*text, line.rstrip()]) + "\n"
 
 
-def source(name, inside, pair):
+def robust(nodes, stages):
+    """The weights of least squares of a quadrature at these stages that is exact up to degree ROBUST."""
+    powers = [[nodes[i] ** k for i in stages] for k in range(ROBUST + 1)]
+    gram = factor([[sum(map(mul, a, b), mpfr(0)) for b in powers[: k + 1]] for k, a in enumerate(powers)])
+    multipliers = solve(gram, [mpfr(1) / (k + 1) for k in range(ROBUST + 1)])
+    return {i: sum((x * row[j] for x, row in zip(multipliers, powers)), mpfr(0)) for j, i in enumerate(stages)}
+
+
+def source(name, inside, kink_ratio, pair):
     """The Rust file of a pair."""
     values, stages, total = pair.values, pair.stages, len(pair.rows)
     numbers = lambda terms: [(j, values[k]) for j, k in terms]
@@ -277,10 +290,15 @@ def source(name, inside, pair):
     errors = dense(with_first(errors, mpfr(0)), stages)
     text = HEADER.format(orders=name, order=pair.order, stages=stages, more=total - stages, inside=inside)
     same = pair.rows[stages - 1] == pair.weights
-    text += f"    order: {pair.order},\n    stages: {stages},\n    first_same_as_last: {str(same).lower()},\n"
+    text += f"    order: {pair.order},\n    stages: {stages},\n    kink_ratio: {number(float(kink_ratio))},\n"
+    text += f"    first_same_as_last: {str(same).lower()},\n"
     text += f"    degree: {max(map(len, pair.inside))},\n"
     text += "    weights: &[\n" + lines(map(number, weights), 8) + "    ],\n"
     text += "    errors: &[\n" + lines(map(number, errors), 8) + "    ],\n"
+    nodes = [node(pair, values, i) for i in range(stages)]
+    low = robust(nodes, [0, *range(FIRST_ROBUST, stages)])
+    kinks = [(j, higher.get(j, mpfr(0)) - low.get(j, mpfr(0))) for j in range(stages)]
+    text += "    kinks: &[\n" + lines(map(number, dense(with_first(kinks, mpfr(0)), stages)), 8) + "    ],\n"
     text += "    times: &[\n" + lines((number(float(node(pair, values, i))) for i in range(total)), 8) + "    ],\n"
     text += "    rows: &[\n"
     for i, row in enumerate(pair.rows):
@@ -301,9 +319,9 @@ def source(name, inside, pair):
 
 
 def made(job):
-    name, order, inside, file = job
+    name, order, inside, kink_ratio, file = job
     pair, sizes, more = polished(name, order, inside)
-    return file, sizes, more, source(name, inside, pair)
+    return file, sizes, more, source(name, inside, kink_ratio, pair)
 
 
 def verify(_check):

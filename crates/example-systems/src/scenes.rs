@@ -266,9 +266,12 @@ pub const CEILING: Scene<2> = Scene {
     ..BALL
 };
 
-/// The same with a touch as an event.
-pub const TOUCHED_CEILING: Scene<2> =
-    Scene { guards: &[&[Guard::rising(0).touch(Touch::Event)]], ..CEILING };
+/// The same with a touch as an event, which leaves the state as it is.
+pub const TOUCHED_CEILING: Scene<2> = Scene {
+    guards: &[&[Guard::rising(0).touch(Touch::Event)]],
+    reset: |_, _, x| (0, *x),
+    ..CEILING
+};
 
 /// The same with touches ignored.
 pub const IGNORED_CEILING: Scene<2> =

@@ -23,6 +23,18 @@ const MARKS: usize = 8;
 /// Periods that are compared in the usual case. Five slopes between them within one per cent are unlikely by chance.
 const USUAL_PERIODS: usize = 6;
 
+/// Events between the ends of periods that are compared, for periods of 1 to 4 events. Factors near 1 need a longer stride,
+/// for the lengths to fall enough. No period has a longer one than period 1, so that a multiple of the period is not found
+/// before it.
+const STRIDES: [&[usize]; LONGEST_PERIOD] = [&[1, 6], &[2, 6], &[3], &[4]];
+
+/// Durations that are compared with those a period before: two of the longest periods.
+const COMPARED: usize = 2 * LONGEST_PERIOD;
+
+/// Largest difference between the falls of single durations and the fall that the limit demands, relative. An
+/// alternation by more than this is a longer period.
+const PERIOD_SPREAD: f64 = 0.1;
+
 /// Periods that are compared if rounding hides the next event. The execution cannot continue in any other way then.
 const FEWEST_PERIODS: usize = 3;
 
@@ -65,6 +77,10 @@ const LONGEST_LAST_ARC: f64 = 1e-3;
 /// Rounding of a duration and of the state after it, relative, in ulps: each of the two is rounded once or twice.
 const ROUNDING_ULPS: f64 = 4.0;
 
+/// A duration below this many times its error is lost. A number near 1 would come too late: the durations may then no longer
+/// fall at all. A larger number stops earlier than rounding demands.
+const LOST: f64 = 4.0;
+
 /// The most events that are dropped at the end of the record if rounding hides the next event. A bounce of velocity v on
 /// a surface of size 1 has a relative error of 10⁻¹⁶/v², so that with a restitution of ½ each dropped event reduces the
 /// error by a factor of 4. For restitutions near 1 the marks are used.
@@ -96,6 +112,8 @@ pub(crate) struct Mark {
     pub(crate) error: f64,
     /// The sum of all four.
     pub(crate) sum: f64,
+    /// The sum of the errors of all events up to here.
+    pub(crate) total: f64,
 }
 
 /// The record.
@@ -130,6 +148,7 @@ impl Durations {
             durations: [0.0; LONGEST_PERIOD],
             error: 0.0,
             sum: 0.0,
+            total: 0.0,
         };
         Durations {
             durations: [0.0; KEPT],
@@ -163,7 +182,8 @@ impl Durations {
         }
         if self.fresh {
             let error = (0..LONGEST_PERIOD).map(|back| self.duration_error(back)).sum();
-            self.marks[self.marked % MARKS] = Mark { time: now, durations: last, error, sum };
+            self.marks[self.marked % MARKS] =
+                Mark { time: now, durations: last, error, sum, total: self.error };
             self.marked += 1;
         }
     }
@@ -178,12 +198,19 @@ impl Durations {
         if back < self.count { self.durations[(self.count - 1 - back) % KEPT] } else { 0.0 }
     }
 
+    /// The error of that duration, as stated by the search.
+    fn stated_error(&self, back: usize) -> f64 {
+        if back < self.count { self.errors[(self.count - 1 - back) % KEPT] } else { 0.0 }
+    }
+
+    /// The error of that duration, with its rounding.
     fn duration_error(&self, back: usize) -> f64 {
-        if back >= self.count {
-            return 0.0;
-        }
-        let place = (self.count - 1 - back) % KEPT;
-        self.errors[place] + ROUNDING_ULPS * f64::EPSILON * self.durations[place]
+        self.stated_error(back) + ROUNDING_ULPS * f64::EPSILON * self.duration(back)
+    }
+
+    /// True if the newest duration may be wrong by a large part of itself. Further durations are rounding errors then.
+    pub(crate) fn is_lost(&self) -> bool {
+        self.count > 0 && self.duration(0) < LOST * self.stated_error(0)
     }
 
     /// The sum of all further durations in the usual case; `None` if they are not recognised as a convergent series.
@@ -194,11 +221,19 @@ impl Durations {
             return None;
         }
         (1..=LONGEST_PERIOD).find_map(|period| {
-            let fast = self.recent(period, 0, USUAL_PERIODS).and_then(|periods| {
+            // The remainder of a geometric series is D²/(D_before − D). This test saves the fits.
+            let sum = |from: usize| -> f64 {
+                (from..from + period).map(|back| self.duration(back)).sum()
+            };
+            let (last, before) = (sum(0), sum(period));
+            let near = last * last <= 2.0 * USUAL_REMAINDER * self.elapsed * (before - last);
+            let strides = if near { STRIDES[period - 1] } else { &[] };
+            let mut fast = strides.iter().filter_map(|&stride| {
+                let periods = self.recent(period, stride, 0, USUAL_PERIODS)?;
                 let fit = geometric(&periods, USUAL_SPREAD)?;
-                self.accepted(fit, &periods, period, USUAL_REMAINDER)
+                self.accepted(fit, &periods, period, self.error, USUAL_REMAINDER)
             });
-            fast.or_else(|| self.slow(period))
+            fast.next().or_else(|| self.slow(period)).filter(|found| self.is_period(found))
         })
     }
 
@@ -210,7 +245,7 @@ impl Durations {
         let periods = self.marked_periods(period, 0, MARKS)?;
         let newest = &periods[MARKS - USUAL_PERIODS..];
         if let Some(fit) = geometric(newest, USUAL_SPREAD) {
-            return self.accepted(fit, newest, period, USUAL_REMAINDER);
+            return self.accepted(fit, newest, period, self.error, USUAL_REMAINDER);
         }
         // The remainder of a power law is larger than that of the straight line through the last two lengths. This
         // test saves the fit while the remainder is large.
@@ -221,9 +256,9 @@ impl Durations {
         }
         let fit = power_law(newest).filter(|fit| fit.order <= LARGEST_ORDER)?;
         if fit.order >= SLOW_ORDER && fit.error <= SLOW_ERROR * self.elapsed {
-            return self.accepted(fit, newest, period, LARGEST_REMAINDER);
+            return self.accepted(fit, newest, period, self.error, LARGEST_REMAINDER);
         }
-        self.accepted(fit, newest, period, USUAL_REMAINDER)
+        self.accepted(fit, newest, period, self.error, USUAL_REMAINDER)
     }
 
     /// The sum of all further durations if rounding hides the next event.
@@ -237,9 +272,11 @@ impl Durations {
         (1..=LONGEST_PERIOD).find_map(|period| {
             let recent = (0..=MOST_DROPPED).filter_map(|dropped| {
                 (FEWEST_PERIODS..=USUAL_PERIODS).find_map(|number| {
-                    let periods = self.recent(period, dropped, number)?;
+                    let periods = self.recent(period, period, dropped, number)?;
                     let fit = geometric(&periods, HIDDEN_SPREAD)?;
-                    self.accepted(fit, &periods, period, LARGEST_REMAINDER)
+                    let later: f64 = (0..dropped).map(|back| self.stated_error(back)).sum();
+                    let total = (self.error - later).max(0.0);
+                    self.accepted(fit, &periods, period, total, LARGEST_REMAINDER)
                 })
             });
             let marked = (0..MARKS - FEWEST_PERIODS).filter_map(|dropped| {
@@ -247,25 +284,46 @@ impl Durations {
                 let periods = self.marked_periods(period, dropped, number)?;
                 let fit = geometric(&periods, HIDDEN_SPREAD)
                     .or_else(|| power_law(&periods).filter(|fit| fit.order <= LARGEST_ORDER))?;
-                self.accepted(fit, &periods, period, LARGEST_REMAINDER)
+                let total = self.marks[(self.marked - 1 - dropped) % MARKS].total;
+                self.accepted(fit, &periods, period, total, LARGEST_REMAINDER)
             });
             recent.chain(marked).min_by(|a, b| a.error.total_cmp(&b.error))
         })
     }
 
-    /// `number` periods one after the other, the oldest first, after dropping the newest events.
-    fn recent(&self, period: usize, dropped: usize, number: usize) -> Option<Periods> {
-        if dropped + number * period > self.count.min(KEPT) {
+    /// True if each of the last eight durations is in the ratio to the one a period before that the limit demands. Durations
+    /// that alternate look like a series of period 1 at every second event.
+    fn is_period(&self, found: &Remainder) -> bool {
+        // 1 − q of the durations is μ times that of the remainder.
+        let fall = found.order * found.length / (found.length + found.time);
+        (0..COMPARED.min(self.count - found.period)).all(|back| {
+            let before = self.duration(back + found.period);
+            let fell = 1.0 - self.duration(back) / before;
+            let noise =
+                (self.duration_error(back) + self.duration_error(back + found.period)) / before;
+            (fell - fall).abs() <= PERIOD_SPREAD * fall + noise
+        })
+    }
+
+    /// `number` periods, the oldest first, that end `stride` events apart, after dropping the newest events.
+    fn recent(
+        &self,
+        period: usize,
+        stride: usize,
+        dropped: usize,
+        number: usize,
+    ) -> Option<Periods> {
+        if dropped + (number - 1) * stride + period > self.count.min(KEPT) {
             return None;
         }
+        let sum = |from: usize, to: usize| (from..to).map(|back| self.duration(back)).sum::<f64>();
         let mut periods = Periods::new();
-        let mut end = -(0..dropped).map(|back| self.duration(back)).sum::<f64>();
+        let mut end = -sum(0, dropped);
         for index in 0..number {
-            let first = dropped + index * period;
-            let length = (first..first + period).map(|back| self.duration(back)).sum();
+            let first = dropped + index * stride;
             let error = (first..first + period).map(|back| self.duration_error(back)).sum();
-            periods.push(Period { end, length, error });
-            end -= length;
+            periods.push(Period { end, length: sum(first, first + period), error });
+            end -= sum(first, first + stride);
         }
         periods.reverse();
         Some(periods)
@@ -289,12 +347,14 @@ impl Durations {
         Some(periods)
     }
 
-    /// The remainder after the newest event from a fit, if it is not above `largest` of the time so far.
+    /// The remainder after the newest event from a fit, if it is not above `largest` of the time so far. `total` is the sum
+    /// of the errors of the events up to the end of the fit: later events do not change the limit that is predicted.
     fn accepted(
         &self,
         fit: Fit,
         periods: &[Period],
         period: usize,
+        total: f64,
         largest: f64,
     ) -> Option<Remainder> {
         let last = periods.last()?;
@@ -302,7 +362,9 @@ impl Durations {
         // changes all further durations by 2δ/T of their size, T the duration before it.
         let mean = last.length / period as f64;
         let amplification = 1.0 + 2.0 * fit.remainder / (fit.order * mean);
-        let accumulated = self.error + ROUNDING_ULPS * f64::EPSILON * self.elapsed;
+        // The errors of the events may be larger than stated. An error δ shows in the slope as δ/T of its size, or more.
+        let shown = fit.scatter * mean;
+        let accumulated = total + ROUNDING_ULPS * f64::EPSILON * self.elapsed + shown;
         let time = last.end + fit.remainder;
         // The limit is not earlier than the newest event.
         let error = fit.error + (-time).max(0.0);

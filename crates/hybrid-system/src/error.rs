@@ -273,8 +273,8 @@ pub enum Error {
     },
     /// A sliding motion that starts beside its surface.
     #[error(
-        "a sliding motion cannot start beside its surface {surface}: the guard is {value:e}, and its rounding error \
-         is below {largest:e}; start in a free mode"
+        "a sliding motion cannot start beside its surface {surface}: the guard is {value:e}, and the tolerances of the \
+         flow allow {largest:e}; start in a free mode"
     )]
     OffSurface {
         /// Name of the surface.

@@ -197,9 +197,9 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 certainty,
             }));
         }
-        let clock = self.next_clock(horizon);
+        let clock = self.next_clock(horizon)?;
         let search = Search {
-            horizon: clock.map_or(horizon, |(_, until)| until),
+            horizon: clock.map_or(horizon, |clock| clock.until),
             sampling_interval: self.limits.sampling_interval,
             intervals: self.limits.intervals,
             steps: self.limits.steps,
@@ -208,38 +208,46 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         };
         let found = self.system.first_crossing(mode, state, &search)?;
         match (found, clock) {
-            (NextEvent::None { state: end, certainty }, Some((surface, until))) => {
-                Ok(NextEvent::Crossing(Crossing {
-                    surface,
-                    time: until,
-                    time_error: 0.0,
-                    state: end.unwrap_or_else(|| flow_to(&flow, until)),
-                    kind: EventKind::Clock,
-                    certainty,
-                }))
-            }
+            (
+                NextEvent::None { state: end, certainty },
+                Some(ClockEvent { surface, until, .. }),
+            ) => Ok(NextEvent::Crossing(Crossing {
+                surface,
+                time: until,
+                time_error: 0.0,
+                state: end.unwrap_or_else(|| flow_to(&flow, until)),
+                kind: EventKind::Clock,
+                certainty,
+            })),
             (found, _) => Ok(found),
         }
     }
 
-    /// The clock with the earliest preset time, and the duration up to it, if that is no longer than `horizon`.
-    fn next_clock(&self, horizon: f64) -> Option<(T::Surface, f64)> {
+    /// The clock with the earliest preset time, if that is within `horizon`.
+    ///
+    /// # Errors
+    /// [`Error::BadLimit`] for a time that is not later than the present: the clock would never move on.
+    fn next_clock(&self, horizon: f64) -> Result<Option<ClockEvent<T::Surface>>, Error> {
         let now = self.at.time.value();
         let guards = self.system.guards(self.at.mode).iter();
-        let mut earliest: Option<(T::Surface, f64)> = None;
+        let mut earliest: Option<ClockEvent<T::Surface>> = None;
         for guard in guards.filter(|guard| guard.role == Role::Clock) {
             // A clock whose time is now, and that has not had its event yet, must not be lost.
             let had_its_event = self.at.initial || self.at.chain.contains(guard.surface);
             let after = if had_its_event { now } else { now.next_down() };
-            let Some(next) = self.system.next_time(self.at.mode, guard.surface, after) else {
+            let Some(time) = self.system.next_time(self.at.mode, guard.surface, after) else {
                 continue;
             };
-            let until = self.at.time.until(next).max(0.0);
-            if until <= horizon && earliest.is_none_or(|(_, first)| until < first) {
-                earliest = Some((guard.surface, until));
+            if !(time > after) {
+                let what = "a time of a clock that is not later than the time before it";
+                return Err(Error::BadLimit { what, value: time });
+            }
+            let until = self.at.time.until(time).max(0.0);
+            if until <= horizon && earliest.is_none_or(|first| until < first.until) {
+                earliest = Some(ClockEvent { surface: guard.surface, until, time });
             }
         }
-        earliest
+        Ok(earliest)
     }
 
     /// An arc that ends in an event.
@@ -250,7 +258,15 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     ) -> Result<AnArc<T>, Error> {
         let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
         let before = self.at.time.value();
-        let time = self.at.time.plus(duration);
+        let mut time = self.at.time.plus(duration);
+        // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the same time
+        // once more.
+        if kind == EventKind::Clock
+            && let Some(clock) = self.next_clock(horizon)?
+            && clock.surface == surface
+        {
+            time = TimeSum::new(clock.time);
+        }
         let time_passes = time.value() > before;
         if time_passes {
             self.at.chain.clear();
@@ -427,6 +443,16 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             state: self.at.state.components().to_vec(),
         })
     }
+}
+
+/// The next event of a clock.
+#[derive(Debug, Clone, Copy)]
+struct ClockEvent<S> {
+    surface: S,
+    /// Duration up to it.
+    until: f64,
+    /// Its time t.
+    time: f64,
 }
 
 /// An arc of a system.

@@ -8,6 +8,7 @@
 //!
 //! | item | role |
 //! |---|---|
+//! | [`Model`] | a model written with closures, in some 20 lines |
 //! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
 //! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
 //! | [`Crossing`], [`Certainty`] | the first crossing, and how certain it is: exact, certain, interpolated or sampled |
@@ -15,8 +16,12 @@
 //! | [`Enclosure`] | bounds on a guard, given by the model |
 //! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
 //! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
+//! | [`Trajectory`] | an execution as arrays: states on a grid of times, events in columns |
+//! | [`Checkpoint`] | an execution between two arcs, to be restored or saved (feature `serde`) |
 //! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
 //! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
+//! | [`Sliding`] | a point of a surface at which the fields on both sides point |
+//! | `Filippov` | a system that goes on along such surfaces (feature `ode`) |
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
@@ -26,49 +31,29 @@
 //!
 //! ```
 //! use hybrid_system::*;
-//! use nalgebra::Vector2;
 //!
-//! #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-//! struct Floor;
-//!
-//! struct Ball { restitution: f64 }
-//!
-//! impl HybridSystem for Ball {
-//!     type State = State<2>;
-//!     type Mode = ();
-//!     type Surface = Floor;
-//!     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
-//!         Vector2::new(x[0] + t * (x[1] - t / 2.0), x[1] - t)
-//!     }
-//!     fn guards(&self, _: ()) -> &[Guard<Floor>] {
-//!         const { &[Guard::falling(Floor)] }
-//!     }
-//!     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
-//!         x[0]
-//!     }
-//!     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), State<2>> {
-//!         Reset::Jump { mode: (), state: Vector2::new(0.0, -self.restitution * x[1]) }
-//!     }
-//! }
-//!
-//! let ball = Ball { restitution: 0.5 };
-//! let limits = Limits::sampled(100.0, 3, 1e-2);
+//! let restitution = 0.5;
+//! let ball = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+//!     .falling((), |x| x[0], |x| ((), [0.0, -restitution * x[1]]))
+//!     .sampled(1e-2);
 //! let mut times = Vec::new();
-//! for arc in Execution::new(&ball, (), Vector2::new(0.5, 0.0), limits) {
+//! for arc in ball.run((), [0.5, 0.0], 2.8) {
 //!     if let Some(event) = arc?.event() {
 //!         times.push(event.time);
 //!     }
 //! }
 //! // Dropped from ½ under unit gravity the ball lands after 1. Each flight is half as long as the one before.
-//! for (time, exact) in times.iter().zip([1.0, 2.0, 2.5]) {
+//! assert_eq!(times.len(), 4);
+//! for (time, exact) in times.iter().zip([1.0, 2.0, 2.5, 2.75]) {
 //!     assert!((time - exact).abs() < 1e-14);
 //! }
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! More: [the mathematics](mathematics), [which certainty do I have?](certainty), and [a model of your own in 40
-//! lines](guide). The examples `bouncing_ball` and `plastic_landing` have bodies that rest on another one and are
-//! released.
+//! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which
+//! certainty do I have?](certainty), and [a model of your own in 20 lines](guide). In the examples `bouncing_ball`,
+//! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in `dry_friction` a mass
+//! sticks to a belt.
 //!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
@@ -83,7 +68,7 @@
 //! kind of guard.
 //!
 //! # Not here
-//! Stiff integrators, differential-algebraic equations, sliding along surfaces (a model can have a mode for that). The
+//! Stiff integrators, differential-algebraic equations, sliding along several surfaces at once. The
 //! sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its surface at the first
 //! sample.
 //!
@@ -135,8 +120,8 @@ pub use guard::{Direction, Guard, Role, Touch};
 #[cfg(feature = "ode")]
 pub use model::Integrated;
 pub use model::{
-    Bounds, Clock, ClosedForm, Jump, JumpEverywhere, Model, Motion, Outcome, Part, Rest, Signal,
-    Slide, Terminal, Watch,
+    Bounds, Clock, ClosedForm, Field, Jump, JumpEverywhere, Model, Motion, Outcome, Part, Rest,
+    Signal, Slide, Terminal, Watch,
 };
 #[cfg(feature = "ode")]
 pub use ode::{
@@ -156,8 +141,14 @@ pub use zeno::ZenoLimit;
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}
 
+#[doc = include_str!("../docs/semantics.md")]
+pub mod semantics {}
+
 #[doc = include_str!("../docs/certainty.md")]
 pub mod certainty {}
+
+#[doc = include_str!("../docs/sliding.md")]
+pub mod sliding_motion {}
 
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}

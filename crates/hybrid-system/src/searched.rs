@@ -1,9 +1,10 @@
 //! A system whose crossings are found by sampling, although it could solve for them.
 
+use crate::error::Error;
 use crate::guard::Guard;
 use crate::system::{HybridSystem, Reset};
 
-/// A system with its flows, guards and resets only.
+/// A system with its flows, guards, clocks and resets only.
 ///
 /// This type hides the system's own solutions for crossings, the quasi-polynomials and enclosures of its guards, and
 /// its rest after infinitely many events: an execution samples the guards. A test that compares it with the system
@@ -35,5 +36,13 @@ impl<T: HybridSystem> HybridSystem for Searched<T> {
         before: &T::State,
     ) -> Reset<T::Mode, T::State> {
         self.0.reset(mode, surface, before)
+    }
+
+    fn next_time(&self, mode: T::Mode, surface: T::Surface, after: f64) -> Option<f64> {
+        self.0.next_time(mode, surface, after)
+    }
+
+    fn validate(&self, mode: T::Mode, start: &T::State) -> Result<(), Error> {
+        self.0.validate(mode, start)
     }
 }

@@ -5,8 +5,7 @@
 
 /// A time t = high + low, where `high` is the double nearest to t.
 ///
-/// A sum of n durations is wrong by n·2⁻¹⁰⁴ of the largest time at most (Joldes, Muller and Popescu 2017, algorithm
-/// `DWPlusFP`: 2⁻¹⁰⁵ for each addition). Times and durations must be below 10³⁰⁰ in size, so that no sum overflows; an
+/// A sum of n durations is wrong by n·2⁻¹⁰⁴ of the largest time at most, 2⁻¹⁰⁵ for each addition. Times and durations must be below 10³⁰⁰ in size, so that no sum overflows; an
 /// infinite time is kept as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -17,7 +16,7 @@ pub(crate) struct TimeSum {
     pub(crate) low: f64,
 }
 
-/// a + b as the nearest double and the exact rest (Knuth 1969, TwoSum).
+/// a + b as the nearest double and the exact rest (Knuth's TwoSum).
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
@@ -25,7 +24,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
     (sum, (a - a_part) + (b - b_part))
 }
 
-/// The same for |a| ≥ |b| or a = 0 (Dekker 1971, Fast2Sum).
+/// The same for |a| ≥ |b| or a = 0 (Dekker's Fast2Sum).
 fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     (sum, b - (sum - a))

@@ -7,6 +7,7 @@ use crate::execution::Execution;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use nalgebra::DMatrix;
+use std::fmt::Debug;
 
 /// An execution, sampled: one row for each sample. Arrays of equal length, as plotting programs take them.
 ///
@@ -23,7 +24,7 @@ pub struct Trajectory<M, S> {
     pub modes: Vec<M>,
     /// The states: one row for each sample, one column for each component.
     pub states: DMatrix<f64>,
-    /// True for one row at each time of the grid. At the time of an event it is the row after the last jump of that instant.
+    /// True for one row at each time of the grid, also if the grid has it twice. At the time of an event it is the row after the last jump of that instant.
     pub on_grid: Vec<bool>,
     /// The events, in columns.
     pub events: EventColumns<M, S>,
@@ -75,43 +76,19 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// # Errors
     /// [`Error::BadLimit`] for a grid that is not in ascending order, or not finite; the errors of the execution, and
     /// those of [`Arc::states`].
-    pub fn trajectory(self, grid: &[f64]) -> Result<Trajectory<T::Mode, T::Surface>, Error> {
+    pub fn trajectory(&mut self, grid: &[f64]) -> Result<Trajectory<T::Mode, T::Surface>, Error> {
         check_grid(grid)?;
         let system = self.system;
         let mut rows = Rows::new(self.at.state.dimension());
         // Times before the start have no row.
         let mut next = grid.partition_point(|&time| time < self.at.time.value());
         let mut last_end = None;
-        for arc in self {
+        for arc in self.by_ref() {
             let arc = arc?;
-            let (end, state) = end_of(&arc, system)?;
-            if end > arc.time {
-                // Grid times at the end belong to the next arc, if there is one.
-                let inside = next + grid[next..].partition_point(|&time| time < end);
-                let at_start =
-                    grid[next..inside].iter().take_while(|&&time| time <= arc.time).count();
-                let between = &grid[next + at_start..inside];
-                rows.push(arc.time, &arc, arc.start.components(), at_start > 0);
-                let elapsed: Vec<f64> = between.iter().map(|time| time - arc.time).collect();
-                if matches!(arc.end, ArcEnd::Zeno { .. }) {
-                    // The arc replaces infinitely many. All their states are as close to its start as to the limit.
-                    between
-                        .iter()
-                        .for_each(|&time| rows.push(time, &arc, arc.start.components(), true));
-                } else {
-                    let states = arc.states(system, &elapsed)?;
-                    for (&time, state) in between.iter().zip(&states) {
-                        rows.push(time, &arc, state.components(), true);
-                    }
-                }
-                next = inside;
-                if let Some(state) = &state {
-                    rows.push(end, &arc, state.components(), false);
-                }
-            } else {
-                rows.push(arc.time, &arc, arc.start.components(), false);
-            }
-            rows.event(&arc);
+            let end = end_of(&arc);
+            rows.arc(system, &arc, end, &grid[next..])?;
+            // Grid times at the end belong to the next arc, if there is one.
+            next += grid[next..].partition_point(|&time| time < end);
             last_end = Some(end);
         }
         // Grid times at the end of the last arc.
@@ -131,18 +108,14 @@ fn check_grid(grid: &[f64]) -> Result<(), Error> {
     }
 }
 
-/// Time and state at the end of an arc; no state for an arc that never ends.
-fn end_of<T: HybridSystem>(
-    arc: &Arc<T::Mode, T::Surface, T::State>,
-    system: &T,
-) -> Result<(f64, Option<T::State>), Error> {
+/// Time at the end of an arc.
+fn end_of<M, S, X>(arc: &Arc<M, S, X>) -> f64 {
     match &arc.end {
-        ArcEnd::Event(event) => Ok((event.time, Some(event.before.clone()))),
-        ArcEnd::Zeno { limit, .. } => Ok((limit.time, Some(limit.state.clone()))),
-        ArcEnd::Sliding { sliding, .. } => Ok((sliding.time, Some(sliding.state.clone()))),
-        ArcEnd::Never { .. } => Ok((f64::INFINITY, None)),
-        ArcEnd::TimeLimit { .. } | ArcEnd::Unfinished { .. } => {
-            Ok((arc.time + arc.duration, Some(arc.state(system, arc.duration)?)))
+        ArcEnd::Event(event) => event.time,
+        ArcEnd::Zeno { limit, .. } => limit.time,
+        ArcEnd::Sliding { sliding, .. } => sliding.time,
+        ArcEnd::Never { .. } | ArcEnd::TimeLimit { .. } | ArcEnd::Unfinished { .. } => {
+            arc.time + arc.duration
         }
     }
 }
@@ -165,7 +138,7 @@ struct Rows<M, S> {
     certainties: Vec<Certainty>,
 }
 
-impl<M: Copy, S: Copy> Rows<M, S> {
+impl<M: Copy + Eq + Debug, S: Copy + Eq + Debug> Rows<M, S> {
     fn new(dimension: usize) -> Self {
         Rows {
             dimension,
@@ -183,6 +156,50 @@ impl<M: Copy, S: Copy> Rows<M, S> {
             kinds: Vec::new(),
             certainties: Vec::new(),
         }
+    }
+
+    /// The rows of an arc, with the first of the times that are not before it.
+    fn arc<T>(
+        &mut self,
+        system: &T,
+        arc: &Arc<M, S, T::State>,
+        end: f64,
+        grid: &[f64],
+    ) -> Result<(), Error>
+    where
+        T: HybridSystem<Mode = M, Surface = S>,
+    {
+        let at_start = grid.iter().take_while(|&&time| time <= arc.time && time < end).count();
+        self.push(arc.time, arc, arc.start.components(), at_start > 0);
+        self.event(arc);
+        if end <= arc.time {
+            return Ok(());
+        }
+        let mut between = grid[at_start..grid.partition_point(|&time| time < end)].to_vec();
+        between.dedup();
+        let last_state = match &arc.end {
+            ArcEnd::Event(event) => Some(&event.before),
+            ArcEnd::Sliding { sliding, .. } => Some(&sliding.state),
+            ArcEnd::Zeno { limit, .. } => {
+                // The arc replaces infinitely many. All their states are as close to its start as to the limit.
+                between.iter().for_each(|&time| self.push(time, arc, arc.start.components(), true));
+                self.push(end, arc, limit.state.components(), false);
+                return Ok(());
+            }
+            ArcEnd::Never { .. } | ArcEnd::TimeLimit { .. } | ArcEnd::Unfinished { .. } => None,
+        };
+        let mut elapsed: Vec<f64> = between.iter().map(|time| time - arc.time).collect();
+        if last_state.is_none() && end.is_finite() {
+            elapsed.push(arc.duration);
+        }
+        let states = arc.states(system, &elapsed)?;
+        for (&time, state) in between.iter().zip(&states) {
+            self.push(time, arc, state.components(), true);
+        }
+        if let Some(state) = last_state.or_else(|| states.get(between.len())) {
+            self.push(end, arc, state.components(), false);
+        }
+        Ok(())
     }
 
     fn push<X>(&mut self, time: f64, arc: &Arc<M, S, X>, state: &[f64], on_grid: bool) {

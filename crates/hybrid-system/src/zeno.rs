@@ -13,7 +13,8 @@ use crate::time_sum::TimeSum;
 ///
 /// * **A geometric series**, possibly with a period of up to four events. Over six periods the lengths of the periods must fall
 ///   in proportion to the time that remains, within one per cent; the sum of all further durations must be below 10⁻¹² of
-///   the time so far. If rounding hides the next event, three periods, ten per cent and 10⁻⁵ suffice.
+///   the time so far. If rounding hides the next event, or the errors of the events are a quarter of the durations, three
+///   periods, ten per cent and 10⁻⁵ suffice.
 /// * **A power law** k^(−p) of the number k of events, p > 1.14: the restitution tends to 1 as the speed tends to 0.
 ///   Predictions of the limit from durations that halve must converge. The remainder must be below 10⁻¹² of the time so
 ///   far, or, for p < 3.5, below 10⁻⁵ with an error below 10⁻¹⁰.
@@ -86,9 +87,10 @@ impl<X: StateVector> History<X> {
 
     /// The Zeno limit of the last arcs; `None` if their durations are not recognised as a convergent series.
     ///
-    /// `next_event_hidden` is true if rounding hides the next event.
+    /// `next_event_hidden` is true if rounding hides the next event. The search may also go on to find events although their
+    /// times are lost in their errors: that is the same case.
     pub(crate) fn zeno_limit(&self, next_event_hidden: bool) -> Option<ZenoLimit<X>> {
-        let remainder = if next_event_hidden {
+        let remainder = if next_event_hidden || self.durations.is_lost() {
             self.durations.remainder_if_hidden()
         } else {
             self.durations.remainder()

@@ -81,13 +81,70 @@ fn events_at_one_instant() {
 
 #[test]
 fn integrated_modes_clocks_and_observers() {
+    let ticks = PeriodicTimes::new(0.1, 0.1).unwrap();
     let room = Model::integrated(|on, x: &State<1>| [if on { 30.0 } else { 10.0 } - x[0]])
         .rising(true, |x| x[0] - 21.0, |x| (false, *x))
         .falling(false, |x| x[0] - 19.0, |x| (true, *x))
         .observer(Guard::either(2), |x| x[0] - 20.0)
-        .clock_everywhere(3, |after| Some((after * 10.0).floor() / 10.0 + 0.1), |on, x| (on, *x));
+        .clock_everywhere(3, |after| ticks.next_after(after), |on, x| (on, *x));
     let arcs = restored_at_every_arc(&room, true, State::from([15.0]), Limits::new(1.0, 100));
     assert!(arcs > 10);
+}
+
+/// A relay, ẋ = −sgn x + 0.3 with a drift t/3: it slides on x = 0 until the drift is too strong, at 2.1.
+#[test]
+fn sliding_modes() {
+    let relay = Model::integrated(|above, x: &State<2>| {
+        [if above { -1.0 } else { 1.0 } + 0.3 + x[1] / 3.0, 1.0]
+    })
+    .falling(true, |x| x[0], |x| (false, *x))
+    .rising(false, |x| x[0], |x| (true, *x));
+    let sliding = Filippov::new(relay, Tolerances::both(1e-10));
+    let (start, limits) = (State::from([-0.5, 0.0]), Limits::new(4.0, 100));
+    for arc in Execution::new(&sliding, FilippovMode::Free(false), start, limits).take(12) {
+        eprintln!("{arc:?}");
+    }
+    let arcs = restored_at_every_arc(&sliding, FilippovMode::Free(false), start, limits);
+    // Up to the surface, onto it, along it, and up.
+    assert_eq!(arcs, 4);
+}
+
+/// A model that solves for its own crossings.
+struct Exact;
+
+impl HybridSystem for Exact {
+    type State = State<1>;
+    type Mode = bool;
+    type Surface = u8;
+    fn flow(&self, up: bool, x: &State<1>, t: f64) -> State<1> {
+        State::from([x[0] + if up { t } else { -t }])
+    }
+    fn guards(&self, up: bool) -> &[Guard<u8>] {
+        if up { const { &[Guard::rising(1)] } } else { const { &[Guard::falling(0)] } }
+    }
+    fn guard_value(&self, surface: u8, x: &State<1>) -> f64 {
+        x[0] - f64::from(surface)
+    }
+    fn reset(&self, up: bool, _: u8, x: &State<1>) -> Reset<bool, State<1>> {
+        Reset::Jump { mode: !up, state: *x }
+    }
+    fn first_crossing(
+        &self,
+        up: bool,
+        x: &State<1>,
+        search: &Search<u8>,
+    ) -> Result<NextEvent<u8, State<1>>, Error> {
+        let time = if up { 1.0 - x[0] } else { x[0] };
+        let surface = u8::from(up);
+        let crossing = Crossing::exact(surface, time, State::from([f64::from(surface)]));
+        Ok(Some(crossing).filter(|_| time <= search.horizon).into())
+    }
+}
+
+#[test]
+fn exact_crossings() {
+    let arcs = restored_at_every_arc(&Exact, true, State::from([0.1]), Limits::new(9.35, 100));
+    assert_eq!(arcs, 10);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
-use nalgebra::DVector;
+use nalgebra::{DVector, SMatrix};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Heater {
@@ -150,8 +150,16 @@ fn a_touch_is_what_the_guard_says() {
             Some(swing + QuasiPolynomial::polynomial(&[-1.0]))
         })
     };
-    let touches = swing(Touch::Error).run((), [0.0, 1.0], 5.0).next().unwrap();
-    assert!(matches!(touches, Err(Error::Grazing { .. })), "{touches:?}");
+    let ends = |touch| {
+        let kind = |arc: Arc<_, _, _>| arc.event().map(|event| event.kind);
+        swing(touch)
+            .run((), [0.0, 1.0], 5.0)
+            .map(|arc| arc.map(kind))
+            .collect::<Result<Vec<_>, _>>()
+    };
+    assert!(matches!(ends(Touch::Error), Err(Error::Grazing { .. })));
+    assert_eq!(ends(Touch::Event).unwrap(), [Some(EventKind::Touch), None]);
+    assert_eq!(ends(Touch::Ignore).unwrap(), [None]);
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -212,6 +220,13 @@ fn a_dimension_chosen_at_run_time() {
             .falling((), |x| x.norm() - 1.0, |x| ((), x * 4.0))
             .sampled(0.1);
         let start = vec![4.0; dimension];
+        let integrated = Model::integrated(|(), x: &DVector<f64>| -x).falling(
+            (),
+            |x| x.norm() - 1.0,
+            |x| ((), x * 4.0),
+        );
+        let first = integrated.run((), start.clone(), 5.0).next().unwrap().unwrap();
+        assert!((first.duration - (16.0 * dimension as f64).ln() / 2.0).abs() < 1e-9);
         let first = decay.run((), start.clone(), 5.0).next().unwrap().unwrap();
         let landed = first.event().unwrap();
         assert_eq!(landed.before.len(), dimension);
@@ -249,4 +264,38 @@ fn a_mode_without_guards_flows_to_the_limit() {
     let arc = execution.next().unwrap().unwrap();
     assert_eq!((arc.duration, execution.stop()), (2.0, Some(Stop::TimeLimit)));
     assert!((arc.state(&decay, 2.0).unwrap()[0] - (-2.0f64).exp()).abs() < 1e-9);
+}
+
+#[test]
+fn a_field_of_another_dimension_is_an_error() {
+    let wrong = Model::integrated(|(), x: &DVector<f64>| DVector::from_element(x.len() + 1, 1.0))
+        .rising((), |x| x[0] - 1.0, |x| ((), x.clone()));
+    let first = wrong.run((), vec![0.0, 0.0], 5.0).next().unwrap();
+    assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 3, .. })), "{first:?}");
+    let reset = Model::integrated(|(), x: &DVector<f64>| DVector::from_element(x.len(), 1.0))
+        .rising((), |x| x[0] - 1.0, |_| ((), vec![0.0]));
+    let first = reset.run((), vec![0.0, 0.0], 5.0).next().unwrap();
+    assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 1, .. })), "{first:?}");
+}
+
+/// A ball that lands with the speed v and leaves with v/2: a start that is faster by δ leaves faster by δ/2 and later by
+/// 2δ. Compared at the same time it is faster by δ/2 + 2δ.
+#[test]
+fn derivatives_through_events() {
+    let closed = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+        .field(|(), x| [x[1], -1.0])
+        .falling((), |x| x[0], |x| ((), [0.0, -0.5 * x[1]]))
+        .signal(0, |(), x| Some(QuasiPolynomial::polynomial(&[x[0], x[1], -0.5])));
+    let integrated = Model::integrated(|(), x: &State<2>| [x[1], -1.0]).falling(
+        (),
+        |x| x[0],
+        |x| ((), [0.0, -0.5 * x[1]]),
+    );
+    let start = State::from([0.0, 3.0]);
+    let change =
+        |arc: Result<SMatrix<f64, 2, 2>, Error>| (arc.unwrap() * State::from([0.0, 1.0]))[1];
+    let arc = closed.run((), start, 100.0).next().unwrap().unwrap();
+    assert!((change(arc_sensitivity(&closed, &arc)) - 2.5).abs() < 1e-9);
+    let arc = integrated.run((), start, 100.0).next().unwrap().unwrap();
+    assert!((change(arc_sensitivity(&integrated, &arc)) - 2.5).abs() < 1e-9);
 }

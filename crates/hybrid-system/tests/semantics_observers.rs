@@ -192,7 +192,11 @@ fn watched(guard: impl Fn(f64) -> f64 + Copy, start: f64, time: f64, integrated:
     let system = Line { guard, guards: [Guard::either(()).observer()], integrated };
     let limits = Limits::sampled(time, 10_000, 1e-3);
     Execution::new(&system, (), Vector1::new(start), limits)
-        .filter_map(|arc| arc.unwrap().event().map(|event| event.before[0]))
+        .filter_map(|arc| {
+            arc.unwrap_or_else(|error| panic!("{integrated}: {error}"))
+                .event()
+                .map(|event| event.before[0])
+        })
         .collect()
 }
 
@@ -212,7 +216,7 @@ fn an_oscillation_of_a_large_component_has_crossings() {
     for integrated in [false, true] {
         let found = watched(|x| (1000.0 * x).sin(), 1e8, 0.1, integrated);
         // 0.1 · 1000/π = 31.8 half waves.
-        assert!((31..=32).contains(&found.len()), "{}", found.len());
+        assert!((31..=32).contains(&found.len()), "{integrated}: {}", found.len());
     }
 }
 

@@ -45,6 +45,7 @@ fn letters_and_digits(text: &str) -> String {
         'ő' | 'ø' | 'ö' => Some('o'),
         'á' | 'ä' => Some('a'),
         'é' => Some('e'),
+        'í' => Some('i'),
         '{' | '}' | '\\' | '"' | '\'' => None,
         c if c.is_alphanumeric() => Some(c),
         _ => Some(' '),

@@ -31,9 +31,10 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
     let (name, text) = (source.name.as_str(), source.text.as_str());
     let mut breach = |line: usize, rule: &str| breaches.push(Breach::new(name, line, rule));
     if name.ends_with(".toml") {
-        // A fuzz crate is not part of the workspace, since it needs another compiler. Therefore it has its own
-        // versions.
-        if name.ends_with("Cargo.toml") && !name.contains("/fuzz/") {
+        // A fuzz crate is not part of the workspace, since it needs another compiler; nor is a program that other
+        // software is compared with. Therefore they have their own versions.
+        let outside = ["/fuzz/", "/peers-diffsol/"].iter().any(|folder| name.contains(folder));
+        if name.ends_with("Cargo.toml") && !outside {
             check_manifest(text, &mut breach);
         }
         return;

@@ -70,7 +70,7 @@ fn curves(
 
 /// Outlines of the cylinder at equal times, its centre of mass, and its floor.
 fn draw_motion(svg: &mut Svg, arcs: &Arcs) -> Result<(), Error> {
-    let frame = Frame::linear(20.0, 34.0, 650.0, 174.0, (-1.2, 13.8), (-0.2, 3.815));
+    let frame = Frame::linear(20.0, 30.0, 650.0, 145.0, (-1.2, 13.8), (-0.146, 3.2));
     let radius = frame.width / (frame.x.1 - frame.x.0);
     let center = |x: &State<4>, time: f64| {
         // C is above or below G by ε cos φ, and beside it by ε sin φ.
@@ -117,10 +117,10 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     let contact =
         bouncing.iter().find(|arc| arc.mode == Mode::Contact).map_or(LONG, |arc| arc.time);
 
-    let mut svg = Svg::new(690.0, 450.0);
+    let mut svg = Svg::new(690.0, 416.0);
     draw_motion(&mut svg, &bouncing)?;
-    let gap = Frame::linear(56.0, 250.0, 260.0, 150.0, (0.0, LONG), (0.0, 1.1));
-    let energy = Frame::linear(406.0, 250.0, 260.0, 150.0, (0.0, LONG), (0.6, 2.2));
+    let gap = Frame::linear(56.0, 216.0, 260.0, 150.0, (0.0, LONG), (0.0, 1.1));
+    let energy = Frame::linear(406.0, 216.0, 260.0, 150.0, (0.0, LONG), (0.6, 2.2));
     for frame in [gap, energy] {
         let (from, to) = (frame.at((contact, 0.0)).0, frame.left + frame.width);
         svg.fill_rect(from, frame.top, to - from, frame.height, CONTACT);
@@ -147,9 +147,9 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
         }
     });
     energy.axes(&mut svg, &ticks(energy.x, 4), &ticks(energy.y, 4), "time $t$", "energy $E$");
-    svg.text(energy.left, energy.top - 9.0, Anchor::Start, 12.5, "energy");
+    svg.text(energy.left, energy.top - 9.0, Anchor::Start, 12.5, "energy; $μ$: rolling resistance");
     for (time, value, label) in
-        [(8.0, 2.06, "$e$ = 1"), (13.2, 1.06, "$e$ = 0.8"), (14.6, 0.83, "with rolling resistance")]
+        [(8.0, 2.06, "$e$ = 1"), (13.2, 1.06, "$e$ = 0.8"), (16.0, 0.86, "$μ$ = 0.1")]
     {
         let at = energy.at((time, value));
         svg.text(at.0, at.1, Anchor::Start, 11.0, label);

@@ -97,6 +97,12 @@ impl Panel {
         }
     }
 
+    /// An error. It replaces the events at its instant, whose number says nothing.
+    fn error(&mut self, at: Point) {
+        self.events.retain(|dot| (dot.0.0 - at.0).abs() > SAME_DOT * self.duration);
+        self.errors.push(at);
+    }
+
     /// The execution of a scene up to the end of the time axis: these components.
     pub(super) fn scene<const N: usize>(
         mut self,
@@ -116,10 +122,10 @@ impl Panel {
                 }
                 Err(Error::Grazing { time: elapsed, .. }) => {
                     self.motion(scene, (mode, time, &state), elapsed, components);
-                    self.errors
-                        .push((time + elapsed, scene.flow(mode, &state, elapsed)[components[0]]));
+                    let end = scene.flow(mode, &state, elapsed);
+                    self.error((time + elapsed, end[components[0]]));
                 }
-                Err(_) => self.errors.push((time, state[components[0]])),
+                Err(_) => self.error((time, state[components[0]])),
             }
         }
         self
@@ -225,7 +231,7 @@ pub(super) fn draw(panels: &[Panel]) -> Svg {
             let (x, y) = frame.at(at);
             svg.marker((x, y), marker, 8.0, "#000");
             if number > 1 {
-                svg.text(x + 7.0, y - 6.0, Anchor::Start, 11.0, &number.to_string());
+                svg.text(x + 6.0, y + 14.0, Anchor::Start, 11.0, &number.to_string());
             }
         }
         for &at in &panel.errors {

@@ -14,7 +14,7 @@ use hybrid_system::{Direction, FirstCrossing, QuasiPolynomial, State};
 pub(super) fn events_at_one_instant(_: &Job) -> Result<Figure, Error> {
     let cradle = Panel::new("a: a cradle, balls 2 and 3 touch", 2.6, (-1.2, 1.8), "positions")
         .scene(&CRADLE, 0, cradle_start(), &[0, 1, 2]);
-    let stack = Panel::new("b: a ball on a ball, without a gap", 4.0, (0.0, 4.2), "heights")
+    let stack = Panel::new("b: a ball on a ball, without a gap", 4.0, (-0.7, 4.2), "heights")
         .forbidden(-1.0, 0.0)
         .scene(&STACK, 0, State::from([1.0, 1.0, 0.0, 0.0]), &[0, 1]);
     let five = Panel::new("c: five modes that leave at $x$ = 1", 2.0, (0.0, 2.0), "$x$")

@@ -67,6 +67,13 @@ pub(crate) fn departure<F: GuardedFlow>(
     }
     if flow.enclosure(surface, 0, (0.0, 0.0)).is_some() {
         let enclosure = |order, times| flow.enclosure(surface, order, times);
+        // An event at the limit on time: no interval is left, and the rate alone decides.
+        if longest == 0.0 {
+            let rate = enclosure(1, (0.0, 0.0));
+            let side =
+                rate.and_then(|rate| (rate.low > 0.0 || rate.high < 0.0).then_some(rate.low));
+            return Ok(side.map_or(Departure::Stays, |side| to(side, Certainty::Certain)));
+        }
         let guard = EnclosedGuard { value: |time| flow.guard_at(surface, time), enclosure };
         return Ok(to(guard.side_after_zero(longest, error)?, Certainty::Certain));
     }

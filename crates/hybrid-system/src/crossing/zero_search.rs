@@ -99,6 +99,8 @@ pub(crate) struct ZeroSearch {
     /// The error of `level`.
     level_error: f64,
     hidden: Option<Hidden>,
+    /// The last crossing was found before the function had left its start clearly.
+    left_hidden: bool,
 }
 
 impl ZeroSearch {
@@ -114,6 +116,7 @@ impl ZeroSearch {
             level: 0.0,
             level_error: 0.0,
             hidden: None,
+            left_hidden: false,
         }
     }
 
@@ -162,10 +165,11 @@ impl ZeroSearch {
         self.side.filter(|_| !self.leaving && self.hidden.is_none())
     }
 
-    /// True if the function has not left the zero it started at.
+    /// True if the last crossing was found on the first interval that showed a side after the start at zero: rounding
+    /// hid how the function left its start, and that it came back.
     #[cfg(feature = "ode")]
-    pub(crate) fn is_leaving(&self) -> bool {
-        self.leaving
+    pub(crate) fn left_hidden(&self) -> bool {
+        self.left_hidden
     }
 
     /// Searches up to `until`. At the `horizon` no later stretch follows: a zero there, within rounding, is a crossing.
@@ -312,6 +316,7 @@ impl ZeroSearch {
         // Rounding hid how the function leaves its start, and now it is on the other side than its caller expected. If both
         // directions count, no side is beyond the surface, and this is the side to which it left.
         let at_start = self.leaving && self.direction == Direction::Either;
+        self.left_hidden = self.leaving;
         let found = if self.direction.admits(side, sign) && !at_start {
             let (time, error) = match hidden {
                 // Where the function is clear again. At an earlier time a new search would start in the same hidden

@@ -1,7 +1,23 @@
-//! Parts that say how an execution continues where no event leads on: after a Zeno limit, and at a sliding point.
+//! Parts that say how an execution continues where no event leads on: after a Zeno limit, and at a sliding point. The field
+//! of a flow in closed form, which a sliding point needs.
 
 use super::part::Part;
 use crate::sliding::Sliding;
+
+/// The field of a flow in closed form.
+#[derive(Debug, Clone, Copy)]
+pub struct Field<F>(pub(super) F);
+
+impl<M, S, X, Y, F> Part<M, S, X> for Field<F>
+where
+    Y: Into<X>,
+    F: Fn(M, &X) -> Y,
+{
+    #[inline]
+    fn field(&self, mode: M, state: &X) -> Option<X> {
+        Some((self.0)(mode, state).into())
+    }
+}
 
 /// Mode and state after a Zeno limit.
 #[derive(Debug, Clone, Copy)]

@@ -4,14 +4,18 @@
 //! resets and clocks (`guarded`), bounds on guards (`bounds`), the modes after Zeno limits and sliding points
 //! (`continued`). Each part has a type of its own, and a model contains the nested pairs of its parts (`part`). The
 //! compiler therefore sees every closure, and a model costs as much time as the same model by the trait. `guard_lists`
-//! has the guards of each mode. `system` implements [`HybridSystem`](crate::HybridSystem).
+//! has the guards of each mode. `system` implements [`HybridSystem`](crate::HybridSystem), `derivatives` and
+//! `integrated_derivatives` [`Differentiable`](crate::Differentiable).
 
 mod bounds;
 mod continued;
+mod derivatives;
 mod guard_lists;
 mod guarded;
 #[cfg(feature = "ode")]
 mod integrated;
+#[cfg(feature = "ode")]
+mod integrated_derivatives;
 #[allow(clippy::module_inception)]
 mod model;
 mod motion;
@@ -20,7 +24,7 @@ mod part;
 mod system;
 
 pub use bounds::{Bounds, Signal};
-pub use continued::{Rest, Slide};
+pub use continued::{Field, Rest, Slide};
 pub use guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
 #[cfg(feature = "ode")]
 pub use integrated::Integrated;

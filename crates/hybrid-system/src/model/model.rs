@@ -1,7 +1,7 @@
 //! The model, and the methods that give it its parts.
 
 use super::bounds::{Bounds, Signal};
-use super::continued::{Rest, Slide};
+use super::continued::{Field, Rest, Slide};
 use super::guard_lists::GuardLists;
 use super::guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
 #[cfg(feature = "ode")]
@@ -63,10 +63,13 @@ use std::marker::PhantomData;
 /// | [`terminal`](Self::terminal), [`observer`](Self::observer) | a guard that ends the execution, or only watches |
 /// | [`clock`](Self::clock), [`clock_everywhere`](Self::clock_everywhere) | events at preset times |
 /// | [`signal`](Self::signal), [`enclosure`](Self::enclosure) | bounds on a guard: its crossings are certain |
+/// | [`field`](Self::field) | the field of a flow in closed form, for sliding points and derivatives |
 /// | [`rest`](Self::rest), [`slide`](Self::slide) | what follows a Zeno limit or a sliding point |
 /// | [`sampled`](Self::sampled), `tolerance`, `tolerances` | how the guards are sampled and the field is integrated |
 ///
-/// A model is a [`HybridSystem`](crate::HybridSystem): everything that works for a model by the trait works for it. Its
+/// A model is a [`HybridSystem`](crate::HybridSystem): everything that works for a model by the trait works for it. With a
+/// [`State<N>`](crate::State) it is [`Differentiable`](crate::Differentiable) too; derivatives of its closures are
+/// difference quotients with about ten digits. Its
 /// type contains the types of its closures. A function returns it as
 /// `impl HybridSystem<State = …, Mode = …, Surface = …>`.
 ///
@@ -321,6 +324,15 @@ where
         B: Fn(M, &X, u32, (f64, f64)) -> Option<Enclosure>,
     {
         self.with(Bounds { surface, enclosure })
+    }
+
+    /// Gives f(x) of ẋ = f(x) for a flow in closed form. Sliding points and derivatives through events need it.
+    pub fn field<B, Y>(self, field: B) -> Model<M, S, X, F, (Field<B>, P)>
+    where
+        B: Fn(M, &X) -> Y,
+        Y: Into<X>,
+    {
+        self.with(Field(field))
     }
 
     /// Gives the mode and the state after a Zeno limit, from the mode before it and the state at the limit.

@@ -49,6 +49,12 @@ pub trait Part<M, S, X> {
         let _ = (mode, surface, start, order, times);
         None
     }
+    /// f(x) of a flow in closed form.
+    #[inline]
+    fn field(&self, mode: M, state: &X) -> Option<X> {
+        let _ = (mode, state);
+        None
+    }
     /// Mode and state after a Zeno limit.
     fn rest(&self, mode: M, limit: &X) -> Option<(M, X)> {
         let _ = (mode, limit);
@@ -97,6 +103,10 @@ impl<M: Copy, S: Copy, X, A: Part<M, S, X>, B: Part<M, S, X>> Part<M, S, X> for 
     ) -> Option<Enclosure> {
         let first = self.0.enclosure(mode, surface, start, order, times);
         first.or_else(|| self.1.enclosure(mode, surface, start, order, times))
+    }
+    #[inline]
+    fn field(&self, mode: M, state: &X) -> Option<X> {
+        self.0.field(mode, state).or_else(|| self.1.field(mode, state))
     }
     fn rest(&self, mode: M, limit: &X) -> Option<(M, X)> {
         self.0.rest(mode, limit).or_else(|| self.1.rest(mode, limit))

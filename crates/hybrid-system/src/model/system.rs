@@ -55,7 +55,7 @@ where
 
     #[inline]
     fn vector_field(&self, mode: M, state: &X) -> Option<X> {
-        self.motion.field(mode, state)
+        self.motion.field(mode, state).or_else(|| self.parts.field(mode, state))
     }
 
     fn next_time(&self, mode: M, surface: S, after: f64) -> Option<f64> {

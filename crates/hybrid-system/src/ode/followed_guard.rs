@@ -1,7 +1,7 @@
 //! One guard along one step of an integrated flow: a source of the search for zeros.
 
 use super::chebyshev::{CHEBYSHEV, NODES};
-use super::polynomial_test::{largest, scatter, side_after_zero, zero_test};
+use super::polynomial_test::{is_jump, largest, scatter, side_after_zero, zero_test};
 use crate::crossing::{Bounded, Enclosure, Leave, ZeroTest};
 use crate::error::Error;
 use std::cell::{Cell, OnceCell};
@@ -103,7 +103,9 @@ impl<A: Fn(f64) -> f64, R: Fn() -> f64> Bounded for GuardOnStep<A, R> {
             return Ok(ZeroTest::Undecided);
         };
         let found = zero_test(&values, self.error());
-        if matches!(found, ZeroTest::Undecided) && right - left < STRAIGHT * (self.to - self.from) {
+        let short = right - left < STRAIGHT * (self.to - self.from);
+        // A jump of the guard is halved down to the rounding of the time, and says nothing about the values elsewhere.
+        if matches!(found, ZeroTest::Undecided) && short && !is_jump(&values) {
             self.own.set(self.own.get().max(scatter(&values)));
             if largest(&values) <= 2.0 * self.error() {
                 return Ok(ZeroTest::Hidden);

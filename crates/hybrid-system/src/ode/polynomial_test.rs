@@ -77,6 +77,13 @@ pub(super) fn scatter(values: &[f64; NODES]) -> f64 {
     SCATTER * c[FIRST_ROUNDED..].iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
+/// True if most of the change of the values happens between two neighbouring nodes: the guard jumps there. Rounding changes
+/// the values between all nodes, so that the largest of 15 differences is a small part of their sum.
+pub(super) fn is_jump(values: &[f64; NODES]) -> bool {
+    let changes = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    2.0 * changes().fold(0.0, f64::max) > changes().sum()
+}
+
 /// True if the polynomial through the values is zero at the left end, within `noise`.
 fn starts_at_zero(values: &[f64; NODES], noise: f64) -> bool {
     let c: [f64; NODES] = CHEBYSHEV.coefficients(values);

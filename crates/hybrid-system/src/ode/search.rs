@@ -261,7 +261,6 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let guard = followed.guard;
             let on_step = self.on_step(step, guard.surface, followed.stated);
             let horizon = until >= self.request.horizon;
-            let leaving = followed.search.is_leaving();
             let found = loop {
                 match followed.search.advance(&on_step, until, horizon, budget) {
                     Ok(Found::Touch { .. } | Found::Undecided { .. })
@@ -286,6 +285,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             };
             match found {
                 Ok(found) if first.as_ref().is_none_or(|first| sooner(time, first.time)) => {
+                    let leaving =
+                        matches!(found, Found::Crossing { .. }) && followed.search.left_hidden();
                     first = Some(Finding { found, time, followed, leaving });
                 }
                 Err(error) if failure.as_ref().is_none_or(|(first, _)| time < *first) => {

@@ -48,19 +48,26 @@ impl<V: StateVector> Step<V> {
     }
 
     /// The state at a time of the step, by Clenshaw's recurrence.
+    ///
+    /// All components take one step of the recurrence after the other: the processor computes them in parallel.
     pub(super) fn state(&self, time: f64) -> V {
         // The formula is symmetric in both ends: u is exactly ∓1 there.
         let u = ((time - self.from) - (self.to - time)) / (self.to - self.from);
         let n = self.like.dimension();
         let coefficients = self.coefficients();
-        self.like.from_fn_like(|axis| {
-            let (mut next, mut after) = (0.0, 0.0);
-            for k in (1..=self.degree).rev() {
-                let sum = coefficients[k * n + axis] + 2.0 * u * next - after;
-                (after, next) = (next, sum);
+        let (mut next, mut after) = (self.like.zeros_like(), self.like.zeros_like());
+        for row in coefficients[n..(self.degree + 1) * n].chunks_exact(n.max(1)).rev() {
+            let both = next.components_mut().iter_mut().zip(after.components_mut());
+            for ((next, after), coefficient) in both.zip(row) {
+                let sum = coefficient + 2.0 * u * *next - *after;
+                (*after, *next) = (*next, sum);
             }
-            coefficients[axis] + next * u - after
-        })
+        }
+        let both = next.components_mut().iter_mut().zip(after.components());
+        for ((next, after), coefficient) in both.zip(coefficients) {
+            *next = coefficient + *next * u - after;
+        }
+        next
     }
 
     /// A bound on the absolute value of each component along the step: Σ|cₖ|, because |Tₖ| ≤ 1.

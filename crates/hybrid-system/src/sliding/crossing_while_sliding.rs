@@ -45,7 +45,7 @@ pub(super) fn after_crossing<T: HybridSystem>(
 ) -> Result<Continued<T>, NotUnique> {
     let system = &filippov.system;
     // The direction in which the sliding motion passes through the other surface.
-    let field = filippov.field_on_surface(sides, state);
+    let field = filippov.field_at(sides, state);
     let rate = field.map_or(0.0, |field| filippov.rate(other, state, &field));
     let crossed = |guard: &&Guard<T::Surface>| {
         let admits = guard.direction == Direction::Either || guard.direction.leads_to(rate);
@@ -86,10 +86,11 @@ pub(super) fn after_crossing<T: HybridSystem>(
     if (below, above) == (sides.below, sides.above) && reached == *state {
         return sliding(reached);
     }
-    let value = system.guard_value(sides.surface, &reached);
-    if !unchanged(&reached) && value.abs() > filippov.rounding(sides.surface, &reached) {
-        return free(if value > 0.0 { above } else { below }, reached);
+    if let Err(off) = filippov.check_on_surface(sides.surface, &reached) {
+        return free(if off.value > 0.0 { above } else { below }, reached);
     }
+    // The reset may have left the surface by roundings.
+    let reached = filippov.on_surface(&Sides { surface: sides.surface, below, above }, reached);
     let side = |mode| guard_rates(system, mode, sides.surface, &reached).and_then(|r| r.side());
     match (side(below), side(above)) {
         (Some(a), Some(b)) if a > 0.0 && b < 0.0 => sliding(reached),

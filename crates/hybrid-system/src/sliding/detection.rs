@@ -65,9 +65,6 @@ pub(crate) fn sliding_point<T: HybridSystem>(
         return None;
     }
     let scale = same_surface(system, surface, back, state)?;
-    if !is_on_surface(system, surface, at) {
-        return None;
-    }
     let rates = guard_rates(system, mode, surface, state)?;
     let back_rates = guard_rates(system, next, back, state)?;
     let (side, back_side) = (rates.side()?, back_rates.side()?);
@@ -78,8 +75,11 @@ pub(crate) fn sliding_point<T: HybridSystem>(
     {
         return None;
     }
-    // Along m the guard rises: m is below the surface.
     let (own, other) = (rates.first.value, scale * back_rates.first.value);
+    if !is_on_surface(system, surface, at, if own.abs() < other.abs() { own } else { other }) {
+        return None;
+    }
+    // Along m the guard rises: m is below the surface.
     let ((below, above), rates) =
         if side > 0.0 { ((mode, next), (own, other)) } else { ((next, mode), (other, own)) };
     let fields = system.vector_field(below, state).zip(system.vector_field(above, state));
@@ -134,17 +134,20 @@ fn fires_towards<T: HybridSystem>(
     })
 }
 
-/// True if the state is on the surface, within rounding of the guard, or as close as the crossing before.
+/// True if the state is on the surface: within rounding of the guard, or as close as the crossing before, or so close that
+/// a motion at this rate of the guard takes less than the rounding of the time.
 fn is_on_surface<T: HybridSystem>(
     system: &T,
     surface: T::Surface,
     at: &AtOnce<T::Mode, T::Surface, T::State>,
+    rate: f64,
 ) -> bool {
     let value = |state: &T::State| system.guard_value(surface, state);
     let now = value(at.state).abs();
     // The time of a crossing has an error, so that the guard has one that is larger than its rounding.
     let crossed_there = at.before.is_some_and(|before| now <= value(before).abs());
-    crossed_there || now <= ON_SURFACE * rounding(system, surface, at.state)
+    let in_no_time = now <= rate.abs() * f64::EPSILON * at.time.abs();
+    crossed_there || in_no_time || now <= ON_SURFACE * rounding(system, surface, at.state)
 }
 
 /// The rounding error of a guard, from its state and from its own arithmetic.

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 /// A mode of [`Filippov`](crate::Filippov).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FilippovMode<M, S> {
     /// A mode of the model.
     Free(M),
@@ -23,6 +24,7 @@ pub enum FilippovMode<M, S> {
 
 /// A surface of [`Filippov`](crate::Filippov).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum FilippovSurface<M, S> {
     /// A surface of the model.
     Model(S),

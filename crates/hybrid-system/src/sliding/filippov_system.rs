@@ -2,17 +2,17 @@
 
 use super::crossing_while_sliding::after_crossing;
 use super::detection::same_surface;
-use super::filippov::{Filippov, Sides};
+use super::filippov::{Filippov, OffSurface, Sides};
 use super::filippov_modes::{FilippovMode, FilippovSurface};
 use super::sliding_point::Sliding;
 use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
-use crate::ode::{integrated_crossing, integrated_flow};
-use crate::state::{State, StateVector};
+use crate::ode::{integrated_crossing, integrated_flow, integrated_states};
+use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 
-impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippov<T> {
+impl<T: HybridSystem> HybridSystem for Filippov<T> {
     type State = T::State;
     type Mode = FilippovMode<T::Mode, T::Surface>;
     type Surface = FilippovSurface<T::Mode, T::Surface>;
@@ -24,6 +24,29 @@ impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippo
                 let end = integrated_flow(self, mode, start, time, self.tolerances);
                 self.on_surface(&Sides { surface, below, above }, end)
             }
+        }
+    }
+
+    fn flow_at(
+        &self,
+        mode: Self::Mode,
+        start: &T::State,
+        times: &[f64],
+    ) -> Result<Vec<T::State>, Error> {
+        match mode {
+            FilippovMode::Free(mode) => self.system.flow_at(mode, start, times),
+            FilippovMode::Sliding { surface, below, above, .. } => {
+                let states = integrated_states(self, mode, start, times, self.tolerances)?;
+                let sides = Sides { surface, below, above };
+                Ok(states.into_iter().map(|state| self.on_surface(&sides, state)).collect())
+            }
+        }
+    }
+
+    fn validate(&self, mode: Self::Mode, start: &T::State) -> Result<(), Error> {
+        match mode {
+            FilippovMode::Free(mode) => self.system.validate(mode, start),
+            FilippovMode::Sliding { below, .. } => self.system.validate(below, start),
         }
     }
 
@@ -126,7 +149,7 @@ impl<T: HybridSystem<State = State<N>>, const N: usize> HybridSystem for Filippo
         match mode {
             FilippovMode::Free(mode) => self.system.vector_field(mode, state),
             FilippovMode::Sliding { surface, below, above, .. } => {
-                self.field_on_surface(&Sides { surface, below, above }, state)
+                self.integrated_field(&Sides { surface, below, above }, state)
             }
         }
     }
@@ -232,21 +255,21 @@ fn next_of_model<M, S, X>(next: NextEvent<S, X>) -> NextEvent<FilippovSurface<M,
     }
 }
 
-/// A state counts as on the surface within this multiple of the rounding of the guard. A state that was projected is
-/// within one; resets and sums of the model may add some more.
-const ON_SURFACE: f64 = 16.0;
+/// The result of a search of the system with sliding modes.
+type Next<T> = NextEvent<
+    FilippovSurface<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface>,
+    <T as HybridSystem>::State,
+>;
 
-impl<T: HybridSystem<State = State<N>>, const N: usize> Filippov<T> {
+impl<T: HybridSystem> Filippov<T> {
     fn first_crossing_while_sliding(
         &self,
         mode: FilippovMode<T::Mode, T::Surface>,
         (sides, partner): (&Sides<T::Mode, T::Surface>, T::Surface),
         start: &T::State,
         search: &Search<FilippovSurface<T::Mode, T::Surface>>,
-    ) -> Result<NextEvent<FilippovSurface<T::Mode, T::Surface>, T::State>, Error> {
-        let value = self.system.guard_value(sides.surface, start);
-        let largest = ON_SURFACE * self.rounding(sides.surface, start);
-        if !(value.abs() <= largest) {
+    ) -> Result<Next<T>, Error> {
+        if let Err(OffSurface { value, largest }) = self.check_on_surface(sides.surface, start) {
             let surface = format!("{:?}", sides.surface);
             return Err(Error::OffSurface { surface, value, largest });
         }

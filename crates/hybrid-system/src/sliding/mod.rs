@@ -6,7 +6,8 @@
 //! | question | file |
 //! |---|---|
 //! | What is ġ, and is its sign certain? | `rates`, by differences in `directional` |
-//! | Which field is tangent to the surface, and which point of the surface is next? | `sliding_field` |
+//! | Which field is tangent to the surface? | `sliding_field` |
+//! | Which point of the surface is next to a state? | `projection` |
 //! | Which modes and surfaces does the wrapped system have? | `filippov_modes` |
 //! | How does it move? | `filippov`, as a hybrid system `filippov_system` |
 //! | What happens at other surfaces? | `crossing_while_sliding` |
@@ -28,6 +29,8 @@ mod filippov_modes;
 mod filippov_sensitivity;
 #[cfg(feature = "ode")]
 mod filippov_system;
+#[cfg(feature = "ode")]
+mod projection;
 
 pub(crate) use detection::{AtOnce, sliding_point};
 #[cfg(feature = "ode")]

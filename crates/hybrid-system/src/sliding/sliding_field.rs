@@ -1,4 +1,4 @@
-//! Filippov's sliding field, and the way back onto the surface.
+//! Filippov's sliding field.
 //!
 //! Below the surface, where g < 0, the field is f⁻; above it is f⁺. Write a = ∇g·f⁻ and b = ∇g·f⁺ for the rates of g.
 //! Sliding is attracting where a > 0 > b. The mean f⁻ + λ(f⁺ − f⁻) is tangent to the surface if
@@ -23,38 +23,6 @@ pub(crate) fn sliding_field<X: StateVector>(fields: (&X, &X), rates: (f64, f64))
         let (from, to) = (from.components()[axis], to.components()[axis]);
         from + part * (to - from)
     })
-}
-
-/// Most steps onto the surface. The first step leaves the square of the distance, times the curvature of the surface. So
-/// two steps are usual, and the number only limits a search that does not converge.
-const MOST_CORRECTIONS: usize = 8;
-
-/// The point of the surface next to `state` along f⁺ − f⁻, and the value of the guard there.
-///
-/// ∇g·(f⁺ − f⁻) = b − a < 0: this direction is transverse to the surface wherever it attracts. Newton's steps with
-/// this rate end where the value of the guard does not become smaller: at zero, within the rounding of the guard.
-pub(crate) fn onto_surface<X: StateVector>(
-    state: X,
-    fields: (&X, &X),
-    rates: (f64, f64),
-    guard: impl Fn(&X) -> f64,
-) -> (X, f64) {
-    let ((below, above), (a, b)) = (fields, rates);
-    let (mut best, mut value) = (state, 0.0);
-    value += guard(&best);
-    for _ in 0..MOST_CORRECTIONS {
-        let length = -value / (b - a);
-        let mut moved = best.clone();
-        moved.add_scaled(length, above);
-        moved.add_scaled(-length, below);
-        let left = guard(&moved);
-        // The condition is false for NaN as well.
-        if !(left.abs() < value.abs()) {
-            break;
-        }
-        (best, value) = (moved, left);
-    }
-    (best, value)
 }
 
 #[cfg(test)]
@@ -89,27 +57,5 @@ mod tests {
     fn two_equal_rates_give_no_field() {
         let field = Vector2::new(1.0, 1.0);
         assert!(sliding_field((&field, &field), (1.0, 1.0))[0].is_nan());
-    }
-
-    #[test]
-    fn a_state_next_to_a_circle_is_put_on_it() {
-        let circle = |x: &Vector2<f64>| x.dot(x) - 1.0;
-        let state = Vector2::new(0.6 + 1e-5, 0.8 - 3e-5);
-        let (below, above) = (Vector2::new(1.0, 2.0), Vector2::new(-1.0, -0.5));
-        let rates = (2.0 * state.dot(&below), 2.0 * state.dot(&above));
-        let (on, value) = onto_surface(state, (&below, &above), rates, circle);
-        assert!(value.abs() <= 2.0 * f64::EPSILON, "{value}");
-        assert!((on - state).norm() < 1e-4);
-        // The displacement is along f⁺ − f⁻.
-        let (moved, along) = (on - state, above - below);
-        assert!((moved[0] * along[1] - moved[1] * along[0]).abs() < 1e-15);
-    }
-
-    #[test]
-    fn a_state_on_the_surface_keeps_its_bits() {
-        let state = Vector2::new(0.0, 0.123);
-        let (below, above) = (Vector2::new(1.0, 1.0), Vector2::new(-1.0, 1.0));
-        let (on, value) = onto_surface(state, (&below, &above), (1.0, -1.0), |x| x[0]);
-        assert_eq!((on, value), (state, 0.0));
     }
 }

@@ -212,3 +212,23 @@ fn errors_of_short_steps_are_roundings() {
         }
     }
 }
+
+/// ẋ = max(0, t − θ) over a step from 0 to 1: x(1) = (1 − θ)²/2. All sums are over the slopes at the stages.
+#[test]
+fn errors_over_kinks_are_six_times_their_estimate_at_most() {
+    const PLACES: u32 = 4999;
+    for scheme in PAIRS {
+        for place in 1..=PLACES {
+            let kink = f64::from(place) / f64::from(PLACES + 1);
+            // The slope at the start is zero, and the differences from it are the slopes.
+            let sum = |weights: &[f64]| -> f64 {
+                let slopes = scheme.times.iter().map(|c| (c - kink).max(0.0));
+                weights.iter().zip(slopes).skip(1).map(|(w, slope)| w * slope).sum()
+            };
+            let error = 0.5 * (1.0 - kink).powi(2) - sum(scheme.weights);
+            let usual = scheme.kink_ratio * sum(scheme.errors).abs();
+            let estimate = usual.max(sum(scheme.kinks).abs());
+            assert!(error.abs() < 6.0 * estimate, "{} {kink}: {error:e}", scheme.order);
+        }
+    }
+}

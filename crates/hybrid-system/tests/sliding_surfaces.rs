@@ -1,0 +1,203 @@
+//! Where a sliding motion is not unique, and where it meets other surfaces.
+
+#![cfg(feature = "ode")]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+mod two_sided;
+
+use hybrid_system::*;
+use nalgebra::{Vector1, Vector2};
+use two_sided::*;
+
+/// A sliding motion that starts beside its surface is an error, not a silent projection.
+#[test]
+fn a_start_beside_the_surface_is_an_error() {
+    let relay = Filippov::new(
+        TwoSided::<1>::new(|_| Vector1::new(1.0), |_| Vector1::new(-1.0), |x| x[0]),
+        TIGHT,
+    );
+    let mode = FilippovMode::Sliding {
+        surface: Surface::Switch,
+        partner: Surface::Switch,
+        below: Side::Below,
+        above: Side::Above,
+    };
+    let error = run(&relay, mode, Vector1::new(1e-9), Limits::new(1.0, 5)).unwrap_err();
+    assert!(matches!(error, Error::OffSurface { .. }), "{error}");
+}
+
+/// Both rates vanish together, at y = 1: a/(a − b) is 0/0 there.
+#[test]
+fn two_tangent_fields_are_not_unique() {
+    let fold = Filippov::new(
+        TwoSided::<2>::new(
+            |x| Vector2::new(1.0 - x[1], 1.0),
+            |x| Vector2::new(x[1] - 1.0, 1.0),
+            |x| x[0],
+        ),
+        TIGHT,
+    );
+    let start = Vector2::new(-1e-3, 0.0);
+    let result = run(&fold, BELOW, start, Limits::new(5.0, 50));
+    assert!(matches!(result, Err(Error::SlidingNotUnique { .. })), "{result:?}");
+}
+
+/// Four quadrants whose fields all point at the origin: ẋ = −sgn x, ẏ = −sgn y.
+struct Quadrants;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Quadrant {
+    right: bool,
+    up: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Axis {
+    X,
+    Y,
+}
+
+impl HybridSystem for Quadrants {
+    type State = State<2>;
+    type Mode = Quadrant;
+    type Surface = Axis;
+    fn flow(&self, mode: Quadrant, x: &State<2>, t: f64) -> State<2> {
+        integrated_flow(self, mode, x, t, TIGHT)
+    }
+    fn guards(&self, mode: Quadrant) -> &[Guard<Axis>] {
+        const fn guard(falls: bool, axis: Axis) -> Guard<Axis> {
+            if falls { Guard::falling(axis) } else { Guard::rising(axis) }
+        }
+        match (mode.right, mode.up) {
+            (true, true) => const { &[guard(true, Axis::X), guard(true, Axis::Y)] },
+            (true, false) => const { &[guard(true, Axis::X), guard(false, Axis::Y)] },
+            (false, true) => const { &[guard(false, Axis::X), guard(true, Axis::Y)] },
+            (false, false) => const { &[guard(false, Axis::X), guard(false, Axis::Y)] },
+        }
+    }
+    fn guard_value(&self, axis: Axis, x: &State<2>) -> f64 {
+        if axis == Axis::X { x[0] } else { x[1] }
+    }
+    fn reset(&self, mode: Quadrant, axis: Axis, x: &State<2>) -> Reset<Quadrant, State<2>> {
+        let mode = match axis {
+            Axis::X => Quadrant { right: !mode.right, ..mode },
+            Axis::Y => Quadrant { up: !mode.up, ..mode },
+        };
+        Reset::Jump { mode, state: *x }
+    }
+    fn vector_field(&self, mode: Quadrant, _: &State<2>) -> Option<State<2>> {
+        let sign = |positive| if positive { 1.0 } else { -1.0 };
+        Some(Vector2::new(-sign(mode.right), -sign(mode.up)))
+    }
+    fn first_crossing(
+        &self,
+        mode: Quadrant,
+        x: &State<2>,
+        search: &Search<Axis>,
+    ) -> Result<NextEvent<Axis, State<2>>, Error> {
+        integrated_crossing(self, mode, x, search, TIGHT)
+    }
+}
+
+#[test]
+fn where_two_sliding_surfaces_meet_the_execution_ends() {
+    let system = Filippov::new(Quadrants, TIGHT);
+    let mode = FilippovMode::Free(Quadrant { right: true, up: true });
+    let start = Vector2::new(1.0, 0.5);
+    let (arcs, stop) = run(&system, mode, start, Limits::new(5.0, 50)).unwrap();
+    assert_eq!(stop, Some(Stop::Sliding));
+    let ArcEnd::Sliding { sliding, after: None } = &arcs.last().unwrap().end else {
+        panic!("{:?}", arcs.last())
+    };
+    // Along y = 0 from t = ½ on, to the origin at t = 1.
+    assert_eq!(sliding.surface, FilippovSurface::Model(Axis::X));
+    assert!(is_sliding(&sliding.below) && is_sliding(&sliding.above));
+    assert!((sliding.time - 1.0).abs() < 1e-13, "{}", sliding.time);
+    assert!(sliding.state.amax() < 1e-13);
+}
+
+/// The same four fields, all with ẋ = 1: the sliding motion along y = 0 passes through x = 0.
+struct Passing;
+
+impl HybridSystem for Passing {
+    type State = State<2>;
+    type Mode = Quadrant;
+    type Surface = Axis;
+    fn flow(&self, mode: Quadrant, x: &State<2>, t: f64) -> State<2> {
+        integrated_flow(self, mode, x, t, TIGHT)
+    }
+    fn guards(&self, mode: Quadrant) -> &[Guard<Axis>] {
+        Quadrants.guards(mode)
+    }
+    fn guard_value(&self, axis: Axis, x: &State<2>) -> f64 {
+        Quadrants.guard_value(axis, x)
+    }
+    fn reset(&self, mode: Quadrant, axis: Axis, x: &State<2>) -> Reset<Quadrant, State<2>> {
+        Quadrants.reset(mode, axis, x)
+    }
+    fn vector_field(&self, mode: Quadrant, x: &State<2>) -> Option<State<2>> {
+        let speed = if mode.right { 2.0 } else { 1.0 };
+        Quadrants.vector_field(mode, x).map(|field| Vector2::new(speed, field[1]))
+    }
+    fn first_crossing(
+        &self,
+        mode: Quadrant,
+        x: &State<2>,
+        search: &Search<Axis>,
+    ) -> Result<NextEvent<Axis, State<2>>, Error> {
+        integrated_crossing(self, mode, x, search, TIGHT)
+    }
+}
+
+#[test]
+fn a_sliding_motion_goes_on_behind_another_surface_with_the_modes_there() {
+    let system = Filippov::new(Passing, TIGHT);
+    let mode = FilippovMode::Free(Quadrant { right: false, up: true });
+    let start = Vector2::new(-1.0, 0.5);
+    let (arcs, stop) = run(&system, mode, start, Limits::new(3.0, 50)).unwrap();
+    assert_eq!(stop, Some(Stop::TimeLimit));
+    let last = arcs.last().unwrap();
+    let pair = |right| FilippovMode::Sliding {
+        surface: Axis::Y,
+        partner: Axis::Y,
+        below: Quadrant { right, up: false },
+        above: Quadrant { right, up: true },
+    };
+    assert_eq!(last.mode, pair(true));
+    assert!(arcs.iter().any(|arc| arc.mode == pair(false)));
+    // x = 0 at t = 1, then with twice the speed for two units of time.
+    assert!((last.state(&system, last.duration).unwrap() - Vector2::new(4.0, 0.0)).amax() < 1e-12);
+}
+
+/// A mass that slides down a moving wall, x = 0, and bounces off a floor, y = 0, with half of its speed: both modes have the
+/// floor, and their resets agree. The state is (x, y, ẏ).
+#[test]
+fn a_bounce_while_sliding_keeps_the_state_on_the_surface() {
+    let model = Model::integrated(|side: Side, x: &State<3>| {
+        let push = if side == Side::Below { 1.0 } else { -2.0 };
+        [push, x[2], -1.0]
+    })
+    .tolerance(1e-12)
+    .guard(Side::Below, Guard::rising("wall"), |x| x[0], |x: &State<3>| (Side::Above, *x))
+    .guard(Side::Above, Guard::falling("wall"), |x| x[0], |x: &State<3>| (Side::Below, *x))
+    .guard_everywhere(
+        Guard::falling("floor"),
+        |x| x[1],
+        |side, x: &State<3>| (side, State::<3>::new(x[0], 0.0, -0.5 * x[2])),
+    );
+    let system = Filippov::new(model, TIGHT);
+    let start = State::<3>::new(1.0, 2.0, 0.0);
+    let (arcs, _) =
+        run(&system, FilippovMode::Free(Side::Above), start, Limits::new(5.0, 20)).unwrap();
+    // The floor after 2, with the speed 2. It returns the speed 1, and the next fall takes 2 again.
+    let bounces: Vec<_> = arcs
+        .iter()
+        .filter_map(|arc| arc.event())
+        .filter(|event| event.surface == FilippovSurface::Model("floor"))
+        .collect();
+    assert!((bounces[0].time - 2.0).abs() < 1e-12 && (bounces[1].time - 4.0).abs() < 1e-12);
+    for bounce in bounces {
+        let (mode, after) = bounce.after.unwrap();
+        assert!(is_sliding(&mode) && after[0].abs() < 1e-15, "{mode:?} {after}");
+    }
+}
