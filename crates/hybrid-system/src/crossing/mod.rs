@@ -16,6 +16,7 @@
 
 mod bounded;
 mod bracketed_root;
+mod candidate;
 mod certainty;
 mod departure;
 mod earliest;
