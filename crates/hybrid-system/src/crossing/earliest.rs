@@ -1,5 +1,6 @@
 //! The earliest event of all guards of a mode.
 
+use super::candidate::Candidate;
 use super::certainty::Certainty;
 use super::guarded_flow::GuardedFlow;
 use super::next_event::{Crossing, EventKind, NextEvent};
@@ -16,29 +17,6 @@ const FEW: usize = 8;
 
 /// Rounding of the time itself, in ulps: the root lies between two neighbouring doubles, and the later one is returned.
 const TIME_ULPS: f64 = 2.0;
-
-/// A candidate for the earliest event.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Candidate {
-    /// Time of the event.
-    pub(crate) time: f64,
-    /// Bound on the error of the time.
-    pub(crate) error: f64,
-    /// Index of the guard in the list of the mode.
-    pub(crate) index: usize,
-    /// The value of the guard, if this is a touch.
-    pub(crate) touch: Option<f64>,
-}
-
-impl Candidate {
-    /// True if this event comes before the other one by more than their errors.
-    ///
-    /// Guards are searched in the order in which the model lists them. Therefore the guard listed first is returned among
-    /// events at the same instant.
-    pub(crate) fn is_sooner_than(&self, other: &Candidate) -> bool {
-        self.time + self.error < other.time - other.error
-    }
-}
 
 /// The default search of [`HybridSystem::first_crossing`](crate::HybridSystem::first_crossing).
 pub(crate) fn earliest_crossing<F: GuardedFlow>(

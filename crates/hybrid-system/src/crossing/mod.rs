@@ -16,12 +16,14 @@
 
 mod bounded;
 mod bracketed_root;
+mod candidate;
 mod certainty;
 mod departure;
 mod earliest;
 mod enclosure;
 mod enclosure_search;
 mod first_crossing;
+mod found;
 mod golden_section;
 mod guard_rate;
 mod guard_rounding;
@@ -49,6 +51,8 @@ pub(crate) use departure::{Departure, departure};
 pub(crate) use earliest::earliest_crossing;
 pub use enclosure::Enclosure;
 pub use first_crossing::FirstCrossing;
+#[cfg(feature = "ode")]
+pub(crate) use found::Found;
 pub use golden_section::golden_section_minimum;
 pub(crate) use guard_rate::guard_rate;
 #[cfg(feature = "ode")]
@@ -64,6 +68,6 @@ pub use search_request::{Leaving, Search};
 #[cfg(feature = "ode")]
 pub(crate) use step_past_root::step_to_sign;
 #[cfg(feature = "ode")]
-pub(crate) use zero_search::{Found, ZeroSearch};
+pub(crate) use zero_search::ZeroSearch;
 #[cfg(feature = "ode")]
 pub(crate) use zero_test::ZeroTest;

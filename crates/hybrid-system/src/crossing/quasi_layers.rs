@@ -8,7 +8,7 @@
 //!   zero otherwise.
 
 use super::quasi_polynomial::QuasiPolynomial;
-use super::quasi_term::{Term, slopes};
+use super::quasi_term::{Term, slope_coefficient, slope_length};
 use super::rounded::Rounded;
 use crate::error::Error;
 
@@ -99,11 +99,7 @@ impl Layers {
         }
         for layer in 0..derivatives {
             for (term, kind) in (0..terms.len()).map(|k| (layer * terms.len() + k, k)) {
-                let Place { cos, sin, end } = layers.places[term];
-                let list = &layers.coefficients;
-                let Kind { sigma, omega } = layers.kinds[kind];
-                let (p, q) = slopes(sigma, omega, &list[cos..sin], &list[sin..end]);
-                layers.push(p, q);
+                layers.push_slopes(layers.places[term], kind);
             }
         }
         Ok(layers)
@@ -128,6 +124,24 @@ impl Layers {
         self.coefficients.extend(cos);
         let middle = self.coefficients.len();
         self.coefficients.extend(sin);
+        self.places.push(Place { cos: start, sin: middle, end: self.coefficients.len() });
+    }
+
+    /// The polynomials of the derivative of one term.
+    fn push_slopes(&mut self, Place { cos, sin, end }: Place, kind: usize) {
+        let Kind { sigma, omega } = self.kinds[kind];
+        let start = self.coefficients.len();
+        for k in 0..slope_length(sigma, omega, sin - cos, end - sin) {
+            let list = &self.coefficients;
+            let c = slope_coefficient(sigma, omega, (&list[cos..sin], &list[sin..end]), k);
+            self.coefficients.push(c);
+        }
+        let middle = self.coefficients.len();
+        for k in 0..slope_length(sigma, -omega, end - sin, sin - cos) {
+            let list = &self.coefficients;
+            let c = slope_coefficient(sigma, -omega, (&list[sin..end], &list[cos..sin]), k);
+            self.coefficients.push(c);
+        }
         self.places.push(Place { cos: start, sin: middle, end: self.coefficients.len() });
     }
 

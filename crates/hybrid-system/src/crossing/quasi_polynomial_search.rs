@@ -14,10 +14,11 @@
 use super::bounded::{Bounded, Leave};
 use super::enclosure::Enclosure;
 use super::first_crossing::FirstCrossing;
+use super::found::Found;
 use super::quasi_layers::{Layers, Size};
 use super::quasi_polynomial::QuasiPolynomial;
 use super::search_request::MOST_INTERVALS;
-use super::zero_search::{Found, ZeroSearch};
+use super::zero_search::ZeroSearch;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;

@@ -58,8 +58,14 @@ impl Term {
 
     /// (exp(σt)(p cos + q sin))′ = exp(σt)((p′ + σp + ωq) cos + (q′ + σq − ωp) sin).
     pub(crate) fn derivative(&self) -> Self {
-        let (cos, sin) = slopes(self.sigma, self.omega, &self.cos, &self.sin);
-        Term { sigma: self.sigma, omega: self.omega, cos, sin }
+        let (sigma, omega) = (self.sigma, self.omega);
+        let slopes = |omega: Rounded, p: &[Rounded], q: &[Rounded]| {
+            let length = slope_length(sigma, omega, p.len(), q.len());
+            (0..length).map(|k| slope_coefficient(sigma, omega, (p, q), k)).collect()
+        };
+        let (cos, sin) =
+            (slopes(omega, &self.cos, &self.sin), slopes(-omega, &self.sin, &self.cos));
+        Term { sigma, omega, cos, sin }
     }
 
     /// The derivative at time zero: p₁ + σp₀ + ωq₀.
@@ -110,30 +116,24 @@ impl Term {
     }
 }
 
-/// The polynomials of the derivative of exp(σt)(p cos ωt + q sin ωt).
+/// Number of coefficients of p′ + σp + ωq, where p and q have these numbers of coefficients.
 ///
 /// Without rate and frequency the degree decreases, so that the derivatives of a polynomial end at zero.
-pub(crate) fn slopes(
+pub(crate) fn slope_length(sigma: Rounded, omega: Rounded, p: usize, q: usize) -> usize {
+    let zero = Rounded::default();
+    let from_p = if sigma == zero { p.saturating_sub(1) } else { p };
+    from_p.max(if omega == zero { 0 } else { q })
+}
+
+/// Coefficient k of p′ + σp + ωq.
+pub(crate) fn slope_coefficient(
     sigma: Rounded,
     omega: Rounded,
-    p: &[Rounded],
-    q: &[Rounded],
-) -> (Vec<Rounded>, Vec<Rounded>) {
-    let zero = Rounded::default();
-    let sum = |own: &[Rounded], factor: Rounded, other: &[Rounded]| {
-        let at = |list: &[Rounded], k: usize| list.get(k).copied().unwrap_or_default();
-        let from_slope = own.len().saturating_sub(1);
-        let from_own = if sigma == zero { 0 } else { own.len() };
-        let from_other = if factor == zero { 0 } else { other.len() };
-        (0..from_slope.max(from_own).max(from_other))
-            .map(|k| {
-                at(own, k + 1) * Rounded::exact((k + 1) as f64)
-                    + sigma * at(own, k)
-                    + factor * at(other, k)
-            })
-            .collect()
-    };
-    (sum(p, omega, q), sum(q, -omega, p))
+    (p, q): (&[Rounded], &[Rounded]),
+    k: usize,
+) -> Rounded {
+    let at = |list: &[Rounded], k: usize| list.get(k).copied().unwrap_or_default();
+    at(p, k + 1) * Rounded::exact((k + 1) as f64) + sigma * at(p, k) + omega * at(q, k)
 }
 
 /// Adds coefficients to those of `sum`.

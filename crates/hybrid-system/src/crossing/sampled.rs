@@ -1,7 +1,7 @@
 //! Guards known by their values only: a change of sign between two samples.
 
 use super::bracketed_root::root_beyond;
-use super::earliest::Candidate;
+use super::candidate::Candidate;
 use super::guarded_flow::GuardedFlow;
 use super::search_request::Search;
 use crate::error::Error;

@@ -2,12 +2,13 @@
 
 use super::bounded::Bounded;
 use super::enclosure_search::EnclosedGuard;
+use super::found::Found;
 use super::guard_rounding::is_far;
 use super::guarded_flow::GuardedFlow;
 use super::one_guard::OneGuard;
 use super::quasi_polynomial_search::BoundedQuasiPolynomial;
 use super::search_request::Search;
-use super::zero_search::{Found, ZeroSearch};
+use super::zero_search::ZeroSearch;
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
 

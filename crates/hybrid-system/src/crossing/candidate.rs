@@ -1,0 +1,24 @@
+//! A candidate for the earliest event of a mode.
+
+/// A candidate for the earliest event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Candidate {
+    /// Time of the event.
+    pub(crate) time: f64,
+    /// Bound on the error of the time.
+    pub(crate) error: f64,
+    /// Index of the guard in the list of the mode.
+    pub(crate) index: usize,
+    /// The value of the guard, if this is a touch.
+    pub(crate) touch: Option<f64>,
+}
+
+impl Candidate {
+    /// True if this event comes before the other one by more than their errors.
+    ///
+    /// Guards are searched in the order in which the model lists them. Therefore the guard listed first is returned among
+    /// events at the same instant.
+    pub(crate) fn is_sooner_than(&self, other: &Candidate) -> bool {
+        self.time + self.error < other.time - other.error
+    }
+}
