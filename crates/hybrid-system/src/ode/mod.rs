@@ -9,6 +9,7 @@ mod chebyshev;
 mod first_step;
 mod flow;
 mod followed_guard;
+mod inside_step;
 mod integration;
 mod inverse_root;
 mod polish;

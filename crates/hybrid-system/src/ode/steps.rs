@@ -1,6 +1,5 @@
 //! The steps of a Runge–Kutta pair, for states of any kind.
 
-use super::chebyshev::NODES;
 use super::first_step::first_step;
 use super::inverse_root::inverse_root;
 use super::rows::Rows;
@@ -39,19 +38,16 @@ const ROUGH: f64 = 10.0;
 /// The reason of the error of an integration that has used its budget.
 pub(super) const NO_STEPS_LEFT: &str = "no steps are left";
 
-/// The cubic through a step is sampled at its eighths.
-const CUBIC_PARTS: u32 = 8;
-
 // The vectors that every step needs, as rows.
 
 /// The state at the end of the last step.
-const STATE: usize = 0;
+pub(super) const STATE: usize = 0;
 /// The field there.
-const SLOPE: usize = 1;
+pub(super) const SLOPE: usize = 1;
 /// The state at the start of the last step.
-const BEFORE: usize = 2;
+pub(super) const BEFORE: usize = 2;
 /// The state after the step that is tried, and the field there.
-const AFTER: usize = 3;
+pub(super) const AFTER: usize = 3;
 const SLOPE_AFTER: usize = 4;
 
 /// Steps of the scheme.
@@ -59,39 +55,39 @@ const SLOPE_AFTER: usize = 4;
 /// Invariant: row `SLOPE` is the field at (`time`, row `STATE`), and after a step `slopes` and `stages` belong to the
 /// step from (`from`, row `BEFORE`) to `time`, until [`directly_at`](Self::directly_at) overwrites them.
 pub(super) struct Steps<F, V> {
-    field: F,
-    tolerances: Tolerances,
-    scheme: &'static Scheme,
+    pub(super) field: F,
+    pub(super) tolerances: Tolerances,
+    pub(super) scheme: &'static Scheme,
     /// True if the field does not depend on time: where it is zero the state stays for ever.
-    autonomous: bool,
+    pub(super) autonomous: bool,
     /// Start and end of the last step.
     pub(super) from: f64,
     pub(super) time: f64,
     /// The argument of the field.
-    argument: V,
-    vectors: Rows<5>,
+    pub(super) argument: V,
+    pub(super) vectors: Rows<5>,
     /// The states at the stages of the last step.
-    stages: Rows<ALL_STAGES>,
+    pub(super) stages: Rows<ALL_STAGES>,
     /// The field at the start of the last step, then the differences from it at the other stages.
-    slopes: Rows<ALL_STAGES>,
+    pub(super) slopes: Rows<ALL_STAGES>,
     /// True if the stages of the interpolant have been computed too. Most steps never need these stages.
-    dense: bool,
+    pub(super) dense: bool,
     /// The field is never evaluated beyond this time. It is below the start for an integration backward in time.
-    end: f64,
+    pub(super) end: f64,
     /// Size of the last step, with its sign; 0 before the first.
-    last: f64,
+    pub(super) last: f64,
     /// Planned length of the next step; `None` before the first.
-    next: Option<f64>,
+    pub(super) next: Option<f64>,
     /// A bound on the length of the first step.
-    longest_first: f64,
+    pub(super) longest_first: f64,
     /// A kink of the field lies perhaps before this time: steps that start earlier, in the direction of the integration,
     /// estimate their errors by [`Scheme::kinks`] as well.
-    kink_until: f64,
+    pub(super) kink_until: f64,
     /// The last rejected trial ended here: steps that start earlier must meet a tolerance that is smaller by
     /// [`Scheme::kink_ratio`].
-    strict_until: f64,
+    pub(super) strict_until: f64,
     /// Number of trials, rejected ones included.
-    taken: usize,
+    pub(super) taken: usize,
 }
 
 /// Which estimates of the error a trial uses besides the usual one.
@@ -104,7 +100,7 @@ struct Caution {
 }
 
 /// Why a trial of a step gave no error estimate.
-enum Failed {
+pub(super) enum Failed {
     /// The field or the state is infinite or NaN at a stage: a shorter step may stay inside the domain of the field.
     NotFinite,
     /// The field has another number of components than the state.
@@ -162,7 +158,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     }
 
     /// The number of components. The compiler knows it if the dimension is known when the program is compiled.
-    fn n(&self) -> usize {
+    pub(super) fn n(&self) -> usize {
         self.argument.length()
     }
 
@@ -360,7 +356,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     }
 
     /// Row `AFTER`: the state after a step of this size from row `from`, whose stages have been computed.
-    fn combine(&mut self, from: usize, size: f64) {
+    pub(super) fn combine(&mut self, from: usize, size: f64) {
         let n = self.n();
         let slopes = self.slopes.all(n);
         for axis in 0..n {
@@ -383,7 +379,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     /// Each component is summed separately, which keeps each sum in a register. Sums of whole vectors are moved through
     /// memory two words at a time, and a state of three components is loaded again before it has been stored. The first
     /// and the second terms of the pairs are summed separately, so that the processor computes the two sums in parallel.
-    fn stage(
+    pub(super) fn stage(
         &mut self,
         stage: usize,
         (time, from): (f64, usize),
@@ -448,86 +444,6 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         self.dense = true;
         Ok(())
     }
-
-    /// The state at a time in the last step, by a separate step that ends there.
-    ///
-    /// The coefficients of the interpolant are large and cancel. This separate step loses no digits. Its stages
-    /// overwrite the stages of the last step.
-    pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
-        let n = self.n();
-        // Here the separate step would be the last step again, or have length zero.
-        if time == self.time {
-            return Ok(self.state());
-        }
-        if time == self.from {
-            return Ok(self.argument.with_components(self.vectors.row(BEFORE, n)));
-        }
-        let size = time - self.from;
-        for stage in 1..self.scheme.stages {
-            if self.stage(stage, (self.from, BEFORE), size, time).is_err() {
-                let state = self.vectors.row(BEFORE, n).to_vec();
-                return Err(Error::FieldNotFinite { time: self.from, state });
-            }
-        }
-        self.combine(BEFORE, size);
-        let state = self.vectors.row(AFTER, n);
-        if !finite(state) {
-            return Err(Error::StateNotFinite { time, jumps: 0, state: state.to_vec() });
-        }
-        Ok(self.argument.with_components(state))
-    }
-
-    /// Degree and values at the nodes of the polynomial of the last step: at node j the state is
-    /// before + h Σᵢ bᵢ(sⱼ) kᵢ.
-    pub(super) fn inside(&mut self) -> Result<(usize, Rows<NODES>), Error> {
-        let n = self.n();
-        if !self.dense {
-            for stage in self.scheme.stages..self.scheme.all_stages() {
-                if self.stage(stage, (self.from, BEFORE), self.last, self.time).is_err() {
-                    let state = self.vectors.row(BEFORE, n).to_vec();
-                    return Err(Error::FieldNotFinite { time: self.from, state });
-                }
-            }
-            self.dense = true;
-        }
-        let mut nodes = Rows::new(n);
-        let (slopes, before) = (self.slopes.all(n), self.vectors.row(BEFORE, n));
-        for axis in 0..n {
-            let mut changes = [0.0; NODES];
-            for (stage, weights) in self.scheme.nodes.iter().enumerate() {
-                for (sum, weight) in changes.iter_mut().zip(weights) {
-                    *sum += weight * slopes[stage * n + axis];
-                }
-            }
-            for (j, change) in changes.iter().enumerate() {
-                nodes.all_mut(n)[j * n + axis] = before[axis] + self.last * change;
-            }
-        }
-        Ok((self.scheme.degree, nodes))
-    }
-
-    /// States along the last step that need no evaluation of the field: see
-    /// [`Integration::samples`](super::integration::Integration::samples).
-    pub(super) fn samples(&self) -> impl Iterator<Item = V> {
-        let n = self.n();
-        let row = move |k| self.vectors.row(k, n);
-        let (before, state, slope) = (row(BEFORE), row(STATE), row(SLOPE));
-        let first = self.slopes.row(0, n);
-        let cubic = (0..=CUBIC_PARTS).map(move |k| {
-            // The cubic Hermite interpolant at s ∈ [0, 1], r = 1 − s.
-            let s = f64::from(k) / f64::from(CUBIC_PARTS);
-            let (r, part) = (1.0 - s, s * (1.0 - s) * self.last);
-            let (a, b) = (r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r));
-            let mut sample = self.argument.clone();
-            for axis in 0..n {
-                let bend = (first[axis] * r - slope[axis] * s) * part;
-                sample.set_component(axis, before[axis] * a + state[axis] * b + bend);
-            }
-            sample
-        });
-        let stages = 1..self.scheme.stages;
-        stages.map(move |k| self.argument.with_components(self.stages.row(k, n))).chain(cubic)
-    }
 }
 
 /// `time`, or `last` if `time` is later in the direction of the integration.
@@ -535,7 +451,7 @@ fn no_later(time: f64, last: f64, direction: f64) -> f64 {
     if (time - last) * direction > 0.0 { last } else { time }
 }
 
-fn finite(components: &[f64]) -> bool {
+pub(super) fn finite(components: &[f64]) -> bool {
     components.iter().all(|component| component.is_finite())
 }
 
