@@ -17,6 +17,7 @@ mod polynomial_test;
 mod rows;
 mod schemes;
 mod search;
+mod special_steps;
 mod step;
 mod steps;
 mod tolerances;

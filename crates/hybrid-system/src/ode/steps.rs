@@ -1,6 +1,5 @@
 //! The steps of a Runge–Kutta pair, for states of any kind.
 
-use super::first_step::first_step;
 use super::inverse_root::inverse_root;
 use super::rows::Rows;
 use super::schemes::{ALL_STAGES, Scheme, scheme_for};
@@ -48,7 +47,7 @@ pub(super) const SLOPE: usize = 1;
 pub(super) const BEFORE: usize = 2;
 /// The state after the step that is tried, and the field there.
 pub(super) const AFTER: usize = 3;
-const SLOPE_AFTER: usize = 4;
+pub(super) const SLOPE_AFTER: usize = 4;
 
 /// Steps of the scheme.
 ///
@@ -209,7 +208,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         }
         let mut next = match self.next {
             Some(next) => next,
-            None => self.first_step(direction),
+            None => self.length_of_first_step(direction),
         };
         let mut largest_factor = LARGEST_FACTOR;
         let mut outside = false;
@@ -285,31 +284,6 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     fn wall(&self) -> Error {
         let state = self.vectors.row(STATE, self.n()).to_vec();
         Error::FieldNotFinite { time: self.time, state }
-    }
-
-    /// The length of the first step.
-    fn first_step(&mut self, direction: f64) -> f64 {
-        let n = self.n();
-        let (state, slope) = (self.vectors.row(STATE, n), self.vectors.row(SLOPE, n));
-        let longest = (self.end - self.time).abs().min(self.tolerances.longest_step);
-        let slope_after = |size: f64, after: &mut [f64]| {
-            for axis in 0..n {
-                let value = state[axis] + direction * size * slope[axis];
-                self.argument.set_component(axis, value);
-            }
-            let time = no_later(self.time + direction * size, self.end, direction);
-            let found = (self.field)(time, &self.argument);
-            // A field of another length is an error of the first step.
-            for (axis, after) in after.iter_mut().enumerate() {
-                *after = if axis < found.length() { found.component(axis) } else { f64::NAN };
-            }
-            finite(after)
-        };
-        let (tolerances, order) = (&self.tolerances, self.scheme.order);
-        // No step has used the slopes of stages yet.
-        let space = self.slopes.row_mut(0, n);
-        let first = first_step(state, slope, longest, tolerances, order, slope_after, space);
-        first.min(self.longest_first)
     }
 
     /// Tries a step of this size from now to `to`. Its result is the norm of the estimated error in units of the
@@ -416,7 +390,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     }
 
     /// The trial becomes the last step.
-    fn accept(&mut self, size: f64, to: f64) {
+    pub(super) fn accept(&mut self, size: f64, to: f64) {
         let n = self.n();
         let all = self.vectors.all_mut(n);
         all.copy_within(STATE * n..(STATE + 1) * n, BEFORE * n);
@@ -425,29 +399,10 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         self.dense = false;
         (self.from, self.time, self.last) = (self.time, to, size);
     }
-
-    /// A step to the end along which the state stays.
-    fn rest(&mut self) -> Result<(), Error> {
-        if self.end.is_infinite() {
-            let reason = "the field is zero, and the state stays for ever";
-            return Err(Error::Integration { reason, time: self.time });
-        }
-        let n = self.n();
-        self.slopes.all_mut(n).fill(0.0);
-        for stage in 1..self.scheme.stages {
-            self.stages.row_mut(stage, n).copy_from_slice(self.vectors.row(STATE, n));
-        }
-        self.vectors.row_mut(SLOPE_AFTER, n).fill(0.0);
-        let all = self.vectors.all_mut(n);
-        all.copy_within(STATE * n..(STATE + 1) * n, AFTER * n);
-        self.accept(self.end - self.time, self.end);
-        self.dense = true;
-        Ok(())
-    }
 }
 
 /// `time`, or `last` if `time` is later in the direction of the integration.
-fn no_later(time: f64, last: f64, direction: f64) -> f64 {
+pub(super) fn no_later(time: f64, last: f64, direction: f64) -> f64 {
     if (time - last) * direction > 0.0 { last } else { time }
 }
 
