@@ -1,4 +1,5 @@
-//! States inside the last step: by a separate step, by the interpolant, and by what the step has computed anyway.
+//! What an integration knows after a step: its state, and the states inside the step, by a separate step, by the
+//! interpolant, and by what the step has computed anyway.
 
 use super::chebyshev::NODES;
 use super::rows::Rows;
@@ -10,6 +11,25 @@ use crate::error::Error;
 const CUBIC_PARTS: u32 = 8;
 
 impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
+    /// True if the field is zero and does not depend on time: the state stays for ever.
+    pub(super) fn at_rest(&self) -> bool {
+        self.autonomous && self.vectors.row(SLOPE, self.n()).iter().all(|slope| *slope == 0.0)
+    }
+
+    /// True if the end has been reached.
+    pub(super) fn ended(&self) -> bool {
+        self.time == self.end
+    }
+
+    /// Trials that are left, rejected ones counted as well.
+    pub(super) fn left(&self) -> usize {
+        self.tolerances.steps.saturating_sub(self.taken)
+    }
+
+    pub(super) fn state(&self) -> V {
+        self.argument.with_components(self.vectors.row(STATE, self.n()))
+    }
+
     /// The state at a time in the last step, by a separate step that ends there.
     ///
     /// The coefficients of the interpolant are large and cancel. This separate step loses no digits. Its stages

@@ -178,25 +178,6 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         self.longest_first = longest;
     }
 
-    /// True if the field is zero and does not depend on time: the state stays for ever.
-    pub(super) fn at_rest(&self) -> bool {
-        self.autonomous && self.vectors.row(SLOPE, self.n()).iter().all(|slope| *slope == 0.0)
-    }
-
-    /// True if the end has been reached.
-    pub(super) fn ended(&self) -> bool {
-        self.time == self.end
-    }
-
-    /// Trials that are left, rejected ones counted as well.
-    pub(super) fn left(&self) -> usize {
-        self.tolerances.steps.saturating_sub(self.taken)
-    }
-
-    pub(super) fn state(&self) -> V {
-        self.argument.with_components(self.vectors.row(STATE, self.n()))
-    }
-
     pub(super) fn step(&mut self) -> Result<(), Error> {
         let failed = |reason, time| Err(Error::Integration { reason, time });
         if self.ended() {
