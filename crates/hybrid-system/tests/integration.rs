@@ -163,7 +163,9 @@ fn quiet_arcs_end() {
     assert!(run.at_rest());
     let mut run = run.until(1e300).unwrap();
     run.step().unwrap();
-    assert!(run.ended() && run.state()[0] == 3.0 && run.at(1e299).unwrap()[0] == 3.0);
+    assert!(run.ended() && run.state()[0] == 3.0);
+    // The interpolant is rounded.
+    assert!((run.at(1e299).unwrap()[0] - 3.0).abs() < 1e-14);
     assert_eq!(count.get(), 1);
 }
 
@@ -184,7 +186,7 @@ fn errors_at_a_kink_are_ten_times_the_tolerance() {
         let half_waves = (t / PI).floor();
         2.0 * half_waves + 1.0 - (t - half_waves * PI).cos()
     };
-    for (tolerance, most) in [(1e-6, 10.0), (1e-8, 10.0), (1e-9, 10.0), (1e-12, 10.0)] {
+    for tolerance in [1e-6, 1e-8, 1e-9, 1e-12] {
         for place in 0..200 {
             let phase = 0.3 + 0.0137 * f64::from(place);
             let start = Vector3::new(0.0, phase.sin(), phase.cos());
@@ -192,7 +194,7 @@ fn errors_at_a_kink_are_ten_times_the_tolerance() {
             let run = Integration::new(field, &start, Tolerances::both(tolerance)).unwrap();
             let last = finish(run.until(3.0).unwrap()).unwrap();
             let error = (last[0] - (integral(3.0 + phase) - integral(phase))).abs();
-            assert!(error < most * tolerance, "{tolerance:e} {phase}: {error:e}");
+            assert!(error < 10.0 * tolerance, "{tolerance:e} {phase}: {error:e}");
         }
     }
 }

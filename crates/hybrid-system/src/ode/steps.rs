@@ -1,7 +1,5 @@
 //! The steps of a Runge–Kutta pair, for states of any kind.
 
-use super::chebyshev::NODES;
-use super::first_step::first_step;
 use super::inverse_root::inverse_root;
 use super::rows::Rows;
 use super::schemes::{ALL_STAGES, Scheme, scheme_for};
@@ -39,59 +37,56 @@ const ROUGH: f64 = 10.0;
 /// The reason of the error of an integration that has used its budget.
 pub(super) const NO_STEPS_LEFT: &str = "no steps are left";
 
-/// The cubic through a step is sampled at its eighths.
-const CUBIC_PARTS: u32 = 8;
-
 // The vectors that every step needs, as rows.
 
 /// The state at the end of the last step.
-const STATE: usize = 0;
+pub(super) const STATE: usize = 0;
 /// The field there.
-const SLOPE: usize = 1;
+pub(super) const SLOPE: usize = 1;
 /// The state at the start of the last step.
-const BEFORE: usize = 2;
+pub(super) const BEFORE: usize = 2;
 /// The state after the step that is tried, and the field there.
-const AFTER: usize = 3;
-const SLOPE_AFTER: usize = 4;
+pub(super) const AFTER: usize = 3;
+pub(super) const SLOPE_AFTER: usize = 4;
 
 /// Steps of the scheme.
 ///
 /// Invariant: row `SLOPE` is the field at (`time`, row `STATE`), and after a step `slopes` and `stages` belong to the
 /// step from (`from`, row `BEFORE`) to `time`, until [`directly_at`](Self::directly_at) overwrites them.
 pub(super) struct Steps<F, V> {
-    field: F,
-    tolerances: Tolerances,
-    scheme: &'static Scheme,
+    pub(super) field: F,
+    pub(super) tolerances: Tolerances,
+    pub(super) scheme: &'static Scheme,
     /// True if the field does not depend on time: where it is zero the state stays for ever.
-    autonomous: bool,
+    pub(super) autonomous: bool,
     /// Start and end of the last step.
     pub(super) from: f64,
     pub(super) time: f64,
     /// The argument of the field.
-    argument: V,
-    vectors: Rows<5>,
+    pub(super) argument: V,
+    pub(super) vectors: Rows<5>,
     /// The states at the stages of the last step.
-    stages: Rows<ALL_STAGES>,
+    pub(super) stages: Rows<ALL_STAGES>,
     /// The field at the start of the last step, then the differences from it at the other stages.
-    slopes: Rows<ALL_STAGES>,
+    pub(super) slopes: Rows<ALL_STAGES>,
     /// True if the stages of the interpolant have been computed too. Most steps never need these stages.
-    dense: bool,
+    pub(super) dense: bool,
     /// The field is never evaluated beyond this time. It is below the start for an integration backward in time.
-    end: f64,
+    pub(super) end: f64,
     /// Size of the last step, with its sign; 0 before the first.
-    last: f64,
+    pub(super) last: f64,
     /// Planned length of the next step; `None` before the first.
-    next: Option<f64>,
+    pub(super) next: Option<f64>,
     /// A bound on the length of the first step.
-    longest_first: f64,
+    pub(super) longest_first: f64,
     /// A kink of the field lies perhaps before this time: steps that start earlier, in the direction of the integration,
     /// estimate their errors by [`Scheme::kinks`] as well.
-    kink_until: f64,
+    pub(super) kink_until: f64,
     /// The last rejected trial ended here: steps that start earlier must meet a tolerance that is smaller by
     /// [`Scheme::kink_ratio`].
-    strict_until: f64,
+    pub(super) strict_until: f64,
     /// Number of trials, rejected ones included.
-    taken: usize,
+    pub(super) taken: usize,
 }
 
 /// Which estimates of the error a trial uses besides the usual one.
@@ -104,7 +99,7 @@ struct Caution {
 }
 
 /// Why a trial of a step gave no error estimate.
-enum Failed {
+pub(super) enum Failed {
     /// The field or the state is infinite or NaN at a stage: a shorter step may stay inside the domain of the field.
     NotFinite,
     /// The field has another number of components than the state.
@@ -162,7 +157,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     }
 
     /// The number of components. The compiler knows it if the dimension is known when the program is compiled.
-    fn n(&self) -> usize {
+    pub(super) fn n(&self) -> usize {
         self.argument.length()
     }
 
@@ -183,25 +178,6 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         self.longest_first = longest;
     }
 
-    /// True if the field is zero and does not depend on time: the state stays for ever.
-    pub(super) fn at_rest(&self) -> bool {
-        self.autonomous && self.vectors.row(SLOPE, self.n()).iter().all(|slope| *slope == 0.0)
-    }
-
-    /// True if the end has been reached.
-    pub(super) fn ended(&self) -> bool {
-        self.time == self.end
-    }
-
-    /// Trials that are left, rejected ones counted as well.
-    pub(super) fn left(&self) -> usize {
-        self.tolerances.steps.saturating_sub(self.taken)
-    }
-
-    pub(super) fn state(&self) -> V {
-        self.argument.with_components(self.vectors.row(STATE, self.n()))
-    }
-
     pub(super) fn step(&mut self) -> Result<(), Error> {
         let failed = |reason, time| Err(Error::Integration { reason, time });
         if self.ended() {
@@ -213,7 +189,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         }
         let mut next = match self.next {
             Some(next) => next,
-            None => self.first_step(direction),
+            None => self.length_of_first_step(direction),
         };
         let mut largest_factor = LARGEST_FACTOR;
         let mut outside = false;
@@ -291,31 +267,6 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         Error::FieldNotFinite { time: self.time, state }
     }
 
-    /// The length of the first step.
-    fn first_step(&mut self, direction: f64) -> f64 {
-        let n = self.n();
-        let (state, slope) = (self.vectors.row(STATE, n), self.vectors.row(SLOPE, n));
-        let longest = (self.end - self.time).abs().min(self.tolerances.longest_step);
-        let slope_after = |size: f64, after: &mut [f64]| {
-            for axis in 0..n {
-                let value = state[axis] + direction * size * slope[axis];
-                self.argument.set_component(axis, value);
-            }
-            let time = no_later(self.time + direction * size, self.end, direction);
-            let found = (self.field)(time, &self.argument);
-            // A field of another length is an error of the first step.
-            for (axis, after) in after.iter_mut().enumerate() {
-                *after = if axis < found.length() { found.component(axis) } else { f64::NAN };
-            }
-            finite(after)
-        };
-        let (tolerances, order) = (&self.tolerances, self.scheme.order);
-        // No step has used the slopes of stages yet.
-        let space = self.slopes.row_mut(0, n);
-        let first = first_step(state, slope, longest, tolerances, order, slope_after, space);
-        first.min(self.longest_first)
-    }
-
     /// Tries a step of this size from now to `to`. Its result is the norm of the estimated error in units of the
     /// tolerances, the largest component: of the usual estimate, and of the one that decides. At most 1 means that the rows `AFTER` and `SLOPE_AFTER` are the next state.
     fn trial(&mut self, size: f64, to: f64, caution: Caution) -> Result<(f64, f64), Failed> {
@@ -360,7 +311,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     }
 
     /// Row `AFTER`: the state after a step of this size from row `from`, whose stages have been computed.
-    fn combine(&mut self, from: usize, size: f64) {
+    pub(super) fn combine(&mut self, from: usize, size: f64) {
         let n = self.n();
         let slopes = self.slopes.all(n);
         for axis in 0..n {
@@ -383,7 +334,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     /// Each component is summed separately, which keeps each sum in a register. Sums of whole vectors are moved through
     /// memory two words at a time, and a state of three components is loaded again before it has been stored. The first
     /// and the second terms of the pairs are summed separately, so that the processor computes the two sums in parallel.
-    fn stage(
+    pub(super) fn stage(
         &mut self,
         stage: usize,
         (time, from): (f64, usize),
@@ -420,7 +371,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     }
 
     /// The trial becomes the last step.
-    fn accept(&mut self, size: f64, to: f64) {
+    pub(super) fn accept(&mut self, size: f64, to: f64) {
         let n = self.n();
         let all = self.vectors.all_mut(n);
         all.copy_within(STATE * n..(STATE + 1) * n, BEFORE * n);
@@ -429,113 +380,14 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         self.dense = false;
         (self.from, self.time, self.last) = (self.time, to, size);
     }
-
-    /// A step to the end along which the state stays.
-    fn rest(&mut self) -> Result<(), Error> {
-        if self.end.is_infinite() {
-            let reason = "the field is zero, and the state stays for ever";
-            return Err(Error::Integration { reason, time: self.time });
-        }
-        let n = self.n();
-        self.slopes.all_mut(n).fill(0.0);
-        for stage in 1..self.scheme.stages {
-            self.stages.row_mut(stage, n).copy_from_slice(self.vectors.row(STATE, n));
-        }
-        self.vectors.row_mut(SLOPE_AFTER, n).fill(0.0);
-        let all = self.vectors.all_mut(n);
-        all.copy_within(STATE * n..(STATE + 1) * n, AFTER * n);
-        self.accept(self.end - self.time, self.end);
-        self.dense = true;
-        Ok(())
-    }
-
-    /// The state at a time in the last step, by a separate step that ends there.
-    ///
-    /// The coefficients of the interpolant are large and cancel. This separate step loses no digits. Its stages
-    /// overwrite the stages of the last step.
-    pub(super) fn directly_at(&mut self, time: f64) -> Result<V, Error> {
-        let n = self.n();
-        // Here the separate step would be the last step again, or have length zero.
-        if time == self.time {
-            return Ok(self.state());
-        }
-        if time == self.from {
-            return Ok(self.argument.with_components(self.vectors.row(BEFORE, n)));
-        }
-        let size = time - self.from;
-        for stage in 1..self.scheme.stages {
-            if self.stage(stage, (self.from, BEFORE), size, time).is_err() {
-                let state = self.vectors.row(BEFORE, n).to_vec();
-                return Err(Error::FieldNotFinite { time: self.from, state });
-            }
-        }
-        self.combine(BEFORE, size);
-        let state = self.vectors.row(AFTER, n);
-        if !finite(state) {
-            return Err(Error::StateNotFinite { time, jumps: 0, state: state.to_vec() });
-        }
-        Ok(self.argument.with_components(state))
-    }
-
-    /// Degree and values at the nodes of the polynomial of the last step: at node j the state is
-    /// before + h Σᵢ bᵢ(sⱼ) kᵢ.
-    pub(super) fn inside(&mut self) -> Result<(usize, Rows<NODES>), Error> {
-        let n = self.n();
-        if !self.dense {
-            for stage in self.scheme.stages..self.scheme.all_stages() {
-                if self.stage(stage, (self.from, BEFORE), self.last, self.time).is_err() {
-                    let state = self.vectors.row(BEFORE, n).to_vec();
-                    return Err(Error::FieldNotFinite { time: self.from, state });
-                }
-            }
-            self.dense = true;
-        }
-        let mut nodes = Rows::new(n);
-        let (slopes, before) = (self.slopes.all(n), self.vectors.row(BEFORE, n));
-        for axis in 0..n {
-            let mut changes = [0.0; NODES];
-            for (stage, weights) in self.scheme.nodes.iter().enumerate() {
-                for (sum, weight) in changes.iter_mut().zip(weights) {
-                    *sum += weight * slopes[stage * n + axis];
-                }
-            }
-            for (j, change) in changes.iter().enumerate() {
-                nodes.all_mut(n)[j * n + axis] = before[axis] + self.last * change;
-            }
-        }
-        Ok((self.scheme.degree, nodes))
-    }
-
-    /// States along the last step that need no evaluation of the field: see
-    /// [`Integration::samples`](super::integration::Integration::samples).
-    pub(super) fn samples(&self) -> impl Iterator<Item = V> {
-        let n = self.n();
-        let row = move |k| self.vectors.row(k, n);
-        let (before, state, slope) = (row(BEFORE), row(STATE), row(SLOPE));
-        let first = self.slopes.row(0, n);
-        let cubic = (0..=CUBIC_PARTS).map(move |k| {
-            // The cubic Hermite interpolant at s ∈ [0, 1], r = 1 − s.
-            let s = f64::from(k) / f64::from(CUBIC_PARTS);
-            let (r, part) = (1.0 - s, s * (1.0 - s) * self.last);
-            let (a, b) = (r * r * (1.0 + 2.0 * s), s * s * (1.0 + 2.0 * r));
-            let mut sample = self.argument.clone();
-            for axis in 0..n {
-                let bend = (first[axis] * r - slope[axis] * s) * part;
-                sample.set_component(axis, before[axis] * a + state[axis] * b + bend);
-            }
-            sample
-        });
-        let stages = 1..self.scheme.stages;
-        stages.map(move |k| self.argument.with_components(self.stages.row(k, n))).chain(cubic)
-    }
 }
 
 /// `time`, or `last` if `time` is later in the direction of the integration.
-fn no_later(time: f64, last: f64, direction: f64) -> f64 {
+pub(super) fn no_later(time: f64, last: f64, direction: f64) -> f64 {
     if (time - last) * direction > 0.0 { last } else { time }
 }
 
-fn finite(components: &[f64]) -> bool {
+pub(super) fn finite(components: &[f64]) -> bool {
     components.iter().all(|component| component.is_finite())
 }
 
