@@ -5,8 +5,8 @@
 
 /// A time t = high + low, where `high` is the double nearest to t.
 ///
-/// A sum of n durations is wrong by n·2⁻¹⁰⁴ of the largest time at most, 2⁻¹⁰⁵ for each addition. Times and durations must be below 10³⁰⁰ in size, so that no sum overflows; an
-/// infinite time is kept as it is.
+/// A sum of n durations is wrong by n·2⁻¹⁰⁴ of the largest time at most, 2⁻¹⁰⁵ for each addition. Times and durations
+/// must be below 10³⁰⁰ in size, so that no sum overflows; an infinite time is kept as it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct TimeSum {

@@ -80,6 +80,19 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
                 first = Some(found);
             }
         }
+        // A guard that is zero at the end has no later sample. It has reached its surface there.
+        if time >= until && first.is_none() {
+            for (guard, &index) in sampled.iter().zip(indices) {
+                if let (Some(side), Some(zero)) = (guard.side, guard.zero)
+                    && zero > 0.0
+                    && guard.guard.direction.admits(side, -side)
+                {
+                    let error = 2.0 * f64::EPSILON * zero;
+                    first = Some(Candidate { time: zero, error, index, touch: None });
+                    break;
+                }
+            }
+        }
         if first.is_some() || time >= until {
             return Ok(SampledEvent { first, unfinished: None });
         }
