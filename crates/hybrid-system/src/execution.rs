@@ -161,9 +161,12 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                     let certainty = crossing.certainty;
                     return Ok(self.arc_without_event(horizon, None, certainty));
                 }
-                if crossing.kind == EventKind::AtStart
-                    && let Some(sliding) = self.sliding(crossing.surface)
-                {
+                // A crossing that takes no time, or only the error of its own time, is at once as well.
+                let at_once = crossing.kind == EventKind::AtStart
+                    || crossing.kind == EventKind::Crossing
+                        && crossing.time
+                            <= crossing.time_error.max(f64::EPSILON * self.at.time.value());
+                if at_once && let Some(sliding) = self.sliding(crossing.surface) {
                     return Ok(self.sliding_arc(sliding));
                 }
                 self.event_arc(crossing, horizon)

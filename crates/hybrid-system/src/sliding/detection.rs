@@ -135,7 +135,7 @@ fn fires_towards<T: HybridSystem>(
 }
 
 /// True if the state is on the surface: within rounding of the guard, or as close as the crossing before, or so close that
-/// a motion at this rate of the guard takes less than the rounding of the time.
+/// a motion at this rate of the guard takes less than some roundings of the time.
 fn is_on_surface<T: HybridSystem>(
     system: &T,
     surface: T::Surface,
@@ -146,7 +146,7 @@ fn is_on_surface<T: HybridSystem>(
     let now = value(at.state).abs();
     // The time of a crossing has an error, so that the guard has one that is larger than its rounding.
     let crossed_there = at.before.is_some_and(|before| now <= value(before).abs());
-    let in_no_time = now <= rate.abs() * f64::EPSILON * at.time.abs();
+    let in_no_time = now <= ON_SURFACE * f64::EPSILON * (rate * at.time).abs();
     crossed_there || in_no_time || now <= ON_SURFACE * rounding(system, surface, at.state)
 }
 
