@@ -1,6 +1,7 @@
 //! Advance an execution piece by piece: up to a time, and on from a limit.
 
-use crate::execution::{Execution, Limits, Stop};
+use crate::execution::Execution;
+use crate::limits::{Limits, Stop};
 use crate::system::HybridSystem;
 
 impl<T: HybridSystem> Execution<'_, T> {

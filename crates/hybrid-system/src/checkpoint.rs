@@ -1,6 +1,8 @@
 //! Checkpoints: everything that decides how an execution goes on.
 
-use crate::execution::{Execution, Limits, Point, Stop};
+use crate::execution::Execution;
+use crate::limits::{Limits, Stop};
+use crate::point::Point;
 use crate::system::HybridSystem;
 
 /// An execution between two arcs, without its system and its limits.

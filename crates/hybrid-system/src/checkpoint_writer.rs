@@ -2,7 +2,7 @@
 
 use crate::arrival::Arrival;
 use crate::checkpoint::Checkpoint;
-use crate::execution::Point;
+use crate::point::Point;
 use crate::state::StateVector;
 use serde::ser::{Error, Serialize, SerializeStruct, Serializer};
 

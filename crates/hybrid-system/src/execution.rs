@@ -1,75 +1,15 @@
 //! Executions: arcs and events in hybrid time, one after the other.
 
-use crate::arc::{Arc, ArcEnd, Event};
-use crate::arrival::Arrival;
+use crate::arc::{Arc, ArcEnd};
 use crate::chain::Chain;
-use crate::crossing::{Certainty, Crossing, EventKind, MOST_INTERVALS, NextEvent, Search};
+use crate::crossing::{EventKind, NextEvent};
 use crate::error::Error;
-use crate::guard::Role;
-use crate::sliding::{AtOnce, Sliding, sliding_point};
-use crate::start_rule::{LeavingGuards, Start, start_of_arc};
+use crate::limits::{Limits, Stop};
+use crate::point::Point;
 use crate::state::StateVector;
-use crate::system::{FlowFrom, HybridSystem, Reset};
+use crate::system::HybridSystem;
 use crate::time_sum::TimeSum;
-use crate::zeno::{History, ZenoLimit};
-
-/// Limits of an execution.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Limits {
-    /// Largest continuous time t; may be infinite if the model solves its own crossings.
-    pub time: f64,
-    /// Largest number of events.
-    pub events: usize,
-    /// The interval at which guards without bounds are sampled.
-    pub sampling_interval: Option<f64>,
-    /// The most intervals that the search for one event tests under bounds.
-    pub intervals: usize,
-    /// The most steps of the integrated flow of one arc. After them the arc ends with
-    /// [`ArcEnd::Unfinished`](crate::ArcEnd::Unfinished), and the execution can go on.
-    pub steps: usize,
-}
-
-impl Limits {
-    /// Limits for models whose guards need no samples.
-    pub const fn new(time: f64, events: usize) -> Self {
-        Limits {
-            time,
-            events,
-            sampling_interval: None,
-            intervals: MOST_INTERVALS,
-            steps: usize::MAX,
-        }
-    }
-
-    /// The same with a sampling interval for guards without bounds.
-    pub const fn sampled(time: f64, events: usize, interval: f64) -> Self {
-        let mut limits = Limits::new(time, events);
-        limits.sampling_interval = Some(interval);
-        limits
-    }
-}
-
-/// Why an execution ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub enum Stop {
-    /// The limit on time was reached.
-    TimeLimit,
-    /// The limit on the number of events was reached.
-    EventLimit,
-    /// A reset ended the execution.
-    Terminal,
-    /// No event follows, and there is no limit on time.
-    NoFurtherEvent,
-    /// The events have a Zeno limit, and the model gives no mode after it.
-    Zeno,
-    /// The fields on both sides of a surface point at it, and the model gives no mode there.
-    Sliding,
-    /// A budget of the search for the next event ended. The execution can go on.
-    Unfinished,
-    /// An error was returned.
-    Failed,
-}
+use crate::zeno::History;
 
 /// An execution of a hybrid system, as an iterator over its arcs.
 ///
@@ -81,24 +21,6 @@ pub struct Execution<'a, T: HybridSystem> {
     pub(crate) limits: Limits,
     pub(crate) stop: Option<Stop>,
     pub(crate) at: Point<T::Mode, T::Surface, T::State>,
-}
-
-/// Everything that decides how an execution goes on.
-#[derive(Debug, Clone)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Point<M, S, X> {
-    pub(crate) mode: M,
-    pub(crate) state: X,
-    pub(crate) time: TimeSum,
-    /// Number of events so far, j.
-    pub(crate) jump: usize,
-    /// False after the first arc.
-    pub(crate) initial: bool,
-    pub(crate) history: History<X>,
-    /// The events since time has passed for the last time.
-    pub(crate) chain: Chain<M, S>,
-    /// The last crossing, if no time has passed since.
-    pub(crate) arrival: Option<Arrival<M, S, X>>,
 }
 
 impl<'a, T: HybridSystem> Execution<'a, T> {
@@ -132,11 +54,13 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The next arc. The state of the execution moves to the end of the arc.
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
-        if let Some(limit) = self.at.history.zeno_limit(false) {
-            return Ok(self.zeno_arc(limit));
-        }
         // The time of an event at the limit may be rounded up beyond it.
         let horizon = self.at.time.until(self.limits.time).max(0.0);
+        // Events before a limit on time that lies before the Zeno limit are followed.
+        let limit = self.at.history.zeno_limit(false);
+        if let Some(limit) = limit.filter(|limit| limit.remainder <= horizon) {
+            return Ok(self.zeno_arc(limit));
+        }
         let found = match self.next_event(horizon) {
             // After many short bounces rounding hides the next one. If the durations form a geometric series, this is a
             // Zeno limit.
@@ -184,250 +108,6 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         }
     }
 
-    /// The next event: at once, at a preset time, or the first crossing.
-    fn next_event(&self, horizon: f64) -> Result<NextEvent<T::Surface, T::State>, Error> {
-        let Point { mode, ref state, ref time, ref arrival, initial, .. } = self.at;
-        let flow = FlowFrom { system: self.system, mode, start: state };
-        let mut leaving = LeavingGuards::new();
-        let start = start_of_arc(&flow, arrival.as_ref(), initial, horizon, &mut leaving)?;
-        if let Start::Event { surface, certainty } = start {
-            return Ok(NextEvent::Crossing(Crossing {
-                surface,
-                time: 0.0,
-                time_error: 0.0,
-                state: state.clone(),
-                kind: EventKind::AtStart,
-                certainty,
-            }));
-        }
-        let clock = self.next_clock(horizon)?;
-        let search = Search {
-            horizon: clock.map_or(horizon, |clock| clock.until),
-            sampling_interval: self.limits.sampling_interval,
-            intervals: self.limits.intervals,
-            steps: self.limits.steps,
-            time: time.value(),
-            leaving: &leaving,
-        };
-        let found = self.system.first_crossing(mode, state, &search)?;
-        match (found, clock) {
-            (
-                NextEvent::None { state: end, certainty },
-                Some(ClockEvent { surface, until, .. }),
-            ) => Ok(NextEvent::Crossing(Crossing {
-                surface,
-                time: until,
-                time_error: 0.0,
-                state: end.unwrap_or_else(|| flow_to(&flow, until)),
-                kind: EventKind::Clock,
-                certainty,
-            })),
-            (found, _) => Ok(found),
-        }
-    }
-
-    /// The clock with the earliest preset time, if that is within `horizon`.
-    ///
-    /// # Errors
-    /// [`Error::BadLimit`] for a time that is not later than the present: the clock would never move on.
-    fn next_clock(&self, horizon: f64) -> Result<Option<ClockEvent<T::Surface>>, Error> {
-        let now = self.at.time.value();
-        let guards = self.system.guards(self.at.mode).iter();
-        let mut earliest: Option<ClockEvent<T::Surface>> = None;
-        for guard in guards.filter(|guard| guard.role == Role::Clock) {
-            // A clock whose time is now, and that has not had its event yet, must not be lost.
-            let had_its_event = self.at.initial || self.at.chain.contains(guard.surface);
-            let after = if had_its_event { now } else { now.next_down() };
-            let Some(time) = self.system.next_time(self.at.mode, guard.surface, after) else {
-                continue;
-            };
-            if !(time > after) {
-                let what = "a time of a clock that is not later than the time before it";
-                return Err(Error::BadLimit { what, value: time });
-            }
-            let until = self.at.time.until(time).max(0.0);
-            if until <= horizon && earliest.is_none_or(|first| until < first.until) {
-                earliest = Some(ClockEvent { surface: guard.surface, until, time });
-            }
-        }
-        Ok(earliest)
-    }
-
-    /// An arc that ends in an event.
-    fn event_arc(
-        &mut self,
-        crossing: Crossing<T::Surface, T::State>,
-        horizon: f64,
-    ) -> Result<AnArc<T>, Error> {
-        let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
-        let before = self.at.time.value();
-        let mut time = self.at.time.plus(duration);
-        // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the same time
-        // once more.
-        if kind == EventKind::Clock
-            && let Some(clock) = self.next_clock(horizon)?
-            && clock.surface == surface
-        {
-            time = TimeSum::new(clock.time);
-        }
-        let time_passes = time.value() > before;
-        if time_passes {
-            self.at.chain.clear();
-        }
-        self.at.chain.push(self.at.mode, surface);
-        self.at.chain.check(time.value())?;
-        let after = match self.system.reset(self.at.mode, surface, &state) {
-            Reset::Jump { mode, state: after } => {
-                check_dimension("the state after a reset", &state, &after)?;
-                Some((mode, after))
-            }
-            Reset::Stop => None,
-        };
-        let end = ArcEnd::Event(Event {
-            surface,
-            time: time.value(),
-            time_error,
-            at_time_limit: (horizon - duration).abs() <= time_error,
-            jump: self.at.jump,
-            before: state.clone(),
-            after: after.clone(),
-            kind,
-            certainty,
-        });
-        let arc = self.new_arc(duration, end);
-        match kind {
-            EventKind::Crossing | EventKind::Touch => {
-                let flow =
-                    FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-                let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
-                self.at.arrival = Some(arrival);
-            }
-            EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
-                Some(arrival) if !time_passes => arrival.passed(surface),
-                arrival => *arrival = None,
-            },
-        }
-        self.at.time = time;
-        self.at.jump += 1;
-        self.at.initial = false;
-        match after {
-            Some((mode, state)) => {
-                self.at.history.push(duration, time_error, time, state.clone());
-                (self.at.mode, self.at.state) = (mode, state);
-            }
-            None => {
-                self.at.state = state;
-                self.stop = Some(Stop::Terminal);
-            }
-        }
-        Ok(arc)
-    }
-
-    /// An arc up to the limit on time, or for ever.
-    fn arc_without_event(
-        &mut self,
-        horizon: f64,
-        end: Option<T::State>,
-        certainty: Certainty,
-    ) -> AnArc<T> {
-        if !horizon.is_finite() {
-            self.stop = Some(Stop::NoFurtherEvent);
-            return self.new_arc(horizon, ArcEnd::Never { certainty });
-        }
-        let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
-        self.stop = Some(Stop::TimeLimit);
-        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-        let state = end.unwrap_or_else(|| flow_to(&flow, horizon));
-        self.advance(horizon, state);
-        arc
-    }
-
-    /// Moves on to a state without an event.
-    fn advance(&mut self, duration: f64, state: T::State) {
-        if duration > 0.0 {
-            // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
-            let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-            self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
-            self.at.time = self.at.time.plus(duration);
-            self.at.state = state;
-            self.at.chain.clear();
-            self.at.initial = false;
-        }
-    }
-
-    /// An arc from the present state.
-    fn new_arc(&self, duration: f64, end: ArcEnd<T::Mode, T::Surface, T::State>) -> AnArc<T> {
-        Arc {
-            mode: self.at.mode,
-            time: self.at.time.value(),
-            jump: self.at.jump,
-            start: self.at.state.clone(),
-            duration,
-            end,
-        }
-    }
-
-    /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
-    fn sliding(&self, surface: T::Surface) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
-        let last = self.at.chain.last();
-        // A crossing of another surface says nothing about the distance from this one.
-        let of_last = |arrival: &&Arrival<T::Mode, T::Surface, T::State>| {
-            last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
-        };
-        let at = AtOnce {
-            mode: self.at.mode,
-            surface,
-            state: &self.at.state,
-            time: self.at.time.value(),
-            last,
-            before: self.at.arrival.as_ref().filter(of_last).map(Arrival::before),
-        };
-        sliding_point(self.system, &at)
-    }
-
-    /// The arc of no duration that ends on a sliding surface. The execution continues after it if the model gives a mode.
-    fn sliding_arc(&mut self, sliding: Sliding<T::Mode, T::Surface, T::State>) -> AnArc<T> {
-        let after = self.system.slide(&sliding);
-        let arc = self.new_arc(0.0, ArcEnd::Sliding { sliding, after: after.clone() });
-        self.at.jump += 1;
-        self.at.initial = false;
-        self.at.history.clear();
-        match after {
-            Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),
-            None => self.stop = Some(Stop::Sliding),
-        }
-        arc
-    }
-
-    /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
-    /// gives a mode.
-    fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
-        let horizon = self.at.time.until(self.limits.time).max(0.0);
-        if limit.remainder > horizon {
-            self.stop = Some(Stop::TimeLimit);
-            let certainty = Certainty::Exact;
-            return self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
-        }
-        let after = self.system.rest(self.at.mode, &limit.state);
-        let (remainder, state) = (limit.remainder, limit.state.clone());
-        let end = ArcEnd::Zeno { limit, after: after.clone() };
-        let arc = self.new_arc(remainder, end);
-        self.at.time = self.at.time.plus(remainder);
-        self.at.jump += 1;
-        self.at.initial = false;
-        self.at.history.clear();
-        self.at.chain.clear();
-        self.at.arrival = None;
-        match after {
-            Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),
-            None => {
-                self.at.state = state;
-                self.stop = Some(Stop::Zeno);
-            }
-        }
-        arc
-    }
-
     fn check(&self) -> Result<(), Error> {
         if !(self.limits.time >= self.at.time.value()) {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
@@ -448,30 +128,9 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     }
 }
 
-/// The next event of a clock.
-#[derive(Debug, Clone, Copy)]
-struct ClockEvent<S> {
-    surface: S,
-    /// Duration up to it.
-    until: f64,
-    /// Its time t.
-    time: f64,
-}
-
 /// An arc of a system.
-type AnArc<T> =
+pub(crate) type AnArc<T> =
     Arc<<T as HybridSystem>::Mode, <T as HybridSystem>::Surface, <T as HybridSystem>::State>;
-
-/// The state at a time of a flow; the start itself at time zero.
-fn flow_to<T: HybridSystem>(flow: &FlowFrom<T>, time: f64) -> T::State {
-    if time == 0.0 { flow.start.clone() } else { flow.system.flow(flow.mode, flow.start, time) }
-}
-
-/// An error unless a vector has the dimension of the state.
-fn check_dimension<X: StateVector>(what: &'static str, state: &X, other: &X) -> Result<(), Error> {
-    let (expected, found) = (state.dimension(), other.dimension());
-    if expected == found { Ok(()) } else { Err(Error::Dimension { what, expected, found }) }
-}
 
 impl<T: HybridSystem> Iterator for Execution<'_, T> {
     type Item = Result<AnArc<T>, Error>;

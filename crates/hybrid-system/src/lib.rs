@@ -81,6 +81,7 @@
 
 mod advance;
 mod arc;
+mod arc_ends;
 mod arrival;
 mod chain;
 mod checkpoint;
@@ -92,10 +93,13 @@ mod durations;
 mod error;
 mod execution;
 mod guard;
+mod limits;
 mod model;
+mod next_event;
 mod number;
 #[cfg(feature = "ode")]
 mod ode;
+mod point;
 mod searched;
 mod sensitivity;
 mod series_fit;
@@ -115,8 +119,9 @@ pub use crossing::{
     Search, bracketed_root, golden_section_minimum,
 };
 pub use error::Error;
-pub use execution::{Execution, Limits, Stop};
+pub use execution::Execution;
 pub use guard::{Direction, Guard, Role, Touch};
+pub use limits::{Limits, Stop};
 #[cfg(feature = "ode")]
 pub use model::Integrated;
 pub use model::{

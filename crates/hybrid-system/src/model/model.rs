@@ -10,8 +10,9 @@ use super::motion::{ClosedForm, Motion};
 use super::outcome::Outcome;
 use super::part::Part;
 use crate::crossing::{Enclosure, QuasiPolynomial};
-use crate::execution::{Execution, Limits};
+use crate::execution::Execution;
 use crate::guard::Guard;
+use crate::limits::Limits;
 #[cfg(feature = "ode")]
 use crate::ode::Tolerances;
 use crate::sliding::Sliding;

@@ -1,0 +1,208 @@
+//! The arcs of an execution by their ends: an event, a limit, a sliding surface, a Zeno limit.
+
+use crate::arc::{Arc, ArcEnd, Event};
+use crate::arrival::Arrival;
+use crate::crossing::{Certainty, Crossing, EventKind};
+use crate::error::Error;
+use crate::execution::{AnArc, Execution};
+use crate::limits::Stop;
+use crate::next_event::flow_to;
+use crate::sliding::{AtOnce, Sliding, sliding_point};
+use crate::state::StateVector;
+use crate::system::{FlowFrom, HybridSystem, Reset};
+use crate::time_sum::TimeSum;
+use crate::zeno::ZenoLimit;
+
+impl<T: HybridSystem> Execution<'_, T> {
+    /// An arc that ends in an event.
+    pub(crate) fn event_arc(
+        &mut self,
+        crossing: Crossing<T::Surface, T::State>,
+        horizon: f64,
+    ) -> Result<AnArc<T>, Error> {
+        let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
+        let before = self.at.time.value();
+        let mut time = self.at.time.plus(duration);
+        // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the same time
+        // once more.
+        if kind == EventKind::Clock
+            && let Some(clock) = self.next_clock(horizon)?
+            && clock.surface == surface
+        {
+            time = TimeSum::new(clock.time);
+        }
+        let time_passes = time.value() > before;
+        if time_passes {
+            self.at.chain.clear();
+        }
+        self.at.chain.push(self.at.mode, surface);
+        self.at.chain.check(time.value())?;
+        let after = match self.system.reset(self.at.mode, surface, &state) {
+            Reset::Jump { mode, state: after } => {
+                check_dimension("the state after a reset", &state, &after)?;
+                Some((mode, after))
+            }
+            Reset::Stop => None,
+        };
+        let end = ArcEnd::Event(Event {
+            surface,
+            time: time.value(),
+            time_error,
+            at_time_limit: (horizon - duration).abs() <= time_error,
+            jump: self.at.jump,
+            before: state.clone(),
+            after: after.clone(),
+            kind,
+            certainty,
+        });
+        let arc = self.new_arc(duration, end);
+        match kind {
+            EventKind::Crossing | EventKind::Touch => {
+                let flow =
+                    FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+                let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
+                self.at.arrival = Some(arrival);
+            }
+            EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
+                Some(arrival) if !time_passes => arrival.passed(surface),
+                arrival => *arrival = None,
+            },
+        }
+        self.at.time = time;
+        self.at.jump += 1;
+        self.at.initial = false;
+        match after {
+            Some((mode, state)) => {
+                self.at.history.push(duration, time_error, time, state.clone());
+                (self.at.mode, self.at.state) = (mode, state);
+            }
+            None => {
+                self.at.state = state;
+                self.stop = Some(Stop::Terminal);
+            }
+        }
+        Ok(arc)
+    }
+
+    /// An arc up to the limit on time, or for ever.
+    pub(crate) fn arc_without_event(
+        &mut self,
+        horizon: f64,
+        end: Option<T::State>,
+        certainty: Certainty,
+    ) -> AnArc<T> {
+        if !horizon.is_finite() {
+            self.stop = Some(Stop::NoFurtherEvent);
+            return self.new_arc(horizon, ArcEnd::Never { certainty });
+        }
+        let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
+        self.stop = Some(Stop::TimeLimit);
+        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+        let state = end.unwrap_or_else(|| flow_to(&flow, horizon));
+        self.advance(horizon, state);
+        arc
+    }
+
+    /// Moves on to a state without an event.
+    pub(crate) fn advance(&mut self, duration: f64, state: T::State) {
+        if duration > 0.0 {
+            // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
+            let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+            self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
+            self.at.time = self.at.time.plus(duration);
+            self.at.state = state;
+            self.at.chain.clear();
+            self.at.initial = false;
+        }
+    }
+
+    /// An arc from the present state.
+    pub(crate) fn new_arc(
+        &self,
+        duration: f64,
+        end: ArcEnd<T::Mode, T::Surface, T::State>,
+    ) -> AnArc<T> {
+        Arc {
+            mode: self.at.mode,
+            time: self.at.time.value(),
+            jump: self.at.jump,
+            start: self.at.state.clone(),
+            duration,
+            end,
+        }
+    }
+
+    /// The sliding point at which the execution is, if an event of `surface` at once leads back to the mode before.
+    pub(crate) fn sliding(
+        &self,
+        surface: T::Surface,
+    ) -> Option<Sliding<T::Mode, T::Surface, T::State>> {
+        let last = self.at.chain.last();
+        // A crossing of another surface says nothing about the distance from this one.
+        let of_last = |arrival: &&Arrival<T::Mode, T::Surface, T::State>| {
+            last.is_some_and(|(_, surface)| Some(surface) == arrival.surface())
+        };
+        let at = AtOnce {
+            mode: self.at.mode,
+            surface,
+            state: &self.at.state,
+            time: self.at.time.value(),
+            last,
+            before: self.at.arrival.as_ref().filter(of_last).map(Arrival::before),
+        };
+        sliding_point(self.system, &at)
+    }
+
+    /// The arc of no duration that ends on a sliding surface. The execution continues after it if the model gives a mode.
+    pub(crate) fn sliding_arc(
+        &mut self,
+        sliding: Sliding<T::Mode, T::Surface, T::State>,
+    ) -> AnArc<T> {
+        let after = self.system.slide(&sliding);
+        let arc = self.new_arc(0.0, ArcEnd::Sliding { sliding, after: after.clone() });
+        self.at.jump += 1;
+        self.at.initial = false;
+        self.at.history.clear();
+        match after {
+            Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),
+            None => self.stop = Some(Stop::Sliding),
+        }
+        arc
+    }
+
+    /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
+    /// gives a mode.
+    pub(crate) fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
+        let horizon = self.at.time.until(self.limits.time).max(0.0);
+        if limit.remainder > horizon {
+            // Rounding hides the events between here and the limit on time.
+            self.stop = Some(Stop::TimeLimit);
+            let certainty = Certainty::Interpolated;
+            return self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
+        }
+        let after = self.system.rest(self.at.mode, &limit.state);
+        let (remainder, state) = (limit.remainder, limit.state.clone());
+        let end = ArcEnd::Zeno { limit, after: after.clone() };
+        let arc = self.new_arc(remainder, end);
+        self.at.time = self.at.time.plus(remainder);
+        self.at.jump += 1;
+        self.at.initial = false;
+        self.at.history.clear();
+        self.at.chain.clear();
+        self.at.arrival = None;
+        match after {
+            Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),
+            None => {
+                self.at.state = state;
+                self.stop = Some(Stop::Zeno);
+            }
+        }
+        arc
+    }
+}
+
+/// An error unless a vector has the dimension of the state.
+fn check_dimension<X: StateVector>(what: &'static str, state: &X, other: &X) -> Result<(), Error> {
+    let (expected, found) = (state.dimension(), other.dimension());
+    if expected == found { Ok(()) } else { Err(Error::Dimension { what, expected, found }) }
+}

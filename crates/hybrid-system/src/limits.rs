@@ -1,0 +1,61 @@
+//! Limits of an execution, and the reasons why it ends.
+
+use crate::crossing::MOST_INTERVALS;
+
+/// Limits of an execution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limits {
+    /// Largest continuous time t; may be infinite if the model solves its own crossings.
+    pub time: f64,
+    /// Largest number of events.
+    pub events: usize,
+    /// The interval at which guards without bounds are sampled.
+    pub sampling_interval: Option<f64>,
+    /// The most intervals that the search for one event tests under bounds.
+    pub intervals: usize,
+    /// The most steps of the integrated flow of one arc. After them the arc ends with
+    /// [`ArcEnd::Unfinished`](crate::ArcEnd::Unfinished), and the execution can go on.
+    pub steps: usize,
+}
+
+impl Limits {
+    /// Limits for models whose guards need no samples.
+    pub const fn new(time: f64, events: usize) -> Self {
+        Limits {
+            time,
+            events,
+            sampling_interval: None,
+            intervals: MOST_INTERVALS,
+            steps: usize::MAX,
+        }
+    }
+
+    /// The same with a sampling interval for guards without bounds.
+    pub const fn sampled(time: f64, events: usize, interval: f64) -> Self {
+        let mut limits = Limits::new(time, events);
+        limits.sampling_interval = Some(interval);
+        limits
+    }
+}
+
+/// Why an execution ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub enum Stop {
+    /// The limit on time was reached.
+    TimeLimit,
+    /// The limit on the number of events was reached.
+    EventLimit,
+    /// A reset ended the execution.
+    Terminal,
+    /// No event follows, and there is no limit on time.
+    NoFurtherEvent,
+    /// The events have a Zeno limit, and the model gives no mode after it.
+    Zeno,
+    /// The fields on both sides of a surface point at it, and the model gives no mode there.
+    Sliding,
+    /// A budget of the search for the next event ended. The execution can go on.
+    Unfinished,
+    /// An error was returned.
+    Failed,
+}

@@ -1,0 +1,98 @@
+//! Which event does an execution meet next?
+
+use crate::crossing::{Crossing, EventKind, NextEvent, Search};
+use crate::error::Error;
+use crate::execution::Execution;
+use crate::guard::Role;
+use crate::point::Point;
+use crate::start_rule::{LeavingGuards, Start, start_of_arc};
+use crate::system::{FlowFrom, HybridSystem};
+
+impl<T: HybridSystem> Execution<'_, T> {
+    /// The next event: at once, at a preset time, or the first crossing.
+    pub(crate) fn next_event(
+        &self,
+        horizon: f64,
+    ) -> Result<NextEvent<T::Surface, T::State>, Error> {
+        let Point { mode, ref state, ref time, ref arrival, initial, .. } = self.at;
+        let flow = FlowFrom { system: self.system, mode, start: state };
+        let mut leaving = LeavingGuards::new();
+        let start = start_of_arc(&flow, arrival.as_ref(), initial, horizon, &mut leaving)?;
+        if let Start::Event { surface, certainty } = start {
+            return Ok(NextEvent::Crossing(Crossing {
+                surface,
+                time: 0.0,
+                time_error: 0.0,
+                state: state.clone(),
+                kind: EventKind::AtStart,
+                certainty,
+            }));
+        }
+        let clock = self.next_clock(horizon)?;
+        let search = Search {
+            horizon: clock.map_or(horizon, |clock| clock.until),
+            sampling_interval: self.limits.sampling_interval,
+            intervals: self.limits.intervals,
+            steps: self.limits.steps,
+            time: time.value(),
+            leaving: &leaving,
+        };
+        let found = self.system.first_crossing(mode, state, &search)?;
+        match (found, clock) {
+            (
+                NextEvent::None { state: end, certainty },
+                Some(ClockEvent { surface, until, .. }),
+            ) => Ok(NextEvent::Crossing(Crossing {
+                surface,
+                time: until,
+                time_error: 0.0,
+                state: end.unwrap_or_else(|| flow_to(&flow, until)),
+                kind: EventKind::Clock,
+                certainty,
+            })),
+            (found, _) => Ok(found),
+        }
+    }
+
+    /// The clock with the earliest preset time, if that is within `horizon`.
+    ///
+    /// # Errors
+    /// [`Error::BadLimit`] for a time that is not later than the present: the clock would never move on.
+    pub(crate) fn next_clock(&self, horizon: f64) -> Result<Option<ClockEvent<T::Surface>>, Error> {
+        let now = self.at.time.value();
+        let guards = self.system.guards(self.at.mode).iter();
+        let mut earliest: Option<ClockEvent<T::Surface>> = None;
+        for guard in guards.filter(|guard| guard.role == Role::Clock) {
+            // A clock whose time is now, and that has not had its event yet, must not be lost.
+            let had_its_event = self.at.initial || self.at.chain.contains(guard.surface);
+            let after = if had_its_event { now } else { now.next_down() };
+            let Some(time) = self.system.next_time(self.at.mode, guard.surface, after) else {
+                continue;
+            };
+            if !(time > after) {
+                let what = "a time of a clock that is not later than the time before it";
+                return Err(Error::BadLimit { what, value: time });
+            }
+            let until = self.at.time.until(time).max(0.0);
+            if until <= horizon && earliest.is_none_or(|first| until < first.until) {
+                earliest = Some(ClockEvent { surface: guard.surface, until, time });
+            }
+        }
+        Ok(earliest)
+    }
+}
+
+/// The next event of a clock.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ClockEvent<S> {
+    pub(crate) surface: S,
+    /// Duration up to it.
+    pub(crate) until: f64,
+    /// Its time t.
+    pub(crate) time: f64,
+}
+
+/// The state at a time of a flow; the start itself at time zero.
+pub(crate) fn flow_to<T: HybridSystem>(flow: &FlowFrom<T>, time: f64) -> T::State {
+    if time == 0.0 { flow.start.clone() } else { flow.system.flow(flow.mode, flow.start, time) }
+}

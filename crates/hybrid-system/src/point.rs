@@ -1,0 +1,24 @@
+//! The point that an execution has reached.
+
+use crate::arrival::Arrival;
+use crate::chain::Chain;
+use crate::time_sum::TimeSum;
+use crate::zeno::History;
+
+/// Everything that decides how an execution goes on.
+#[derive(Debug, Clone)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Point<M, S, X> {
+    pub(crate) mode: M,
+    pub(crate) state: X,
+    pub(crate) time: TimeSum,
+    /// Number of events so far, j.
+    pub(crate) jump: usize,
+    /// False after the first arc.
+    pub(crate) initial: bool,
+    pub(crate) history: History<X>,
+    /// The events since time has passed for the last time.
+    pub(crate) chain: Chain<M, S>,
+    /// The last crossing, if no time has passed since.
+    pub(crate) arrival: Option<Arrival<M, S, X>>,
+}
