@@ -56,8 +56,7 @@ struct Table {
 
 impl Table {
     fn height(self, t: f64) -> f64 {
-        t * (self.speed + 0.5 * self.acceleration * t)
-            + self.amplitude * (self.frequency * t).sin()
+        t * (self.speed + 0.5 * self.acceleration * t) + self.amplitude * (self.frequency * t).sin()
     }
     fn speed(self, t: f64) -> f64 {
         self.speed
@@ -195,7 +194,8 @@ fn bounces_on_moving_surfaces_accumulate_at_their_limits() {
             let exact = ball.limit(0.5);
             match ball.found(0.5) {
                 // The factor: the errors of about 30 flights add up, and weak gravity spreads them in time.
-                Ok(limit) if (limit.time - exact).abs() <= limit.time_error + 1e4 * tolerance + 1e-9 => {}
+                Ok(limit)
+                    if (limit.time - exact).abs() <= limit.time_error + 1e4 * tolerance + 1e-9 => {}
                 Ok(limit) => {
                     let error = limit.time - exact;
                     wrong += &format!("{ball:?}: {error:e}, bound {:e}\n", limit.time_error);
@@ -234,7 +234,10 @@ impl HybridSystem for Bowl {
         let slope = self.curvature * x[0];
         let normal = (x[3] - slope * x[2]) / (1.0 + slope * slope);
         let change = (1.0 + self.restitution) * normal;
-        Reset::Jump { mode: (), state: Vector4::new(x[0], x[1], x[2] + change * slope, x[3] - change) }
+        Reset::Jump {
+            mode: (),
+            state: Vector4::new(x[0], x[1], x[2] + change * slope, x[3] - change),
+        }
     }
     fn first_crossing(
         &self,

@@ -95,29 +95,29 @@ fn add_block<const M: usize>(
     sums[axis..axis + M].copy_from_slice(&sum);
 }
 
-/// `sums` = `from` + factor · Σ aⱼ rowⱼ, for terms (j, aⱼ) in pairs.
+/// Calls `put` with each component of `from` + factor · Σ aⱼ rowⱼ, for terms (j, aⱼ) in pairs.
 ///
 /// The first and the second terms of the pairs are summed separately, so that the processor computes the two sums in
 /// parallel.
 #[inline(always)]
 pub(super) fn add_pairs(
-    sums: &mut [f64],
+    put: &mut impl FnMut(usize, f64),
     from: &[f64],
     (factor, terms): (f64, &[[(usize, f64); 2]]),
     rows: &[f64],
 ) {
-    in_blocks!(sums.len(), add_pairs_block(sums, from, (factor, terms), rows));
+    in_blocks!(from.len(), add_pairs_block(put, from, (factor, terms), rows));
 }
 
 #[inline(always)]
 fn add_pairs_block<const M: usize>(
     axis: usize,
-    sums: &mut [f64],
+    put: &mut impl FnMut(usize, f64),
     from: &[f64],
     (factor, terms): (f64, &[[(usize, f64); 2]]),
     rows: &[f64],
 ) {
-    let n = sums.len();
+    let n = from.len();
     let (mut even, mut odd) = ([0.0; M], [0.0; M]);
     for [a, b] in terms {
         let (first, second) = (&rows[a.0 * n + axis..][..M], &rows[b.0 * n + axis..][..M]);
@@ -126,8 +126,7 @@ fn add_pairs_block<const M: usize>(
             odd[k] += b.1 * second[k];
         }
     }
-    let (sums, from) = (&mut sums[axis..axis + M], &from[axis..axis + M]);
     for k in 0..M {
-        sums[k] = from[k] + factor * (even[k] + odd[k]);
+        put(axis + k, from[axis + k] + factor * (even[k] + odd[k]));
     }
 }

@@ -387,8 +387,11 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         let slopes = self.slopes.all_mut(n);
         let from = self.vectors.row(from, n);
         let at = self.stages.row_mut(stage, n);
-        add_pairs(at, from, (size, self.scheme.rows[stage]), slopes);
-        self.argument.set_components(at);
+        let mut put = |axis, value| {
+            at[axis] = value;
+            self.argument.set_component(axis, value);
+        };
+        add_pairs(&mut put, from, (size, self.scheme.rows[stage]), slopes);
         let time = no_later(time + size * self.scheme.times[stage], to, size);
         let slope = (self.field)(time, &self.argument);
         check_length(&slope, n)?;
