@@ -1,7 +1,7 @@
 //! The steps of a Runge–Kutta pair, for states of any kind.
 
 use super::inverse_root::inverse_root;
-use super::rows::Rows;
+use super::rows::{Rows, add_pairs, add_rows};
 use super::schemes::{ALL_STAGES, Scheme, scheme_for};
 use super::tolerances::Tolerances;
 use super::vector::Vector;
@@ -48,6 +48,8 @@ pub(super) const BEFORE: usize = 2;
 /// The state after the step that is tried, and the field there.
 pub(super) const AFTER: usize = 3;
 pub(super) const SLOPE_AFTER: usize = 4;
+/// The estimated error of the step that is tried.
+const ERROR: usize = 5;
 
 /// Steps of the scheme.
 ///
@@ -64,7 +66,7 @@ pub(super) struct Steps<F, V> {
     pub(super) time: f64,
     /// The argument of the field.
     pub(super) argument: V,
-    pub(super) vectors: Rows<5>,
+    pub(super) vectors: Rows<6>,
     /// The states at the stages of the last step.
     pub(super) stages: Rows<ALL_STAGES>,
     /// The field at the start of the last step, then the differences from it at the other stages.
@@ -277,29 +279,29 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         }
         self.combine(STATE, size);
         let slopes = self.slopes.all(n);
-        let (before, after) = (self.vectors.row(STATE, n), self.vectors.row(AFTER, n));
+        add_rows(self.vectors.row_mut(ERROR, n), None, (size, self.scheme.errors), slopes);
+        let row = |k| self.vectors.row(k, n);
+        let (before, after, errors) = (row(STATE), row(AFTER), row(ERROR));
         let (mut usual, mut worst): (f64, f64) = (0.0, 0.0);
         for axis in 0..n {
-            let sum = |weights: &[f64]| {
-                let terms = weights.iter().enumerate();
-                terms.fold(0.0, |sum, (stage, e)| sum + size * e * slopes[stage * n + axis])
-            };
             let (a, b) = (before[axis].abs(), after[axis].abs());
             let allowed = self.tolerances.of(axis, if a > b { a } else { b });
-            let error = (sum(self.scheme.errors) / allowed).abs();
+            let error = (errors[axis] / allowed).abs();
             // `f64::max` would drop NaN, and the step would be accepted.
             usual = if error > usual || error.is_nan() { error } else { usual };
             if usual.is_nan() {
                 return Ok((usual, usual));
             }
             if caution.kink {
-                worst = worst.max((sum(self.scheme.kinks) / allowed).abs());
+                let terms = self.scheme.kinks.iter().zip(slopes.chunks_exact(n));
+                let sum = terms.fold(0.0, |sum, (weight, row)| sum + size * weight * row[axis]);
+                worst = worst.max((sum / allowed).abs());
             }
         }
         worst = worst.max(if caution.strict { usual * self.scheme.kink_ratio } else { usual });
         if worst <= 1.0 && !self.scheme.first_same_as_last {
             let after = self.vectors.row(AFTER, n);
-            (0..n).for_each(|axis| self.argument.set_component(axis, after[axis]));
+            self.argument.set_components(after);
             let slope = (self.field)(to, &self.argument);
             check_length(&slope, n)?;
             let slope_after = self.vectors.row_mut(SLOPE_AFTER, n);
@@ -313,27 +315,18 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
     /// Row `AFTER`: the state after a step of this size from row `from`, whose stages have been computed.
     pub(super) fn combine(&mut self, from: usize, size: f64) {
         let n = self.n();
-        let slopes = self.slopes.all(n);
-        for axis in 0..n {
-            let after = if self.scheme.first_same_as_last {
-                self.stages.row(self.scheme.stages - 1, n)[axis]
-            } else {
-                let mut sum = self.vectors.row(from, n)[axis];
-                for (stage, b) in self.scheme.weights.iter().enumerate() {
-                    sum += size * b * slopes[stage * n + axis];
-                }
-                sum
-            };
-            self.vectors.row_mut(AFTER, n)[axis] = after;
+        if self.scheme.first_same_as_last {
+            let last = self.stages.row(self.scheme.stages - 1, n);
+            self.vectors.row_mut(AFTER, n).copy_from_slice(last);
+            return;
         }
+        let (first, second) = self.vectors.all_mut(n).split_at_mut(AFTER * n);
+        let from = &first[from * n..(from + 1) * n];
+        add_rows(&mut second[..n], Some(from), (size, self.scheme.weights), self.slopes.all(n));
     }
 
     /// Computes one stage of a step of this size from `time` and the row `from`, no later than `to`. Its slope is kept
     /// as the difference from the slope at the start (see `schemes`).
-    ///
-    /// Each component is summed separately, which keeps each sum in a register. Sums of whole vectors are moved through
-    /// memory two words at a time, and a state of three components is loaded again before it has been stored. The first
-    /// and the second terms of the pairs are summed separately, so that the processor computes the two sums in parallel.
     pub(super) fn stage(
         &mut self,
         stage: usize,
@@ -345,15 +338,11 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         let slopes = self.slopes.all_mut(n);
         let from = self.vectors.row(from, n);
         let at = self.stages.row_mut(stage, n);
-        for axis in 0..n {
-            let (mut even, mut odd) = (0.0, 0.0);
-            for [a, b] in self.scheme.rows[stage] {
-                even += a.1 * slopes[a.0 * n + axis];
-                odd += b.1 * slopes[b.0 * n + axis];
-            }
-            at[axis] = from[axis] + size * (even + odd);
-            self.argument.set_component(axis, at[axis]);
-        }
+        let mut put = |axis, value| {
+            at[axis] = value;
+            self.argument.set_component(axis, value);
+        };
+        add_pairs(&mut put, from, (size, self.scheme.rows[stage]), slopes);
         let time = no_later(time + size * self.scheme.times[stage], to, size);
         let slope = (self.field)(time, &self.argument);
         check_length(&slope, n)?;

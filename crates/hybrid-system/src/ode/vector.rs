@@ -11,12 +11,16 @@ pub(super) trait Vector: Clone {
     fn component(&self, axis: usize) -> f64;
     /// Changes component `axis`, below the length.
     fn set_component(&mut self, axis: usize, value: f64);
+    /// Changes all components.
+    fn set_components(&mut self, components: &[f64]) {
+        for (axis, component) in components.iter().enumerate() {
+            self.set_component(axis, *component);
+        }
+    }
     /// This vector, with other components.
     fn with_components(&self, components: &[f64]) -> Self {
         let mut vector = self.clone();
-        for (axis, component) in components.iter().enumerate() {
-            vector.set_component(axis, *component);
-        }
+        vector.set_components(components);
         vector
     }
 }
@@ -30,5 +34,8 @@ impl<V: StateVector> Vector for V {
     }
     fn set_component(&mut self, axis: usize, value: f64) {
         self.components_mut()[axis] = value;
+    }
+    fn set_components(&mut self, components: &[f64]) {
+        self.components_mut().copy_from_slice(components);
     }
 }
