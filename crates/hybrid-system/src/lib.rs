@@ -25,6 +25,7 @@
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
+//! | [`Family`], [`Parametric`], [`parameter_sensitivity`], [`event_parameter_sensitivity`] | derivatives with respect to parameters |
 //! | [`bracketed_root`], [`golden_section_minimum`] | Brent's method between two values of opposite sign; the minimum of a function of one variable |
 //!
 //! A ball that loses half of its speed at every bounce:
@@ -99,6 +100,7 @@ mod next_event;
 mod number;
 #[cfg(feature = "ode")]
 mod ode;
+mod parameter_sensitivity;
 mod point;
 mod searched;
 mod sensitivity;
@@ -125,14 +127,15 @@ pub use limits::{Limits, Stop};
 #[cfg(feature = "ode")]
 pub use model::Integrated;
 pub use model::{
-    Bounds, Clock, ClosedForm, Field, Jump, JumpEverywhere, Model, Motion, Outcome, Part, Rest,
-    Signal, Slide, Terminal, Watch,
+    Bounds, Clock, ClosedForm, Family, Field, Jump, JumpEverywhere, Model, Motion, Outcome, Part,
+    Rest, Signal, Slide, Terminal, Watch,
 };
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
-    integrated_states,
+    integrated_parameter_jacobian, integrated_states,
 };
+pub use parameter_sensitivity::{Parametric, event_parameter_sensitivity, parameter_sensitivity};
 pub use searched::Searched;
 pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
 pub use sliding::Sliding;

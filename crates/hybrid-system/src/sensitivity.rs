@@ -148,7 +148,7 @@ where
 }
 
 /// Φ along the whole arc.
-fn transition<T, const N: usize>(
+pub(crate) fn transition<T, const N: usize>(
     system: &T,
     arc: &Arc<T::Mode, T::Surface, State<N>>,
 ) -> Result<SMatrix<f64, N, N>, Error>
@@ -166,7 +166,11 @@ where
 }
 
 /// f(x) in `mode`.
-fn field<T, const N: usize>(system: &T, mode: T::Mode, state: &State<N>) -> Result<State<N>, Error>
+pub(crate) fn field<T, const N: usize>(
+    system: &T,
+    mode: T::Mode,
+    state: &State<N>,
+) -> Result<State<N>, Error>
 where
     T: HybridSystem<State = State<N>>,
 {
@@ -175,7 +179,7 @@ where
 }
 
 /// f⁻, and the derivative of the time of the event with respect to the state before it, −∇gᵀ/(∇g·f⁻).
-fn arrival<T, const N: usize>(
+pub(crate) fn arrival<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     (surface, before, time): (T::Surface, &State<N>, f64),

@@ -5,17 +5,21 @@
 //! (`continued`). Each part has a type of its own, and a model contains the nested pairs of its parts (`part`). The
 //! compiler therefore sees every closure: no call goes through a pointer. `guard_lists`
 //! has the guards of each mode. `system` implements [`HybridSystem`](crate::HybridSystem), `derivatives` and
-//! `integrated_derivatives` [`Differentiable`](crate::Differentiable).
+//! `integrated_derivatives` [`Differentiable`](crate::Differentiable); `family` and `integrated_family` have derivatives by
+//! parameters.
 
 mod bounds;
 mod continued;
 mod derivatives;
+mod family;
 mod guard_lists;
 mod guarded;
 #[cfg(feature = "ode")]
 mod integrated;
 #[cfg(feature = "ode")]
 mod integrated_derivatives;
+#[cfg(feature = "ode")]
+mod integrated_family;
 #[allow(clippy::module_inception)]
 mod model;
 mod motion;
@@ -25,6 +29,7 @@ mod system;
 
 pub use bounds::{Bounds, Signal};
 pub use continued::{Field, Rest, Slide};
+pub use family::Family;
 pub use guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
 #[cfg(feature = "ode")]
 pub use integrated::Integrated;

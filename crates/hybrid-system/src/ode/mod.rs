@@ -27,4 +27,4 @@ mod vector;
 pub use flow::{integrated_crossing, integrated_flow, integrated_states};
 pub use integration::Integration;
 pub use tolerances::Tolerances;
-pub use variation::{Linearized, integrated_jacobian};
+pub use variation::{Linearized, integrated_jacobian, integrated_parameter_jacobian};

@@ -116,7 +116,7 @@ impl<F: Fn(f64, &V) -> V, V: Vector> Steps<F, V> {
         tolerances: Tolerances,
     ) -> Result<Self, Error> {
         let length = start.length();
-        tolerances.check(length)?;
+        tolerances.check(start.states())?;
         let mut steps = Steps {
             field,
             tolerances,

@@ -19,6 +19,9 @@ pub struct Tolerances {
     pub absolute: f64,
     /// As `absolute`, for each component by itself. `None`: `absolute` for all.
     pub absolute_each: Option<&'static [f64]>,
+    /// As `relative`, for each component by itself; zero is allowed. `None`: `relative` for all. `relative` chooses the
+    /// order of the integrator in any case.
+    pub relative_each: Option<&'static [f64]>,
     /// No step is longer, in the unit of time; infinite by default. Something that the field does only for a short time
     /// (a pulse of a forcing) is seen by every step if this is shorter than that time.
     pub longest_step: f64,
@@ -41,6 +44,7 @@ impl Tolerances {
             relative: tolerance,
             absolute: tolerance,
             absolute_each: None,
+            relative_each: None,
             longest_step: f64::INFINITY,
             check_interval: f64::INFINITY,
             steps: MOST_STEPS,
@@ -52,6 +56,18 @@ impl Tolerances {
     #[must_use]
     pub const fn absolute_each(mut self, absolute: &'static [f64]) -> Self {
         self.absolute_each = Some(absolute);
+        self
+    }
+
+    /// As `self`, with a relative tolerance for each component. A state with another number of components is
+    /// [`Error::Dimension`].
+    ///
+    /// An angle that turns for ever, or time as a component, has no natural size: its allowed error should not grow with
+    /// it. Such a component has the relative tolerance zero. No absolute tolerance could replace this, because the
+    /// relative part is added to it.
+    #[must_use]
+    pub const fn relative_each(mut self, relative: &'static [f64]) -> Self {
+        self.relative_each = Some(relative);
         self
     }
 
@@ -78,16 +94,22 @@ impl Tolerances {
 
     /// An error unless these tolerances can be used for states of this dimension.
     pub(super) fn check(&self, dimension: usize) -> Result<(), Error> {
-        let each = self.absolute_each.unwrap_or(&[]);
-        if self.absolute_each.is_some() && each.len() != dimension {
-            return Err(Error::Dimension {
-                what: "the list of absolute tolerances",
-                expected: dimension,
-                found: each.len(),
-            });
+        let lists = [
+            ("the list of absolute tolerances", self.absolute_each),
+            ("the list of relative tolerances", self.relative_each),
+        ];
+        for (what, list) in lists {
+            let found = list.map_or(dimension, <[f64]>::len);
+            if found != dimension {
+                return Err(Error::Dimension { what, expected: dimension, found });
+            }
         }
-        let mut all = [self.relative, self.absolute].into_iter().chain(each.iter().copied());
-        if let Some(value) = all.find(|t| !(*t > 0.0 && t.is_finite())) {
+        let positive = [self.relative, self.absolute].into_iter();
+        let mut positive = positive.chain(self.absolute_each.unwrap_or(&[]).iter().copied());
+        let bad = positive.find(|t| !(*t > 0.0 && t.is_finite()));
+        let mut relative = self.relative_each.unwrap_or(&[]).iter().copied();
+        let bad = bad.or_else(|| relative.find(|t| !(*t >= 0.0 && t.is_finite())));
+        if let Some(value) = bad {
             return Err(Error::BadTolerance { value });
         }
         if !(self.longest_step > 0.0) {
@@ -101,12 +123,14 @@ impl Tolerances {
         Ok(())
     }
 
-    /// The error of a component of this size that a step may make.
-    pub(super) fn of(&self, axis: usize, size: f64) -> f64 {
-        let absolute = match self.absolute_each {
-            Some(each) => each[axis],
-            None => self.absolute,
+    /// The error of a component of this size that a step may make. Beyond the lists they repeat: entries of a matrix of
+    /// derivatives have the tolerances of their rows.
+    #[inline]
+    pub(crate) fn of(&self, axis: usize, size: f64) -> f64 {
+        let entry = |list: Option<&'static [f64]>, all| {
+            let each = list.unwrap_or(&[]);
+            each.get(axis % each.len().max(1)).copied().unwrap_or(all)
         };
-        absolute + self.relative * size
+        entry(self.absolute_each, self.absolute) + entry(self.relative_each, self.relative) * size
     }
 }

@@ -7,6 +7,10 @@ use crate::state::StateVector;
 pub(super) trait Vector: Clone {
     /// The number of components.
     fn length(&self) -> usize;
+    /// The number of components of the state. Each further component has the tolerance of one of them, in turn.
+    fn states(&self) -> usize {
+        self.length()
+    }
     /// Component `axis`, below the length.
     fn component(&self, axis: usize) -> f64;
     /// Changes component `axis`, below the length.

@@ -160,10 +160,9 @@ impl<T: HybridSystem> Filippov<T> {
     ) -> Result<(), OffSurface> {
         let guard = |state: &T::State| self.system.guard_value(surface, state);
         // In units of the roundings that `guard_rounding` applies to components.
-        let Tolerances { relative, absolute, .. } = self.tolerances;
         let size = state.from_fn_like(|axis| {
             let component = state.components()[axis].abs();
-            START_TOLERANCES * (absolute + relative * component) / f64::EPSILON
+            START_TOLERANCES * self.tolerances.of(axis, component) / f64::EPSILON
         });
         let (value, largest) = (guard(state), guard_rounding(state, &size, guard));
         if value.abs() <= largest { Ok(()) } else { Err(OffSurface { value, largest }) }
