@@ -273,6 +273,8 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         let time_passes = time.value() > before;
         if time_passes {
             self.at.chain.clear();
+        } else if time.since(self.at.time) > 0.0 && duration > time_error {
+            self.at.chain.moves_on();
         }
         self.at.chain.push(self.at.mode, surface);
         self.at.chain.check(time.value())?;
