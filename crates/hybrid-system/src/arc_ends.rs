@@ -22,6 +22,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     ) -> Result<AnArc<T>, Error> {
         let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
         let before = self.at.time.value();
+        self.check_state(before + duration, &state)?;
         let mut time = self.at.time.plus(duration);
         // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the same time
         // once more.
@@ -34,6 +35,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         let time_passes = time.value() > before;
         if time_passes {
             self.at.chain.clear();
+        } else if time.since(self.at.time) > 0.0 && duration > time_error {
+            self.at.chain.moves_on();
         }
         self.at.chain.push(self.at.mode, surface);
         self.at.chain.check(time.value())?;
@@ -85,22 +88,26 @@ impl<T: HybridSystem> Execution<'_, T> {
     }
 
     /// An arc up to the limit on time, or for ever.
+    ///
+    /// # Errors
+    /// [`Error::StateNotFinite`] if the flow is not defined at the limit.
     pub(crate) fn arc_without_event(
         &mut self,
         horizon: f64,
         end: Option<T::State>,
         certainty: Certainty,
-    ) -> AnArc<T> {
+    ) -> Result<AnArc<T>, Error> {
         if !horizon.is_finite() {
             self.stop = Some(Stop::NoFurtherEvent);
-            return self.new_arc(horizon, ArcEnd::Never { certainty });
+            return Ok(self.new_arc(horizon, ArcEnd::Never { certainty }));
         }
-        let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
-        self.stop = Some(Stop::TimeLimit);
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
         let state = end.unwrap_or_else(|| flow_to(&flow, horizon));
+        self.check_state(self.at.time.value() + horizon, &state)?;
+        let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
+        self.stop = Some(Stop::TimeLimit);
         self.advance(horizon, state);
-        arc
+        Ok(arc)
     }
 
     /// Moves on to a state without an event.

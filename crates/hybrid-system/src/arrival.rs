@@ -80,6 +80,11 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         self.surface
     }
 
+    /// The duration of the arc.
+    pub(crate) fn duration(&self) -> f64 {
+        self.duration
+    }
+
     /// The state before the reset.
     pub(crate) fn before(&self) -> &X {
         &self.before

@@ -13,24 +13,34 @@ const MOST_TIMELESS: usize = 1000;
 /// Events that are kept without allocating.
 const FEW: usize = 4;
 
-/// The events since time has passed for the last time, the last crossing included: modes and surfaces.
+/// The events since the time, as a double, has changed for the last time, the last crossing included: modes and surfaces.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct Chain<M, S> {
     pub(crate) events: SmallVec<[(M, S); FEW]>,
+    /// How many of them, the newest, took no time at all, or only the error of their times. The others moved the time by
+    /// less than the rounding of a double, as the last bounces of a ball late in time do.
+    pub(crate) timeless: usize,
 }
 
 impl<M: Copy + PartialEq + Debug, S: Copy + PartialEq + Debug> Chain<M, S> {
     pub(crate) fn new() -> Self {
-        Chain { events: SmallVec::new() }
+        Chain { events: SmallVec::new(), timeless: 0 }
     }
 
     pub(crate) fn clear(&mut self) {
         self.events.clear();
+        self.timeless = 0;
+    }
+
+    /// Time has passed, but less than the rounding of a double.
+    pub(crate) fn moves_on(&mut self) {
+        self.timeless = 0;
     }
 
     pub(crate) fn push(&mut self, mode: M, surface: S) {
         self.events.push((mode, surface));
+        self.timeless += 1;
     }
 
     /// The last event.
@@ -45,15 +55,15 @@ impl<M: Copy + PartialEq + Debug, S: Copy + PartialEq + Debug> Chain<M, S> {
 
     /// An error for a chain that is too long.
     pub(crate) fn check(&self, time: f64) -> Result<(), Error> {
-        if self.events.len() <= MOST_TIMELESS {
+        if self.timeless <= MOST_TIMELESS {
             return Ok(());
         }
-        Err(Error::TimelessChain { time, events: self.events.len(), cycle: self.cycle() })
+        Err(Error::TimelessChain { time, events: self.timeless, cycle: self.cycle() })
     }
 
     /// The shortest cycle that the last events repeat, or the last few events if there is none.
     fn cycle(&self) -> String {
-        let events = &self.events;
+        let events = &self.events[self.events.len() - self.timeless.min(self.events.len())..];
         let half = events.len() / 2;
         let repeats = |period: &usize| {
             let (last, before) = (&events[events.len() - period..], events.len() - 2 * period);

@@ -83,7 +83,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 }
                 if crossing.time > horizon + crossing.time_error {
                     let certainty = crossing.certainty;
-                    return Ok(self.arc_without_event(horizon, None, certainty));
+                    return self.arc_without_event(horizon, None, certainty);
                 }
                 // A crossing that takes no time, or only the error of its own time, is at once as well.
                 let at_once = crossing.kind == EventKind::AtStart
@@ -96,7 +96,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 self.event_arc(crossing, horizon)
             }
             NextEvent::None { state, certainty } => {
-                Ok(self.arc_without_event(horizon, state, certainty))
+                self.arc_without_event(horizon, state, certainty)
             }
             NextEvent::Unfinished { time, state, certainty } => {
                 let end = ArcEnd::Unfinished { certainty };
@@ -112,19 +112,17 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         if !(self.limits.time >= self.at.time.value()) {
             return Err(Error::BadLimit { what: "the limit on time", value: self.limits.time });
         }
-        if self.at.state.is_finite() {
-            let initial = self.at.initial;
-            return if initial {
-                self.system.validate(self.at.mode, &self.at.state)
-            } else {
-                Ok(())
-            };
+        self.check_state(self.at.time.value(), &self.at.state)?;
+        if self.at.initial { self.system.validate(self.at.mode, &self.at.state) } else { Ok(()) }
+    }
+
+    /// An error if a state is not finite.
+    pub(crate) fn check_state(&self, time: f64, state: &T::State) -> Result<(), Error> {
+        if state.is_finite() {
+            return Ok(());
         }
-        Err(Error::StateNotFinite {
-            time: self.at.time.value(),
-            jumps: self.at.jump,
-            state: self.at.state.components().to_vec(),
-        })
+        let (jumps, state) = (self.at.jump, state.components().to_vec());
+        Err(Error::StateNotFinite { time, jumps, state })
     }
 }
 

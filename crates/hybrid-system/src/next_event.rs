@@ -17,7 +17,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         let Point { mode, ref state, ref time, ref arrival, initial, .. } = self.at;
         let flow = FlowFrom { system: self.system, mode, start: state };
         let mut leaving = LeavingGuards::new();
-        let start = start_of_arc(&flow, arrival.as_ref(), initial, horizon, &mut leaving)?;
+        let times = (horizon, self.limits.sampling_interval);
+        let start = start_of_arc(&flow, arrival.as_ref(), initial, times, &mut leaving)?;
         if let Start::Event { surface, certainty } = start {
             return Ok(NextEvent::Crossing(Crossing {
                 surface,

@@ -78,7 +78,8 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let error = rounding + by_time;
         let on_surface = now.abs() <= error;
         let (side, certainty) = if on_surface {
-            match departure(flow, surface, (error, rounding), horizon)? {
+            let last_arc = arrival.map_or(f64::INFINITY, Arrival::duration);
+            match departure(flow, surface, (error, rounding), (horizon, last_arc))? {
                 Departure::To { side, certainty } => (side, certainty),
                 Departure::Stays => continue,
             }

@@ -161,13 +161,15 @@ fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
         }
     }
     let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, false);
-    // Sampled, with an interval far longer than the last bounces, which must not be lost.
+    // Sampled, with an interval far longer than the last bounces. They are found between two samples: the ball neither falls
+    // through the floor nor stops early.
     let limits = Limits::sampled(10.0, 100_000, 1e-3);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
-    let results: Vec<_> = execution.by_ref().collect();
-    // A bounce between two samples is an error of the sampled search, never a fall through the floor.
-    assert!(matches!(results.last().unwrap(), Err(Error::UndecidedStart { .. })));
-    assert_eq!(execution.stop(), Some(Stop::Failed));
+    let last = execution.by_ref().last().unwrap().unwrap();
+    assert_eq!(execution.stop(), Some(Stop::Zeno));
+    let ArcEnd::Zeno { limit, after: None } = last.end else { panic!() };
+    assert!((limit.time - 3.0 * (2.0f64 / 9.81).sqrt()).abs() <= limit.time_error, "{limit:?}");
+    assert!(limit.time_error < 1e-9, "{limit:?}");
     let system = Restless(Ball { gravity: 9.81, floor: 0.0, restitution: 0.5 }, true);
     let limits = Limits::new(10.0, 100_000);
     let mut execution = Execution::new(&system, Mode::Air, Vector2::new(1.0, 0.0), limits);
@@ -181,6 +183,23 @@ fn a_zeno_limit_without_a_mode_after_it_ends_the_execution() {
     let last = execution.by_ref().last().unwrap().unwrap();
     assert_eq!(execution.stop(), Some(Stop::TimeLimit));
     assert!(last.time + last.duration <= early.time);
+}
+
+/// At t = 10⁹ doubles are 10⁻⁷ apart. The last thousands of bounces do not change the time as a double, but time passes.
+#[test]
+fn slow_accumulations_late_in_time_are_no_chains_without_time() {
+    let ball = Ball { gravity: 2.0, floor: 0.0, restitution: 0.998 };
+    let limits = Limits::new(1.1e9, 100_000);
+    let start = Vector2::new(1.0, 0.0);
+    let execution = Execution::new(&ball, Mode::Air, start, limits).starting_at(1e9);
+    let arcs: Vec<_> = execution.collect::<Result<_, _>>().unwrap();
+    let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+    // t₁ (1 + e)/(1 − e), t₁ = 1.
+    let exact = 1.998 / 0.002;
+    assert!((limit.time - 1e9 - exact).abs() <= limit.time_error + 1e-10, "{limit:?}");
+    assert!(limit.time_error < 1e-6, "{limit:?}");
+    let same = arcs.windows(2).filter(|pair| pair[0].time == pair[1].time).count();
+    assert!(same > 1000, "{same}");
 }
 
 /// Resets that lead back to each other without time passing.

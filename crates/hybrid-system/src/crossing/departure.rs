@@ -19,11 +19,10 @@ use super::guarded_flow::GuardedFlow;
 use crate::error::Error;
 use crate::state::StateVector;
 
-/// Number of times after the start at which a guard is evaluated if the model gives no derivatives: LONGEST_LOOK · 2⁻³⁹,
-/// 2⁻³⁸, … 1.
-const LOOKS: i32 = 40;
-
-/// The shortest of these times, 2⁻³⁹ of the longest: 2·10⁻¹², near the rounding of a guard that moves at a rate of 1.
+/// The first of the times after the start at which a guard is evaluated if the model gives no derivatives, relative to
+/// the longest one, or to the last arc if that is shorter. Each further time is twice as long. 2⁻³⁹ is 2·10⁻¹², near the
+/// rounding of a guard that moves at a rate of 1. The last arc counts because the bounces of a ball become shorter and
+/// shorter: a look behind the end of the next bounce would show the wrong side.
 const SHORTEST_LOOK: f64 = 1.0 / 549_755_813_888.0;
 
 /// The longest of these times, unless the limit on time comes earlier: one unit of time, because the scale of the model
@@ -46,7 +45,7 @@ pub(crate) enum Departure {
 
 /// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`. The part
 /// `rounding` of the error differs from state to state. The rest, by the error of the time of a crossing, is the same
-/// for states next to each other, and hides no rate.
+/// for states next to each other, and hides no rate. `last_arc` is the duration of the arc before, or infinite.
 ///
 /// # Errors
 /// [`Error::UndecidedSign`] and [`Error::NotFinite`].
@@ -54,7 +53,7 @@ pub(crate) fn departure<F: GuardedFlow>(
     flow: &F,
     surface: F::Surface,
     (error, rounding): (f64, f64),
-    horizon: f64,
+    (horizon, last_arc): (f64, f64),
 ) -> Result<Departure, Error> {
     let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
     if let Some(side) = flow.leaving_side(surface) {
@@ -87,8 +86,12 @@ pub(crate) fn departure<F: GuardedFlow>(
             return Ok(to(rate, Certainty::Interpolated));
         }
     }
-    let mut time = SHORTEST_LOOK * longest;
-    for _ in 0..LOOKS {
+    let mut time = SHORTEST_LOOK * longest.min(last_arc);
+    // An arc of subnormal duration gives no time to begin with.
+    if !(time > 0.0) {
+        time = SHORTEST_LOOK * longest;
+    }
+    while time > 0.0 && time <= longest {
         let state = flow.state(time);
         let value = flow.guard_value(surface, &state);
         if !value.is_finite() {

@@ -17,6 +17,11 @@ const MOST_SAMPLES: u64 = 1_000_000_000;
 /// straight over it. A smaller width would lose the slope in the rounding of the guard.
 const SLOPE_REACH: f64 = 1e-4;
 
+/// Most halvings of the first sampling interval, down to 2⁻⁵² of it. They look for a time in a flight that starts on the
+/// surface and ends before the first sample. A larger number would find shorter flights. A guard of ordinary rate and bend
+/// is hidden by rounding in a flight that short.
+const MOST_HALVINGS: u32 = 52;
+
 /// The result of a search by samples.
 pub(crate) struct SampledEvent {
     /// The first event.
@@ -29,7 +34,8 @@ pub(crate) struct SampledEvent {
 ///
 /// # Errors
 /// [`Error::BadSamplingInterval`] if the samples would not advance to the end; [`Error::NotFinite`] for a guard that is
-/// not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`].
+/// not finite at a sample; [`Error::UndecidedStart`] as for [`SampledGuard::advance`], and for a flight before the first
+/// sample that rounding hides.
 pub(crate) fn sampled_event<F: GuardedFlow>(
     flow: &F,
     search: &Search<F::Surface>,
@@ -109,11 +115,10 @@ fn crossing<F: GuardedFlow>(
     interval: f64,
 ) -> Result<(f64, f64), Error> {
     let value = |time: f64| flow.guard_at(surface, time);
-    let (at_left, at_right) = (value(left), value(right));
-    // A guard that leaves its zero at the start may not have the sign of its side there yet.
-    if at_left * side <= 0.0 {
-        return Ok((left, interval));
-    }
+    let Some(((left, at_left), (right, at_right))) = bracket(flow, surface, (left, right), side)
+    else {
+        return Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval });
+    };
     let time = root_beyond(value, (left, at_left), (right, at_right))?;
     let reach = SLOPE_REACH * (right - left);
     let (before, after) = ((time - reach).max(left), (time + reach).min(right));
@@ -123,6 +128,39 @@ fn crossing<F: GuardedFlow>(
     // One ulp between the two doubles at the root. NaN for 0/0 is dropped by `min`.
     let error = (rounding / slope).min(right - left) + f64::EPSILON * time;
     Ok((time, error))
+}
+
+/// Two times with their values: on `side` at the first, and no longer at the second.
+///
+/// A guard that leaves its zero at the start may not have the sign of its side there yet. If it has come back before the
+/// first sample, a time on its side lies in between. Halving from the sample towards the start finds such a time for
+/// every flight of one hump: the halved times t/2ᵏ have one in the second half of the flight. A side counts only
+/// where it is clear of rounding; `None` if there is no such time.
+fn bracket<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    (left, right): (f64, f64),
+    side: f64,
+) -> Option<((f64, f64), (f64, f64))> {
+    let value = |time: f64| flow.guard_at(surface, time);
+    let (at_left, mut end) = (value(left), (right, value(right)));
+    if at_left * side > 0.0 {
+        return Some(((left, at_left), end));
+    }
+    let mut time = right;
+    for _ in 0..MOST_HALVINGS {
+        time = left + 0.5 * (time - left);
+        let state = flow.state(time);
+        let here = flow.guard_value(surface, &state);
+        if here * side > flow.rounding_at(surface, &state) {
+            return Some(((time, here), end));
+        }
+        // A time that rounding hides is no end of a bracket: the flight may be higher before it.
+        if here * side <= 0.0 {
+            end = (time, here);
+        }
+    }
+    None
 }
 
 /// What a sample shows.
