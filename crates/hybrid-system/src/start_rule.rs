@@ -41,7 +41,8 @@ pub(crate) enum Start<S> {
 
 /// The start of an arc: an event at once, or a flow. `leaving` becomes the list of the guards on whose surfaces it starts.
 ///
-/// `arrival` is the crossing before the arc, at the same instant; `initial` is true at the start of an execution.
+/// `arrival` is the crossing before the arc, at the same instant; `initial` is true at the start of an execution. The search
+/// goes up to a horizon, with samples at an interval, if there is one.
 ///
 /// # Errors
 /// [`Error::StartsBeyond`], [`Error::NotFinite`] for a guard without a value, and errors if rounding hides to which side a
@@ -50,7 +51,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
     flow: &FlowFrom<T>,
     arrival: Option<&Arrival<T::Mode, T::Surface, T::State>>,
     initial: bool,
-    horizon: f64,
+    (horizon, interval): (f64, Option<f64>),
     leaving: &mut LeavingGuards<T::Surface>,
 ) -> Result<Start<T::Surface>, Error> {
     leaving.clear();
@@ -78,8 +79,10 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let error = rounding + by_time;
         let on_surface = now.abs() <= error;
         let (side, certainty) = if on_surface {
-            let last_arc = arrival.map_or(f64::INFINITY, Arrival::duration);
-            match departure(flow, surface, (error, rounding), (horizon, last_arc))? {
+            // Both are short on the time scale of the model.
+            let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
+            let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
+            match departure(flow, surface, (error, rounding), (horizon, short))? {
                 Departure::To { side, certainty } => (side, certainty),
                 Departure::Stays => continue,
             }

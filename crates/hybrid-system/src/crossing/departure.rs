@@ -20,7 +20,7 @@ use crate::error::Error;
 use crate::state::StateVector;
 
 /// The first of the times after the start at which a guard is evaluated if the model gives no derivatives, relative to
-/// the longest one, or to the last arc if that is shorter. Each further time is twice as long. 2⁻³⁹ is 2·10⁻¹², near the
+/// the longest one, or to the last arc or the sampling interval if that is shorter. Each further time is twice as long. 2⁻³⁹ is 2·10⁻¹², near the
 /// rounding of a guard that moves at a rate of 1. The last arc counts because the bounces of a ball become shorter and
 /// shorter: a look behind the end of the next bounce would show the wrong side.
 const SHORTEST_LOOK: f64 = 1.0 / 549_755_813_888.0;
@@ -45,7 +45,8 @@ pub(crate) enum Departure {
 
 /// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`. The part
 /// `rounding` of the error differs from state to state. The rest, by the error of the time of a crossing, is the same
-/// for states next to each other, and hides no rate. `last_arc` is the duration of the arc before, or infinite.
+/// for states next to each other, and hides no rate. `short` is the duration of the arc
+/// before or the sampling interval, or infinite.
 ///
 /// # Errors
 /// [`Error::UndecidedSign`] and [`Error::NotFinite`].
@@ -53,7 +54,7 @@ pub(crate) fn departure<F: GuardedFlow>(
     flow: &F,
     surface: F::Surface,
     (error, rounding): (f64, f64),
-    (horizon, last_arc): (f64, f64),
+    (horizon, short): (f64, f64),
 ) -> Result<Departure, Error> {
     let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
     if let Some(side) = flow.leaving_side(surface) {
@@ -86,7 +87,7 @@ pub(crate) fn departure<F: GuardedFlow>(
             return Ok(to(rate, Certainty::Interpolated));
         }
     }
-    let mut time = SHORTEST_LOOK * longest.min(last_arc);
+    let mut time = SHORTEST_LOOK * longest.min(short);
     // An arc of subnormal duration gives no time to begin with.
     if !(time > 0.0) {
         time = SHORTEST_LOOK * longest;

@@ -94,7 +94,13 @@ pub(super) fn time_error<V: StateVector>(
 ) -> f64 {
     let error = accuracy.guard_error(state, &guard);
     let length = step.to - step.from;
-    let along = |time: f64| guard(&step.state(time.clamp(step.from, step.to)));
+    let along = |time: f64| {
+        let inside = time.clamp(step.from, step.to);
+        let value = guard(&step.state(inside));
+        // Beyond an end of the step the guard goes on along its tangent. Its value at the end alone would never be clear
+        // if the crossing is there.
+        if inside == time { value } else { value + (time - inside) * rate(step, inside, &guard) }
+    };
     let mut distance = (error / rate(step, time, &guard).abs()).max(f64::EPSILON * time);
     for _ in 0..DOUBLINGS {
         // The condition is true for NaN: then nothing is known on the step.

@@ -1,0 +1,92 @@
+//! States and errors of times at the ends of arcs.
+
+#![cfg(feature = "ode")]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
+
+use hybrid_system::*;
+
+/// The first bounces of a ball under unit gravity that keeps the part `restitution` of its speed.
+fn sampled_bounces(restitution: f64, interval: f64, limit: f64) -> Vec<(f64, f64)> {
+    let ball = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+        .falling((), |x| x[0], move |x| ((), [0.0, -restitution * x[1]]))
+        .sampled(interval);
+    ball.run((), [0.5, 0.0], limit)
+        .filter_map(|arc| arc.unwrap().event().copied())
+        .map(|event| (event.time, event.before[1]))
+        .collect()
+}
+
+#[test]
+fn a_flight_shorter_than_the_sampling_interval_ends_at_the_floor() {
+    // Dropped from ½ the ball lands after 1, and each flight is half as long as the one before. Only the flight that ends at
+    // the first sample of its arc is not shorter than the interval.
+    for interval in [0.5, 0.7, 50.0] {
+        let bounces = sampled_bounces(0.5, interval, 2.99);
+        assert_eq!(bounces.len(), 8, "{interval}: {bounces:?}");
+        let mut flight = 2.0;
+        let mut exact = 1.0;
+        for (time, speed) in bounces {
+            assert!((time - exact).abs() < 1e-14 && speed < 0.0, "{interval}: {time} {speed}");
+            flight /= 2.0;
+            exact += flight;
+        }
+    }
+}
+
+#[test]
+fn the_error_of_a_time_near_an_end_of_a_step_is_not_the_step() {
+    let fall = Model::integrated(|(), _: &State<1>| [-1.0]).falling(
+        (),
+        |x| x[0],
+        |_| Reset::<(), State<1>>::Stop,
+    );
+    // Close to the start of the arc, and at the limit on time.
+    for height in [1e-16, 1e-12, 1e-9, 1.0] {
+        let arc = fall.run((), [height], 1.0).next().unwrap().unwrap();
+        let event = arc.event().unwrap();
+        assert!((event.time - height).abs() <= event.time_error, "{event:?}");
+        assert!(event.time_error < 1e-9, "{event:?}");
+    }
+}
+
+#[test]
+fn a_flow_without_a_value_at_the_limit_on_time_is_an_error() {
+    let nowhere = Model::<(), usize, State<1>, _>::closed_form(|(), _: &State<1>, _| [f64::NAN]);
+    let field = Model::<(), usize, State<1>, _>::integrated(|(), _: &State<1>| [f64::NAN]);
+    let is_error = |arc: Option<Result<Arc<(), usize, State<1>>, Error>>| {
+        matches!(arc, Some(Err(Error::StateNotFinite { .. })))
+    };
+    assert!(is_error(nowhere.run((), [1.0], 5.0).next()));
+    assert!(is_error(field.run((), [1.0], 5.0).next()));
+}
+
+#[test]
+fn a_flow_without_a_value_at_an_event_is_an_error() {
+    let nowhere = Model::closed_form(|(), _: &State<1>, _| [f64::NAN])
+        .falling((), |x| x[0], |_| ((), [1.0]))
+        .signal(0, |(), x| Some(QuasiPolynomial::polynomial(&[x[0], -1.0])));
+    let first = nowhere.run((), [1.0], 5.0).next();
+    assert!(matches!(first, Some(Err(Error::StateNotFinite { .. }))), "{first:?}");
+}
+
+#[test]
+fn a_sampled_ball_of_any_time_scale_has_all_its_bounces() {
+    // Unit gravity, with time in units from 10¹⁵ to 10⁻¹⁵ of its own.
+    for scale in [1e-15, 1e-9, 1.0, 1e9, 1e15] {
+        let ball = Model::closed_form(move |(), x: &State<2>, t| {
+            let t = t / scale;
+            [x[0] + t * (x[1] - t / 2.0), x[1] - t]
+        })
+        .falling((), |x| x[0], |x| ((), [0.0, -x[1]]))
+        .sampled(0.3 * scale);
+        let mut bounces = 0;
+        for arc in ball.run((), [0.5, 0.0], 20.0 * scale) {
+            let Some(event) = arc.unwrap().event().copied() else { continue };
+            bounces += 1;
+            let exact = f64::from(2 * bounces - 1) * scale;
+            assert!((event.time - exact).abs() < 1e-13 * exact, "{scale}: {event:?}");
+            assert!(event.before[1] < 0.0, "{scale}: {event:?}");
+        }
+        assert_eq!(bounces, 10, "{scale}");
+    }
+}
