@@ -370,7 +370,7 @@ impl Durations {
         let error = fit.error + (-time).max(0.0);
         let accepted = time + error <= largest * self.elapsed || {
             // Errors of the events do not shrink with further events.
-            largest == LARGEST_REMAINDER && time <= largest * self.elapsed
+            largest >= LARGEST_REMAINDER && time <= largest * self.elapsed
         };
         let length = (0..period).map(|back| self.duration(back)).sum();
         accepted.then_some(Remainder {

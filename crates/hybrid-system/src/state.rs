@@ -33,7 +33,7 @@ pub trait StateVector: Clone + Debug + PartialEq {
 
     /// A vector of the same dimension with these components.
     #[must_use]
-    fn from_fn_like(&self, mut component: impl FnMut(usize) -> f64) -> Self {
+    fn filled(&self, mut component: impl FnMut(usize) -> f64) -> Self {
         let mut vector = self.zeros_like();
         for (axis, value) in vector.components_mut().iter_mut().enumerate() {
             *value = component(axis);

@@ -203,7 +203,7 @@ fn errors_at_a_kink_are_ten_times_the_tolerance() {
 fn chain<V: StateVector>(x: &V) -> V {
     let half = x.dimension() / 2;
     let at = x.components();
-    x.from_fn_like(|axis| if axis < half { at[axis + half] } else { -at[axis - half] })
+    x.filled(|axis| if axis < half { at[axis + half] } else { -at[axis - half] })
 }
 
 #[test]

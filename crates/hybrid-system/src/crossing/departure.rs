@@ -100,7 +100,7 @@ pub(crate) fn departure<F: GuardedFlow>(
         }
         // The flow adds numbers as large as the largest component, and rounds by as much in each.
         let largest = state.largest().max(start.largest());
-        let size = state.from_fn_like(|_| largest);
+        let size = state.filled(|_| largest);
         let guard = |state: &F::State| flow.guard_value(surface, state);
         let later_error = rounding_of_state(&state, &size, guard);
         if value.abs() > LEFT_SURFACE * (error + later_error) {

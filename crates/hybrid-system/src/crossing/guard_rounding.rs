@@ -101,7 +101,7 @@ pub(crate) fn side_of_surface<X: StateVector>(
 /// True if the guard, whose value at `state` is `value`, is clearly off its surface. This test takes one evaluation.
 pub(crate) fn is_far<X: StateVector>(state: &X, value: f64, guard: impl Fn(&X) -> f64) -> bool {
     let reach = FAR_MOVE * state.largest();
-    let moved = state.from_fn_like(|axis| state.components()[axis] + reach);
+    let moved = state.filled(|axis| state.components()[axis] + reach);
     value != 0.0 && (guard(&moved) - value).abs() <= FAR * value.abs()
 }
 
@@ -155,7 +155,7 @@ fn scatter<X: StateVector>(state: &X, guard: impl Fn(&X) -> f64) -> f64 {
                 let component = state.components()[axis];
                 component + k as f64 * (relative * component.abs() + absolute)
             };
-            guard(&state.from_fn_like(along))
+            guard(&state.filled(along))
         });
         if values.iter().any(|value| *value != values[0]) {
             let third =

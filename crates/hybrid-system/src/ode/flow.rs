@@ -24,7 +24,7 @@ pub fn integrated_flow<T: HybridSystem + ?Sized>(
     let flow = visit_states(system, mode, start, &[time], tolerances, |state| after = Some(state));
     match (flow, after) {
         (Ok(()), Some(after)) => after,
-        _ => start.from_fn_like(|_| f64::NAN),
+        _ => start.filled(|_| f64::NAN),
     }
 }
 
@@ -168,7 +168,7 @@ fn field_of<T: HybridSystem + ?Sized>(
     mode: T::Mode,
 ) -> impl Fn(f64, &T::State) -> T::State + '_ {
     move |_, state| {
-        let outside = || state.from_fn_like(|_| f64::NAN);
+        let outside = || state.filled(|_| f64::NAN);
         system.vector_field(mode, state).unwrap_or_else(outside)
     }
 }

@@ -44,11 +44,12 @@ impl Accuracy {
 ///
 /// A separate step from the start of the last step to `time` gives the state without that error. The difference between
 /// the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing is searched
-/// again next to the old one.
+/// again next to the old one. The rounding of the interpolant may hide the guard for a time `hidden` around the crossing:
+/// the values with the correction show a change of sign there.
 pub(super) fn polished<F, V: StateVector>(
     integration: &mut Integration<F, V>,
     step: &Step<V>,
-    time: f64,
+    (time, hidden): (f64, f64),
     until: f64,
     guard: impl Fn(&V) -> f64,
 ) -> Result<(f64, V), Error>
@@ -67,8 +68,9 @@ where
         state
     };
     let along = |time: f64| guard(&corrected(time));
-    for fraction in POLISHING_REACHES {
-        let reach = fraction * (step.to - step.from);
+    let length = step.to - step.from;
+    let reaches = POLISHING_REACHES.map(|fraction| fraction * length).into_iter();
+    for reach in reaches.chain([hidden]) {
         let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
         let (before, after) = (along(left), along(right));
         if before.signum() != after.signum() {

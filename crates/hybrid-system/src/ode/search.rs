@@ -167,7 +167,11 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let (time, state) = if kind == EventKind::Touch {
                 (time, step.state(time))
             } else {
-                polished(&mut integration, &step, time, until, value)?
+                let hidden = match found {
+                    Found::Crossing { error, .. } => error,
+                    _ => 0.0,
+                };
+                polished(&mut integration, &step, (time, hidden), until, value)?
             };
             let mut time_error = time_error(&step, time, &state, value, accuracy);
             if let Found::Touch { error, .. } = found {
@@ -316,7 +320,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let rounding = move || {
             let magnitude = step.magnitude();
             let size =
-                magnitude.from_fn_like(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
+                magnitude.filled(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
             let middle = step.from + 0.5 * (step.to - step.from);
             [step.from, middle, step.to]
                 .map(|time| stated + rounding_of_state(&step.state(time), &size, value))

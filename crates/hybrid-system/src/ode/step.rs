@@ -74,7 +74,7 @@ impl<V: StateVector> Step<V> {
     pub(super) fn magnitude(&self) -> V {
         let n = self.like.dimension();
         let coefficients = self.coefficients();
-        self.like.from_fn_like(|axis| {
+        self.like.filled(|axis| {
             (0..=self.degree).fold(0.0, |sum, k| sum + coefficients[k * n + axis].abs())
         })
     }

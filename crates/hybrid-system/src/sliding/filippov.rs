@@ -160,7 +160,7 @@ impl<T: HybridSystem> Filippov<T> {
     ) -> Result<(), OffSurface> {
         let guard = |state: &T::State| self.system.guard_value(surface, state);
         // In units of the roundings that `guard_rounding` applies to components.
-        let size = state.from_fn_like(|axis| {
+        let size = state.filled(|axis| {
             let component = state.components()[axis].abs();
             START_TOLERANCES * self.tolerances.of(axis, component) / f64::EPSILON
         });

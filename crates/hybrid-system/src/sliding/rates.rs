@@ -46,7 +46,7 @@ pub(crate) fn guard_rates<T: HybridSystem>(
 
 /// |xᵢ|, the sizes by which components are rounded.
 pub(super) fn sizes<X: StateVector>(state: &X) -> X {
-    state.from_fn_like(|axis| state.components()[axis].abs())
+    state.filled(|axis| state.components()[axis].abs())
 }
 
 fn by_quasi_polynomial<T: HybridSystem>(

@@ -19,7 +19,7 @@ pub(crate) fn sliding_field<X: StateVector>(fields: (&X, &X), rates: (f64, f64))
     // From the field with the larger weight. A component that is equal in both fields keeps its bits.
     let (from, to, part) =
         if lambda <= 0.5 { (below, above, lambda) } else { (above, below, rest) };
-    from.from_fn_like(|axis| {
+    from.filled(|axis| {
         let (from, to) = (from.components()[axis], to.components()[axis]);
         from + part * (to - from)
     })
