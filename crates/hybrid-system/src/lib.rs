@@ -69,7 +69,7 @@
 //! kind of guard.
 //!
 //! # Not here
-//! Stiff integrators, differential-algebraic equations, sliding along several surfaces at once. The
+//! Stiff integrators ([what to do](stiff)), differential-algebraic equations, sliding along several surfaces at once. The
 //! sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its surface at the first
 //! sample.
 //!
@@ -77,7 +77,7 @@
 //! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
 //! time (t, j); R. I. Leine, H. Nijmeijer, *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*,
 //! Springer (2004), for saltation; J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*,
-//! Numer. Algorithms 53 (2010). The two pairs of the feature `ode` and their coefficients are his, from his
+//! Numer. Algorithms 53 (2010). The pairs of the feature `ode` and their coefficients are his, from his
 //! pages of 2024 (<https://www.sfu.ca/~jverner/>).
 
 mod advance;
@@ -157,6 +157,9 @@ pub mod certainty {}
 
 #[doc = include_str!("../docs/sliding.md")]
 pub mod sliding_motion {}
+
+#[doc = include_str!("../docs/stiff.md")]
+pub mod stiff {}
 
 #[doc = include_str!("../docs/guide.md")]
 pub mod guide {}

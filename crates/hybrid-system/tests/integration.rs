@@ -129,6 +129,21 @@ fn each_component_has_a_tolerance() {
     assert!(matches!(wrong.err(), Some(Error::Dimension { expected: 4, found: 1, .. })));
 }
 
+/// A phase that turns at the rate 1 from 1e8 on, and drives an oscillator. Relative to the phase an error of 1e-9 is 0.1.
+#[test]
+fn a_component_without_a_natural_size_has_the_relative_tolerance_zero() {
+    let field = |_: f64, x: &Vector2<f64>| Vector2::new((1e8 - x[0]).cos(), x[1].cos());
+    let each = Tolerances::both(1e-9).relative_each(&[0.0, 1e-9]);
+    let run = Integration::new(field, &Vector2::new(1e8 + 0.5, 0.2), each).unwrap();
+    // u = x₀ − 1e8 with u̇ = cos u: sin u = tanh(t + artanh(sin u₀)).
+    let last = finish(run.until(3.0).unwrap()).unwrap()[0] - 1e8;
+    assert!((last - (3.0 + 0.5f64.sin().atanh()).tanh().asin()).abs() < 1e-6, "{last}");
+    let wrong = Integration::new(field, &Vector2::zeros(), each.relative_each(&[0.0]));
+    assert!(matches!(wrong.err(), Some(Error::Dimension { expected: 2, found: 1, .. })));
+    let wrong = Integration::new(field, &Vector2::zeros(), each.relative_each(&[0.0, -1.0]));
+    assert!(matches!(wrong.err(), Some(Error::BadTolerance { value: -1.0 })));
+}
+
 #[test]
 fn a_field_of_another_length_is_an_error() {
     let field = |_: f64, _: &DVector<f64>| DVector::from_element(3, 1.0);
@@ -179,14 +194,19 @@ fn a_budget_counts_every_trial() {
     assert_eq!(run.steps_left(), 0);
 }
 
-/// x = ∫|sin(t + p)|: the field has a kink at each zero of the sine.
+/// ∫|sin t|, from 0 on.
+fn integral(t: f64) -> f64 {
+    let half_waves = (t / PI).floor();
+    2.0 * half_waves + 1.0 - (t - half_waves * PI).cos()
+}
+
+/// x = ∫|sin(t + p)|: the field has a kink at each zero of the sine. At 1e-10 the pair 8(7) misses some kinks: the
+/// documentation of `Tolerances` has the measured errors, and the remedy is tested below.
 #[test]
-fn errors_at_a_kink_are_ten_times_the_tolerance() {
-    let integral = |t: f64| {
-        let half_waves = (t / PI).floor();
-        2.0 * half_waves + 1.0 - (t - half_waves * PI).cos()
-    };
-    for tolerance in [1e-6, 1e-8, 1e-9, 1e-12] {
+fn errors_at_a_hidden_kink_are_ten_times_the_tolerance_or_thirty_with_the_pair_of_order_eight() {
+    for (tolerance, most) in
+        [(1e-6, 10.0), (1e-8, 10.0), (1e-9, 10.0), (1e-10, 30.0), (1e-12, 10.0)]
+    {
         for place in 0..200 {
             let phase = 0.3 + 0.0137 * f64::from(place);
             let start = Vector3::new(0.0, phase.sin(), phase.cos());
@@ -194,7 +214,26 @@ fn errors_at_a_kink_are_ten_times_the_tolerance() {
             let run = Integration::new(field, &start, Tolerances::both(tolerance)).unwrap();
             let last = finish(run.until(3.0).unwrap()).unwrap();
             let error = (last[0] - (integral(3.0 + phase) - integral(phase))).abs();
-            assert!(error < 10.0 * tolerance, "{tolerance:e} {phase}: {error:e}");
+            assert!(error < most * tolerance, "{tolerance:e} {phase}: {error:e}");
+        }
+    }
+}
+
+/// The same field with the kink as a surface: an observer ends an arc there.
+#[test]
+fn a_kink_that_is_a_surface_costs_no_digits() {
+    for tolerance in [1e-6, 1e-8, 1e-9, 1e-10, 1e-12] {
+        let model = Model::integrated(|(), x: &State<3>| [x[1].abs(), x[2], -x[1]])
+            .tolerance(tolerance)
+            .observer(Guard::either(0), |x: &State<3>| x[1]);
+        for place in 0..200 {
+            let phase = 0.3 + 0.0137 * f64::from(place);
+            let start = [0.0, phase.sin(), phase.cos()];
+            let arcs: Vec<_> = model.run((), start, 3.0).collect::<Result<_, _>>().unwrap();
+            let last = arcs.last().unwrap();
+            let x = last.state(&model, last.duration).unwrap()[0];
+            let error = (x - (integral(3.0 + phase) - integral(phase))).abs();
+            assert!(error < 4.0 * tolerance, "{tolerance:e} {phase}: {error:e}");
         }
     }
 }

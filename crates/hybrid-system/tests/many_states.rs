@@ -1,4 +1,4 @@
-//! Many states of one integrated arc, and derivatives by parameters.
+//! Many states of one integrated arc, by one integration.
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic)]

@@ -30,8 +30,8 @@ const SMALLEST_STEP: f64 = 1e-14;
 const MOST_TRIALS: usize = 100;
 
 /// A trial whose error exceeds the tolerance by this factor makes the next steps cautious. The controller aims at less than
-/// half of the tolerance. A smaller value makes more steps shorter than necessary where the field is smooth: with 1, a
-/// fifth of all evaluations on the pendulum. With a larger one more weak kinks are missed.
+/// half of the tolerance. With 3 van der Pol's oscillator takes up to 7 % more evaluations, and the worst errors at kinks
+/// stay the same; with 1.5 the pendulum takes up to 17 % more.
 const ROUGH: f64 = 10.0;
 
 /// The reason of the error of an integration that has used its budget.
