@@ -64,7 +64,8 @@ impl<T: HybridSystem> Execution<'_, T> {
                 let flow =
                     FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
                 let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
-                self.at.arrival = Some(arrival);
+                let touch = kind == EventKind::Touch;
+                self.at.arrival = Some(if touch { arrival.by_touch() } else { arrival });
             }
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
                 Some(arrival) if !time_passes => arrival.passed(surface),

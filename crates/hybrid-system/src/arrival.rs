@@ -19,6 +19,8 @@ const LOOKBACK: f64 = 2.0;
 pub(crate) struct Arrival<M, S, X> {
     /// The surface that was crossed; `None` at a limit, where no event is.
     surface: Option<S>,
+    /// True if the guard has touched the surface, and not crossed it.
+    touched: bool,
     /// The state before the reset.
     before: X,
     /// Mode, start and duration of the arc.
@@ -45,6 +47,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
     {
         let mut arrival = Arrival {
             surface,
+            touched: false,
             before: before.clone(),
             mode: arc.mode,
             start: arc.start.clone(),
@@ -73,6 +76,22 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             }
         }
         arrival
+    }
+
+    /// The same for a touch.
+    pub(crate) fn by_touch(mut self) -> Self {
+        self.touched = true;
+        self
+    }
+
+    /// True if the guard of this surface has touched it, and the reset has not changed the guard: it goes back to the side
+    /// from which it came, although its rate at the time of the touch may still lead to the surface.
+    pub(crate) fn has_touched<T>(&self, next: &FlowFrom<T>, surface: S) -> bool
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        let value = |state: &X| next.guard_value(surface, state);
+        self.touched && Some(surface) == self.surface && value(next.start) == value(&self.before)
     }
 
     /// The surface that was crossed.

@@ -10,6 +10,9 @@
 //! | beyond the surface | an event at once; an error at the initial state | no event |
 //! | on the side of the flow | no event | no event |
 //!
+//! After a touch the guard goes back to the side of the flow, although its rate at the time of the touch may still lead
+//! to the surface.
+//!
 //! A guard that counts both ways has no side beyond its surface. Where it leaves to is no event, with one exception, also
 //! for observers: if the surface was reached at the same instant as the surface of the last event, and the reset of that
 //! event lets the state pass through, that is an event. No crossing is lost between two resets.
@@ -20,7 +23,7 @@ use crate::crossing::{
     rounding_of_state,
 };
 use crate::error::Error;
-use crate::guard::{Guard, Role};
+use crate::guard::{Direction, Guard, Role};
 use crate::system::{FlowFrom, HybridSystem};
 use smallvec::SmallVec;
 
@@ -78,6 +81,12 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             .map_or(0.0, |arrival| arrival.error_after(flow, surface));
         let error = rounding + by_time;
         let on_surface = now.abs() <= error;
+        let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
+        if on_surface && touched && switch && direction != Direction::Either {
+            let side = if direction == Direction::Rising { -1.0 } else { 1.0 };
+            leaving.push(Leaving { surface, side });
+            continue;
+        }
         let (side, certainty) = if on_surface {
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);

@@ -319,8 +319,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         // The largest of three places stands for the step: at one of them a guard may have a rate of zero.
         let rounding = move || {
             let magnitude = step.magnitude();
-            let size =
-                magnitude.filled(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
+            let size = magnitude.filled(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
             let middle = step.from + 0.5 * (step.to - step.from);
             [step.from, middle, step.to]
                 .map(|time| stated + rounding_of_state(&step.state(time), &size, value))
