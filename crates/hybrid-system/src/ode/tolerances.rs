@@ -15,7 +15,7 @@ use crate::error::Error;
 /// | a contact with the force 30 max(0, −x)^1.5 | 7.7 | 1.9 | 25.1 | 33.7 | 25.5 | 82.6 | 2.3 |
 ///
 /// From 2e-11 to 5e-10 the pair of orders 8(7) takes the steps. With the pair 9(8) the errors there were 2.5 to 10.5, and
-/// smooth flows took 6 to 26 % more evaluations. The remedy is exact: the kink is a surface of the model. A guard there,
+/// three of four smooth flows took 5 to 26 % more evaluations. The remedy is exact: the kink is a surface of the model. A guard there,
 /// or an observer, ends the arc at the kink, and no later step contains it. Best are two modes, each with its own smooth
 /// field.
 ///

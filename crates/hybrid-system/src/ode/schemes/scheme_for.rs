@@ -5,7 +5,7 @@ use super::{eight, nine, six};
 
 /// The pair 8(7) is used from [`TIGHT`] to [`MIDDLE`]. It has fewer stages than the pair 9(8). At 1e-10 a thousand turning
 /// points of the pressure relief valve of the crate `example-systems` take 2 % fewer evaluations of the field than with the
-/// pair 9(8) at the flow rate 1, 19 % fewer at the flow rate 7, and 37 to 42 % fewer than with the pair 6(5). A pendulum
+/// pair 9(8) at the flow rate 1, 19 % fewer at the flow rate 7, and 37 to 43 % fewer than with the pair 6(5). A pendulum
 /// takes 9 %, van der Pol's oscillator with μ = 5 20 % fewer than with 9(8).
 ///
 /// It misses weak kinks of the field more often: its nodes leave a gap from 0.49 to 0.96 of the step. The documentation of
