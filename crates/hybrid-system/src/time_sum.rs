@@ -111,7 +111,7 @@ mod tests {
         /// Durations k·2⁻⁵⁰ with whole k are added exactly, as whole numbers of 2⁻⁵⁰.
         #[test]
         fn sums_are_those_of_whole_numbers(start in 0i64..1 << 50, steps in prop::collection::vec(0i64..1 << 52, 1..200)) {
-            let unit = (-50f64).exp2();
+            let unit = pxfm::f_exp2(-50.0);
             let mut sum = TimeSum::new(start as f64);
             let mut whole = i128::from(start) << 50;
             for step in steps {

@@ -227,9 +227,9 @@ fn a_stop_on_a_surface_loses_no_event() {
         .signal(1, |(), x| Some(QuasiPolynomial::polynomial(&[x[0] - 1.5, 1.0])))
         .signal(2, |(), x| Some(QuasiPolynomial::polynomial(&[x[0] - 2.0, 1.0])));
     for pieces in [1, 2, 4, 8, 10, 12, 30, 100] {
-        for (away, surface) in [(1.0, 0), (1.5, 1), (2.0, 2)] {
+        for (away, surface) in [(1.0f64, 0), (1.5, 1), (2.0, 2)] {
             for ulps in -3..=3 {
-                let stop = f64::from_bits((away as f64).to_bits().wrapping_add_signed(ulps));
+                let stop = f64::from_bits(away.to_bits().wrapping_add_signed(ulps));
                 let mut execution = line.run((), [0.0], 0.0);
                 let mut seen = Vec::new();
                 let stops = (1..=pieces).map(|k| stop * f64::from(k) / f64::from(pieces));

@@ -1,6 +1,7 @@
 //! Derivatives by parameters, against closed forms and finite differences through events.
 
 #![cfg(feature = "ode")]
+#![allow(clippy::type_complexity)] // the type of a model contains the types of its closures
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
