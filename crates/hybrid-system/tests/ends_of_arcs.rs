@@ -90,3 +90,19 @@ fn a_sampled_ball_of_any_time_scale_has_all_its_bounces() {
         assert_eq!(bounces, 10, "{scale}");
     }
 }
+
+/// A guard that is zero on 1 < x < 2 and positive or negative beside it. From the middle of the band it stays zero for half
+/// a unit of time. The start does not show when it leaves: that is an error, and no event at the start.
+#[test]
+fn a_guard_that_stays_zero_for_a_while_has_no_event_at_the_start() {
+    let band = |x: &State<1>| (1.0 - x[0]).max(0.0) + (2.0 - x[0]).min(0.0);
+    let sampled = Model::closed_form(|(), x: &State<1>, t| [x[0] + t])
+        .falling((), band, |_| Reset::<(), State<1>>::Stop)
+        .sampled(1e-3);
+    let found = sampled.run((), [1.5], 5.0).next().unwrap();
+    assert!(matches!(found, Err(Error::UndecidedStart { .. })), "{found:?}");
+    let integrated = Model::integrated(|(), _: &State<1>| [1.0])
+        .falling((), band, |_| Reset::<(), State<1>>::Stop);
+    let found = integrated.run((), [1.5], 5.0).next().unwrap();
+    assert!(matches!(found, Err(Error::UndecidedStart { .. })), "{found:?}");
+}

@@ -34,6 +34,10 @@ const LONGEST_LOOK: f64 = 1.0;
 /// rounding for a side; a larger one looks later, when the guard may have come back.
 const LEFT_SURFACE: f64 = 4.0;
 
+/// The growth of a guard between two looks, from a value that rounding hides: 2⁸ for a zero of order eight. A guard that grows
+/// faster has stayed at zero for a while. A smaller number would take zeros of high order for that.
+const LARGEST_GROWTH: f64 = 256.0;
+
 /// How a guard leaves its zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Departure {
@@ -49,7 +53,8 @@ pub(crate) enum Departure {
 /// before or the sampling interval, or infinite.
 ///
 /// # Errors
-/// [`Error::UndecidedSign`] and [`Error::NotFinite`].
+/// [`Error::UndecidedSign`], [`Error::UndecidedStart`] for a guard that stays at zero for a while, and
+/// [`Error::NotFinite`].
 pub(crate) fn departure<F: GuardedFlow>(
     flow: &F,
     surface: F::Surface,
@@ -92,6 +97,7 @@ pub(crate) fn departure<F: GuardedFlow>(
     if !(time > 0.0) {
         time = SHORTEST_LOOK * longest;
     }
+    let mut first = true;
     while time > 0.0 && time <= longest {
         let state = flow.state(time);
         let value = flow.guard_value(surface, &state);
@@ -103,10 +109,18 @@ pub(crate) fn departure<F: GuardedFlow>(
         let size = state.filled(|_| largest);
         let guard = |state: &F::State| flow.guard_value(surface, state);
         let later_error = rounding_of_state(&state, &size, guard);
-        if value.abs() > LEFT_SURFACE * (error + later_error) {
+        let hidden = LEFT_SURFACE * (error + later_error);
+        if value.abs() > hidden {
+            // A guard that was zero up to here does not leave at the start. When it leaves is not known.
+            if !first && value.abs() > LARGEST_GROWTH * hidden {
+                return Err(Error::UndecidedStart {
+                    surface: format!("{surface:?}"),
+                    interval: time,
+                });
+            }
             return Ok(to(value, Certainty::Sampled { interval: time }));
         }
-        time *= 2.0;
+        (time, first) = (2.0 * time, false);
     }
     Ok(Departure::Stays)
 }
