@@ -81,6 +81,7 @@ pub(crate) fn rounding_of_state<X: StateVector>(
 /// `stated` is the error of the guard's own operations, if the model states it.
 ///
 /// A guard that is far from its surface, which is the usual case, is evaluated twice.
+#[cfg(feature = "ode")]
 pub(crate) fn side_of_surface<X: StateVector>(
     state: &X,
     stated: Option<f64>,

@@ -35,9 +35,11 @@ mod quasi_polynomial;
 mod quasi_polynomial_search;
 mod quasi_term;
 mod rounded;
+#[cfg(feature = "ode")]
 mod same_instant;
 mod sampled;
 mod search_request;
+#[cfg(feature = "ode")]
 mod step_past_root;
 mod under_bounds;
 mod zero_search;
