@@ -11,7 +11,7 @@
 //! that is tangent to the surface and bends back to it points at it, too. If rounding hides both, or if the model gives
 //! no rates, there is no decision, and the execution ends with [`Error::TimelessChain`](crate::Error::TimelessChain).
 
-use super::rates::{guard_rates, sizes};
+use super::rates::guard_rates;
 use super::sliding_field::sliding_field;
 use super::sliding_point::Sliding;
 use crate::crossing::guard_rounding;
@@ -152,7 +152,7 @@ fn is_on_surface<T: HybridSystem>(
 
 /// The rounding error of a guard, from its state and from its own arithmetic.
 fn rounding<T: HybridSystem>(system: &T, surface: T::Surface, state: &T::State) -> f64 {
-    guard_rounding(state, &sizes(state), |state| system.guard_value(surface, state))
+    guard_rounding(state, state, |state| system.guard_value(surface, state))
         + system.guard_error(surface, state).unwrap_or_default()
 }
 

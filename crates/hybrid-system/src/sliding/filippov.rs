@@ -3,7 +3,6 @@
 use super::directional::slope_along;
 use super::filippov_modes::GuardTable;
 use super::projection::onto_surface;
-use super::rates::sizes;
 use super::sliding_field::sliding_field;
 use crate::crossing::guard_rounding;
 use crate::ode::Tolerances;
@@ -148,7 +147,7 @@ impl<T: HybridSystem> Filippov<T> {
     /// The rounding error of a guard of the model at a state.
     pub(super) fn rounding(&self, surface: T::Surface, state: &T::State) -> f64 {
         let guard = |state: &T::State| self.system.guard_value(surface, state);
-        guard_rounding(state, &sizes(state), guard)
+        guard_rounding(state, state, guard)
             + self.system.guard_error(surface, state).unwrap_or_default()
     }
 

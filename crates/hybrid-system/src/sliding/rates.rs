@@ -2,7 +2,6 @@
 
 use super::directional::{Estimate, slope_along};
 use crate::crossing::{QuasiPolynomial, guard_rounding};
-use crate::state::StateVector;
 use crate::system::HybridSystem;
 
 /// The first two derivatives of a guard along a flow.
@@ -44,11 +43,6 @@ pub(crate) fn guard_rates<T: HybridSystem>(
         .or_else(|| by_field(system, mode, surface, state))
 }
 
-/// |xᵢ|, the sizes by which components are rounded.
-pub(super) fn sizes<X: StateVector>(state: &X) -> X {
-    state.filled(|axis| state.components()[axis].abs())
-}
-
 fn by_quasi_polynomial<T: HybridSystem>(
     system: &T,
     mode: T::Mode,
@@ -60,7 +54,6 @@ fn by_quasi_polynomial<T: HybridSystem>(
         guard.map(|guard: QuasiPolynomial| guard.derivative())
     };
     let first = derivative(state)?;
-    let size = sizes(state);
     let value = |state: &T::State| derivative(state).map_or(f64::NAN, |first| first.value(0.0));
     let bend = |state: &T::State| {
         derivative(state).map_or(f64::NAN, |first| first.derivative().value(0.0))
@@ -70,8 +63,8 @@ fn by_quasi_polynomial<T: HybridSystem>(
         error: error + 2.0 * f64::EPSILON * value.abs(),
     };
     Some(GuardRates {
-        first: estimate(first.value(0.0), guard_rounding(state, &size, value)),
-        second: Some(estimate(first.derivative().value(0.0), guard_rounding(state, &size, bend))),
+        first: estimate(first.value(0.0), guard_rounding(state, state, value)),
+        second: Some(estimate(first.derivative().value(0.0), guard_rounding(state, state, bend))),
     })
 }
 
@@ -97,8 +90,7 @@ fn by_field<T: HybridSystem>(
 ) -> Option<GuardRates> {
     let field = system.vector_field(mode, state)?;
     let guard = |state: &T::State| system.guard_value(surface, state);
-    let size = sizes(state);
-    let rounding = guard_rounding(state, &size, guard)
+    let rounding = guard_rounding(state, state, guard)
         + system.guard_error(surface, state).unwrap_or_default();
     // L_f g(x) = ∇g·f, at any state.
     let rate = |state: &T::State| {
@@ -106,7 +98,7 @@ fn by_field<T: HybridSystem>(
         field.map_or(f64::NAN, |field| slope_along(guard, state, &field, rounding).value)
     };
     let mut first = slope_along(guard, state, &field, rounding);
-    first.error += guard_rounding(state, &size, rate);
+    first.error += guard_rounding(state, state, rate);
     // g̈ = L_f L_f g. The differences of the rate have the errors of the rate.
     let second = slope_along(rate, state, &field, first.error);
     Some(GuardRates { first, second: Some(second) })
