@@ -22,11 +22,12 @@ const COMPONENT_ULPS: f64 = 2.0;
 const ROOM: f64 = 2.0;
 
 /// With at most this many components each of them is moved by itself, and the changes are added. With more, the guard
-/// would be evaluated too often: all components are moved together, with signs at random.
+/// would be evaluated too often: all components are moved together, with different signs.
 const SINGLE_COMPONENTS: usize = 8;
 
-/// Number of moves of all components together. Four changes show the size of a random sum within a factor of about two.
-const JOINT_MOVES: u64 = 4;
+/// Number of moves of all components together with signs at random. Four changes show the size of a random sum within a
+/// factor of about two.
+const RANDOM_MOVES: u32 = 4;
 
 /// Distances between the states at which the scatter is measured, relative to each component: 256 ulps, then 2²² ulps.
 /// The first shows the rounding of terms up to about 100 times the components; it does not reach over an oscillation,
@@ -41,8 +42,8 @@ const LARGEST_DISTANCE: f64 = 4096.0 * f64::EPSILON;
 /// of two is often less than half of that. With this factor the scatter is 1 to 8 times the error.
 const SCATTER: f64 = 2.0;
 
-/// A guard is clearly off its surface if moving the state by [`FAR_MOVE`] of its largest component changes the guard by
-/// at most this many times its value. The rounding would have to be 10⁷ times larger than usual to matter.
+/// A guard is clearly off its surface if moving the components by about [`FAR_MOVE`] of the largest one changes the guard
+/// by at most this many times its value. The rounding would have to be 10⁷ times larger than usual to matter.
 const FAR: f64 = 1e3;
 
 /// See [`FAR`]: about 10⁻³, a power of two.
@@ -100,10 +101,20 @@ pub(crate) fn side_of_surface<X: StateVector>(
 }
 
 /// True if the guard, whose value at `state` is `value`, is clearly off its surface. This test takes one evaluation.
+///
+/// Each component is moved by its own distance. A gap between two components does not change if both move by the same.
 pub(crate) fn is_far<X: StateVector>(state: &X, value: f64, guard: impl Fn(&X) -> f64) -> bool {
     let reach = FAR_MOVE * state.largest();
-    let moved = state.filled(|axis| state.components()[axis] + reach);
+    let moved = state.filled(|axis| state.components()[axis] + reach * spread(axis));
     value != 0.0 && (guard(&moved) - value).abs() <= FAR * value.abs()
+}
+
+/// A number from ½ to 3/2, different for each component: ½ and the fractional part of axis/golden ratio.
+fn spread(axis: usize) -> f64 {
+    /// 2³² divided by the golden ratio.
+    const MULTIPLIER: u32 = 0x9e37_79b9;
+    let fraction = (axis as u32).wrapping_mul(MULTIPLIER);
+    0.5 + f64::from(fraction) / 4_294_967_296.0
 }
 
 /// The change of `guard` when component i changes by reach(i): the sum of all changes, or an estimate if there are many
@@ -125,24 +136,33 @@ pub(crate) fn change_by_components<X: StateVector>(
         }
         return sum;
     }
+    // Two components have the same sign in the first move, and opposite signs in one of those by the bits of their
+    // numbers. So a guard of one or two components, such as a gap, shows its whole change.
+    let bits = usize::BITS - (state.dimension() - 1).leading_zeros();
     let mut largest: f64 = 0.0;
-    for joint in 0..JOINT_MOVES {
+    for joint in 0..=bits + RANDOM_MOVES {
+        let sign = |axis: usize| match joint.checked_sub(bits + 1) {
+            Some(random) => random_sign(axis, random),
+            None if joint < bits && axis >> joint & 1 == 1 => -1.0,
+            None => 1.0,
+        };
         for (axis, component) in state.components().iter().enumerate() {
-            moved.components_mut()[axis] = component + random_sign(axis, joint) * reach(axis);
+            moved.components_mut()[axis] = component + sign(axis) * reach(axis);
         }
         largest = largest.max((guard(&moved) - value).abs());
     }
-    // The largest of four sums at random is about the root of the sum of squares. A guard that depends on few components
-    // changes by at least half of the sum in one of the moves.
+    // The largest of four sums at random is about the root of the sum of squares.
     ROOM * largest
 }
 
 /// ±1, different for each component and move: a bit of a product with an odd number (a multiplicative hash).
-fn random_sign(axis: usize, joint: u64) -> f64 {
+fn random_sign(axis: usize, joint: u32) -> f64 {
     /// 2⁶⁴ divided by the golden ratio, odd.
     const MULTIPLIER: u64 = 0x9e37_79b9_7f4a_7c15;
-    let mixed =
-        (axis as u64).wrapping_mul(JOINT_MOVES).wrapping_add(joint + 1).wrapping_mul(MULTIPLIER);
+    let mixed = (axis as u64)
+        .wrapping_mul(u64::from(RANDOM_MOVES))
+        .wrapping_add(u64::from(joint) + 1)
+        .wrapping_mul(MULTIPLIER);
     if (mixed ^ (mixed >> 32)).wrapping_mul(MULTIPLIER) >> 63 == 0 { 1.0 } else { -1.0 }
 }
 
@@ -166,4 +186,42 @@ fn scatter<X: StateVector>(state: &X, guard: impl Fn(&X) -> f64) -> f64 {
     }
     // The guard does not depend on the state here.
     0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::DVector;
+
+    /// A joint move with the same signs on both components would show no change of the gap between them.
+    #[test]
+    fn every_gap_between_two_of_many_components_shows_its_rounding() {
+        for dimension in [9, 10, 64, 65, 100] {
+            let state = DVector::from_element(dimension, 1.0);
+            for i in 0..dimension {
+                for j in 0..i {
+                    let gap = rounding_of_state(&state, &state, |x| x[i] - x[j]);
+                    // Two components of size 1, COMPONENT_ULPS each, twice ROOM.
+                    assert_eq!(gap, 16.0 * f64::EPSILON, "{i} {j} of {dimension}");
+                    let sum = rounding_of_state(&state, &state, |x| x[i] + x[j] - 2.0);
+                    assert_eq!(sum, 16.0 * f64::EPSILON, "{i} {j} of {dimension}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_gap_of_rounding_is_not_far() {
+        for dimension in [2, 10, 1000] {
+            let mut state = DVector::from_element(dimension, 1.0);
+            state[dimension - 1] += 8.0 * f64::EPSILON;
+            for i in 0..dimension - 1 {
+                let gap = |x: &DVector<f64>| x[dimension - 1] - x[i];
+                assert!(!is_far(&state, gap(&state), gap), "{i} of {dimension}");
+            }
+            state[dimension - 1] = 2.0;
+            let gap = |x: &DVector<f64>| x[dimension - 1] - x[0];
+            assert!(is_far(&state, gap(&state), gap));
+        }
+    }
 }
