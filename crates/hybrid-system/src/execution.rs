@@ -5,6 +5,7 @@ use crate::chain::Chain;
 use crate::crossing::{EventKind, NextEvent};
 use crate::error::Error;
 use crate::limits::{Limits, Stop};
+use crate::overshoots::Overshoots;
 use crate::point::Point;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
@@ -35,6 +36,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             history: History::new(),
             chain: Chain::new(),
             arrival: None,
+            overshoots: Overshoots::new(),
         };
         Execution { system, limits, stop: None, at }
     }

@@ -101,6 +101,7 @@ mod number;
 #[cfg(feature = "ode")]
 mod ode;
 mod parameter_sensitivity;
+mod overshoots;
 mod point;
 mod searched;
 mod sensitivity;

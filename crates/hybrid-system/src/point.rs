@@ -2,6 +2,7 @@
 
 use crate::arrival::Arrival;
 use crate::chain::Chain;
+use crate::overshoots::Overshoots;
 use crate::time_sum::TimeSum;
 use crate::zeno::History;
 
@@ -21,4 +22,6 @@ pub(crate) struct Point<M, S, X> {
     pub(crate) chain: Chain<M, S>,
     /// The last crossing, if no time has passed since.
     pub(crate) arrival: Option<Arrival<M, S, X>>,
+    /// The surfaces beyond which the state lies by rounding.
+    pub(crate) overshoots: Overshoots<S>,
 }

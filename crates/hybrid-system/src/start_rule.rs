@@ -24,6 +24,7 @@ use crate::crossing::{
 };
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role};
+use crate::overshoots::Overshoots;
 use crate::system::{FlowFrom, HybridSystem};
 use smallvec::SmallVec;
 
@@ -44,7 +45,8 @@ pub(crate) enum Start<S> {
 
 /// The start of an arc: an event at once, or a flow. `leaving` becomes the list of the guards on whose surfaces it starts.
 ///
-/// `arrival` is the crossing before the arc, at the same instant; `initial` is true at the start of an execution. The search
+/// `arrival` is the crossing before the arc, at the same instant, and `overshoots` are the surfaces that lie behind the state
+/// by the rounding of their events. `initial` is true at the start of an execution. The search
 /// goes up to a horizon, with samples at an interval, if there is one.
 ///
 /// # Errors
@@ -53,6 +55,7 @@ pub(crate) enum Start<S> {
 pub(crate) fn start_of_arc<T: HybridSystem>(
     flow: &FlowFrom<T>,
     arrival: Option<&Arrival<T::Mode, T::Surface, T::State>>,
+    overshoots: &Overshoots<T::Surface>,
     initial: bool,
     (horizon, interval): (f64, Option<f64>),
     leaving: &mut LeavingGuards<T::Surface>,
@@ -79,7 +82,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let by_time = arrival
             .filter(|_| now != 0.0)
             .map_or(0.0, |arrival| arrival.error_after(flow, surface));
-        let error = rounding + by_time;
+        let error = (rounding + by_time).max(overshoots.error(surface));
         let on_surface = now.abs() <= error;
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
         if on_surface && touched && switch && direction != Direction::Either {
@@ -93,7 +96,13 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
             match departure(flow, surface, (error, rounding), (horizon, short))? {
                 Departure::To { side, certainty } => (side, certainty),
-                Departure::Stays => continue,
+                Departure::Stays => {
+                    // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.
+                    if now == 0.0 || beyond {
+                        leaving.push(Leaving { surface, side: 0.0 });
+                    }
+                    continue;
+                }
             }
         } else {
             (now.signum(), Certainty::Certain)

@@ -268,3 +268,23 @@ fn a_clear_miss_is_no_touch() {
         assert_eq!((stop, arcs.len()), (Stop::TimeLimit, 1));
     }
 }
+
+/// A ball rests on the floor, or is held, until t = 2. Then something presses it downwards. State: height, velocity, time.
+#[test]
+fn a_guard_that_rests_on_its_surface_and_is_pushed_beyond_it_later_is_not_lost() {
+    let pressed = |(), x: &State<3>| [x[1], -(x[2] - 2.0).max(0.0), 1.0];
+    for start in [[0.0, 0.0, 0.0], [0.0, 0.0, 1.5]] {
+        let ball = Model::integrated(pressed).falling((), |x| x[0], |x| ((), [x[0], -x[1], x[2]]));
+        let end = ball.run((), start, 5.0).collect::<Result<Vec<_>, _>>();
+        let error = end.unwrap_err();
+        assert!(matches!(error, Error::UndecidedStart { .. }), "{error}");
+        let sampled = Model::closed_form(|(), x: &State<3>, t| {
+            let late = (x[2] + t - 2.0).max(0.0);
+            [x[0] - late * late * late / 6.0, x[1], x[2] + t]
+        })
+        .falling((), |x| x[0], |x| ((), [x[0], -x[1], x[2]]))
+        .sampled(0.01);
+        let error = sampled.run((), start, 5.0).collect::<Result<Vec<_>, _>>().unwrap_err();
+        assert!(matches!(error, Error::UndecidedStart { .. }), "{error}");
+    }
+}

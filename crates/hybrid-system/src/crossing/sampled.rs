@@ -55,8 +55,12 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
             if !value.is_finite() {
                 return Err(Error::NotFinite { at: 0.0, value });
             }
-            let side = search.side(guard.surface).or((value != 0.0).then(|| value.signum()));
-            Ok(SampledGuard { guard, side, since: 0.0, zero: None })
+            let known = search.side(guard.surface);
+            let side = known.unwrap_or(value).signum();
+            // A guard that stays at a zero has the value of that zero as long as it does.
+            let stays = known.map_or(value == 0.0, |side| side == 0.0);
+            let level = if stays { value } else { 0.0 };
+            Ok(SampledGuard { guard, side: (!stays).then_some(side), level, since: 0.0, zero: None })
         })
         .collect::<Result<_, _>>()?;
     let budget = u64::try_from(search.steps).unwrap_or(u64::MAX).min(MOST_SAMPLES);
@@ -178,6 +182,8 @@ struct SampledGuard<S> {
     guard: Guard<S>,
     /// The side of the surface, ±1; `None` as long as the guard is zero since the start.
     side: Option<f64>,
+    /// The value that counts as zero as long as `side` is `None`.
+    level: f64,
     /// The last sample at which the guard was on that side.
     since: f64,
     /// The first of the samples since then, at all of which the guard is exactly zero.
@@ -195,6 +201,8 @@ impl<S: Copy + Debug> SampledGuard<S> {
     /// | one side, with zeros in between | the same side | touch |
     /// | one side | other side, admitted | crossing |
     fn advance(&mut self, time: f64, value: f64, interval: f64) -> Result<Sample, Error> {
+        let level = if self.side.is_none() { self.level } else { 0.0 };
+        let value = value - level;
         if value == 0.0 {
             self.zero.get_or_insert(time);
             return Ok(Sample::Quiet);

@@ -9,7 +9,7 @@ pub(crate) const MOST_INTERVALS: usize = 1_000_000;
 pub struct Leaving<S> {
     /// The surface.
     pub surface: S,
-    /// The side to which the guard leaves its zero, ±1.
+    /// The side to which the guard leaves its zero, ±1; 0 if it stays there, as far as the start shows.
     pub side: f64,
 }
 
@@ -54,7 +54,8 @@ impl<S> Search<'static, S> {
 }
 
 impl<S: Copy + PartialEq> Search<'_, S> {
-    /// The side to which the guard of this surface leaves its zero at the start; `None` if it does not start there.
+    /// The side to which the guard of this surface leaves its zero at the start, or 0 if it stays there; `None` if it does
+    /// not start there.
     pub fn side(&self, surface: S) -> Option<f64> {
         self.leaving.iter().find(|leaving| leaving.surface == surface).map(|leaving| leaving.side)
     }

@@ -57,6 +57,8 @@ pub(crate) struct ZeroSearch {
     clear: f64,
     /// True as long as it is not known how the function leaves the zero it started at.
     leaving: bool,
+    /// True if the function has stayed at that zero up to `time`.
+    stays: bool,
     /// True as long as the function has not been clear of the error of its start.
     unclear: bool,
     /// The value at the start, if it counts as zero. The zeros of g − level are searched as long as g is `unclear`.
@@ -77,6 +79,7 @@ impl ZeroSearch {
             side: Some(side),
             clear: time,
             leaving: false,
+            stays: false,
             unclear: false,
             level: 0.0,
             level_error: 0.0,
@@ -86,7 +89,7 @@ impl ZeroSearch {
     }
 
     /// Starts at `time` on a zero: the computed `value` counts as zero, with an error of at least its size. The function
-    /// leaves to `side`, if that is known.
+    /// leaves to `side`, if that is known; a side of 0 says that it stays there, as far as the start shows.
     pub(crate) fn leaving(
         direction: Direction,
         (time, value): (f64, f64),
@@ -94,7 +97,8 @@ impl ZeroSearch {
         side: Option<f64>,
     ) -> Self {
         ZeroSearch {
-            side,
+            side: side.filter(|side| *side != 0.0),
+            stays: side == Some(0.0),
             leaving: true,
             unclear: true,
             level: value,
@@ -155,10 +159,16 @@ impl ZeroSearch {
             match (function.leave(from, until, self.level_error)?, self.side) {
                 (Leave::To { time, side }, known) if known.is_none_or(|known| known == side) => {
                     self.pass(function, time, side)?;
+                    // It has stayed at its zero, and leaves it to the side of the event.
+                    if self.stays && self.direction.is_beyond(side) {
+                        (self.stays, self.left_hidden) = (false, true);
+                        let error = time - from;
+                        return Ok(Found::Crossing { time, error, rising: side > 0.0 });
+                    }
                 }
                 // The function stays zero. The side is still to be found, on the next stretch.
                 (Leave::Stays, _) => {
-                    self.time = until;
+                    (self.time, self.stays) = (until, true);
                     return Ok(Found::Nothing);
                 }
                 (Leave::Hidden | Leave::To { .. }, None) => {

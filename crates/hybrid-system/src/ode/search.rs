@@ -269,6 +269,9 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 match followed.search.advance(&on_step, until, horizon, budget) {
                     Ok(Found::Touch { .. } | Found::Undecided { .. })
                         if guard.touch == Touch::Ignore => {}
+                    // An observer that leaves its surface has no event.
+                    Ok(Found::Crossing { .. })
+                        if followed.search.left_hidden() && guard.role == Role::Observer => {}
                     other => break other,
                 }
             };

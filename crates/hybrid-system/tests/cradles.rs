@@ -1,0 +1,93 @@
+//! Cradles of five balls, with gaps from zero to far above rounding. Balls that meet are never lost, and never pass
+//! through each other.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use example_systems::scenes::{By, Scene, WAYS};
+use hybrid_system::*;
+
+/// Five elastic balls on a line: positions, then velocities.
+const BALLS: usize = 5;
+
+/// Masses of the balls of a mode. The mode says no more.
+const MASSES: [[f64; BALLS]; 4] = [
+    [1.0; BALLS],
+    [1.0, 2.0, 1.0, 2.0, 1.0],
+    [2.0, 1.0, 0.5, 1.0, 2.0],
+    [1.0, 0.3, 0.1, 3.0, 7.0],
+];
+
+const PAIRS: &[Guard<u8>] =
+    &[Guard::falling(0), Guard::falling(1), Guard::falling(2), Guard::falling(3)];
+
+const CRADLE: Scene<{ 2 * BALLS }> = Scene {
+    field: |_, x| {
+        let mut rate = State::<{ 2 * BALLS }>::zeros();
+        rate.fixed_rows_mut::<BALLS>(0).copy_from(&x.fixed_rows::<BALLS>(BALLS));
+        rate
+    },
+    second: |_| State::zeros(),
+    guards: &[PAIRS; MASSES.len()],
+    plane: |surface| {
+        let mut normal = State::<{ 2 * BALLS }>::zeros();
+        normal[usize::from(surface)] = -1.0;
+        normal[usize::from(surface) + 1] = 1.0;
+        (normal, 0.0)
+    },
+    reset: |mode, surface, x| {
+        let masses = &MASSES[usize::from(mode)];
+        let first = usize::from(surface);
+        let (m, n) = (masses[first], masses[first + 1]);
+        let (u, v) = (x[BALLS + first], x[BALLS + first + 1]);
+        let centre = (m * u + n * v) / (m + n);
+        let mut after = *x;
+        after[BALLS + first] = 2.0 * centre - u;
+        after[BALLS + first + 1] = 2.0 * centre - v;
+        (mode, after)
+    },
+    by: By::Signal,
+};
+
+/// Ball 1 comes from the left with velocity 1; the others rest, a gap apart, from `origin` on.
+fn start(origin: f64, gap: f64) -> State<{ 2 * BALLS }> {
+    let mut start = State::<{ 2 * BALLS }>::zeros();
+    start[0] = origin - 1.0;
+    start[BALLS] = 1.0;
+    for ball in 1..BALLS {
+        start[ball] = origin + (ball - 1) as f64 * gap;
+    }
+    start
+}
+
+fn energy(mode: u8, x: &State<{ 2 * BALLS }>) -> f64 {
+    let masses = &MASSES[usize::from(mode)];
+    (0..BALLS).map(|ball| 0.5 * masses[ball] * x[BALLS + ball] * x[BALLS + ball]).sum()
+}
+
+#[test]
+fn balls_with_the_smallest_gaps_do_not_pass_through_each_other() {
+    for by in WAYS {
+        for mode in 0..MASSES.len() as u8 {
+            for origin in [0.0, 1.0, -3.7, 1e-9] {
+                for exponent in 1..40 {
+                    let gap = if exponent == 39 { 0.0 } else { 2.3f64.powi(-exponent) * 1e-3 };
+                    let x = start(origin, gap);
+                    let limits = Limits::sampled(4.0, 200, 0.01);
+                    let scene = CRADLE.by(by);
+                    let mut execution = Execution::new(&scene, mode, x, limits);
+                    let arcs: Result<Vec<_>, _> = execution.by_ref().collect();
+                    let what = format!("{by:?}, masses {mode}, origin {origin}, gap {gap:e}");
+                    let arcs = arcs.unwrap_or_else(|error| panic!("{what}: {error}"));
+                    assert_eq!(execution.stop(), Some(Stop::TimeLimit), "{what}");
+                    let last = arcs.last().unwrap();
+                    let end = last.state(&scene, last.duration).unwrap();
+                    // Rounding of the positions, and the tolerance of the integrated runs.
+                    let ordered = (1..BALLS).all(|ball| end[ball] >= end[ball - 1] - 1e-9);
+                    assert!(ordered, "{what}: {end}");
+                    let lost = energy(mode, &end) - energy(mode, &x);
+                    assert!(lost.abs() < 1e-12, "{what}: {lost:e}");
+                }
+            }
+        }
+    }
+}
