@@ -124,6 +124,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
             self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
             self.at.overshoots.keep_beyond(|surface| self.system.guard_value(surface, &state));
+            self.at.history.pass(duration);
             self.at.time = self.at.time.plus(duration);
             self.at.state = state;
             self.at.chain.clear();
@@ -194,13 +195,6 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
     /// gives a mode.
     pub(crate) fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
-        let horizon = self.at.time.until(self.limits.time).max(0.0);
-        if limit.remainder > horizon {
-            // Rounding hides the events between here and the limit on time.
-            self.stop = Some(Stop::TimeLimit);
-            let certainty = Certainty::Interpolated;
-            return self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
-        }
         let after = self.system.rest(self.at.mode, &limit.state);
         let (remainder, state) = (limit.remainder, limit.state.clone());
         let end = ArcEnd::Zeno { limit, after: after.clone() };

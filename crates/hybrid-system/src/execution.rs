@@ -2,7 +2,7 @@
 
 use crate::arc::{Arc, ArcEnd};
 use crate::chain::Chain;
-use crate::crossing::{EventKind, NextEvent};
+use crate::crossing::{Certainty, EventKind, NextEvent};
 use crate::error::Error;
 use crate::limits::{Limits, Stop};
 use crate::overshoots::Overshoots;
@@ -71,8 +71,12 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 | Error::UndecidedSign { .. }
                 | Error::Grazing { .. }),
             ) => {
-                let limit = self.at.history.zeno_limit(true);
-                return limit.map(|limit| self.zeno_arc(limit)).ok_or(hidden);
+                return match self.at.history.zeno_limit(true) {
+                    Some(limit) if limit.remainder <= horizon => Ok(self.zeno_arc(limit)),
+                    // Rounding hides the events up to the limit on time, and with them how far they move the state.
+                    Some(_) => self.arc_without_event(horizon, None, Certainty::Interpolated),
+                    None => Err(hidden),
+                };
             }
             found => found?,
         };

@@ -30,7 +30,8 @@ pub struct ZenoLimit<X> {
     /// on to converge. And the errors of the single events, which the bound contains, act on later durations as in a
     /// bounce: an error δ of an event after the duration T changes the later durations by 2δ/T of their size.
     pub time_error: f64,
-    /// Time from the last event to the limit, with all its digits.
+    /// Time from the start of the arc to the limit, with all its digits. The arc starts at the last event, or at a limit
+    /// on time at which the execution had stopped since.
     pub remainder: f64,
     /// The state at the limit, extrapolated.
     pub state: X,
@@ -52,6 +53,8 @@ pub(crate) struct History<X> {
     pub(crate) states: [Option<X>; LONGEST_PERIOD + 1],
     /// Place of the newest state.
     pub(crate) newest: usize,
+    /// Time since the newest event: the execution has stopped at limits on time since then.
+    pub(crate) since_event: f64,
 }
 
 impl<X: StateVector> History<X> {
@@ -60,13 +63,20 @@ impl<X: StateVector> History<X> {
             durations: Durations::new(),
             states: [const { None }; LONGEST_PERIOD + 1],
             newest: 0,
+            since_event: 0.0,
         }
     }
 
-    /// An event: the duration of the arc before it with its error, the time of the event, and the state after it.
+    /// Time has passed without an event.
+    pub(crate) fn pass(&mut self, duration: f64) {
+        self.since_event += duration;
+    }
+
+    /// An event: the duration of the last arc with its error, the time of the event, and the state after it.
     ///
     /// An event without time before it only replaces the newest state. Its duration of zero is not part of a series.
     pub(crate) fn push(&mut self, duration: f64, error: f64, now: TimeSum, after: X) {
+        let duration = duration + std::mem::take(&mut self.since_event);
         if duration > 0.0 {
             self.durations.push(duration, error, now);
             self.newest = (self.newest + 1) % self.states.len();
@@ -83,6 +93,7 @@ impl<X: StateVector> History<X> {
     pub(crate) fn clear(&mut self) {
         self.durations.clear();
         self.states = [const { None }; LONGEST_PERIOD + 1];
+        self.since_event = 0.0;
     }
 
     /// The Zeno limit of the last arcs; `None` if their durations are not recognised as a convergent series.
@@ -112,7 +123,8 @@ impl<X: StateVector> History<X> {
         Some(ZenoLimit {
             time: self.durations.now.plus(time).value(),
             time_error: error + 0.5 * f64::EPSILON * self.durations.now.value().abs(),
-            remainder: time,
+            // A limit that lies before the present by the rounding of the durations is now.
+            remainder: (time - self.since_event).max(0.0),
             state,
             // 1 − ratio = length/(length + time).
             state_error: step.largest() * (1.0 + time / length),

@@ -235,3 +235,45 @@ fn endless_events_at_one_instant_are_an_error() {
     let last = Execution::new(&Circle, (), Vector1::new(0.0), limits).last().unwrap();
     assert!(matches!(last, Err(Error::TimelessChain { events: 1001, .. })));
 }
+
+/// The ball lands at 1, 2, 5/2, …, with its limit at 3.
+const TO_LIMIT: Ball = Ball { gravity: 1.0, floor: 0.0, restitution: 0.5 };
+
+#[test]
+fn a_limit_on_time_just_before_a_zeno_limit_moves_the_state_to_it() {
+    for distance in [1e-3, 1e-9, 1e-11, 1e-12, 3e-13, 1e-13, 1e-14, 5e-16] {
+        let time = 3.0 - distance;
+        let mut execution =
+            Execution::new(&TO_LIMIT, Mode::Air, Vector2::new(0.5, 0.0), Limits::new(time, 1000));
+        let last = execution.by_ref().last().unwrap().unwrap();
+        assert!(matches!(last.end, ArcEnd::TimeLimit { .. }), "{distance:e}: {last:?}");
+        assert_eq!((execution.stop(), execution.time()), (Some(Stop::TimeLimit), time));
+        assert_eq!(last.time + last.duration, time);
+        // The ball is slower than the time that is left.
+        let state = *execution.state();
+        assert!(state.amax() <= 2.0 * distance + 1e-15, "{distance:e}: {state}");
+        let last = execution.run_until(4.0).last().unwrap().unwrap();
+        assert!(matches!(last.end, ArcEnd::Zeno { .. } | ArcEnd::TimeLimit { .. }), "{last:?}");
+        assert!(execution.state().amax() < 1e-11, "{distance:e}: {}", execution.state());
+    }
+}
+
+#[test]
+fn a_zeno_limit_is_found_frame_by_frame() {
+    for frames in [7, 30, 1000, 30_011] {
+        let mut execution =
+            Execution::new(&TO_LIMIT, Mode::Air, Vector2::new(0.5, 0.0), Limits::new(0.0, 1000));
+        let mut limits = Vec::new();
+        for frame in 1..=frames {
+            for arc in execution.run_until(4.0 * f64::from(frame) / f64::from(frames)) {
+                if let ArcEnd::Zeno { limit, .. } = arc.unwrap().end {
+                    limits.push(limit);
+                }
+            }
+        }
+        assert_eq!(limits.len(), 1, "{frames}");
+        let limit = &limits[0];
+        assert!((limit.time - 3.0).abs() <= limit.time_error, "{frames}: {limit:?}");
+        assert!(limit.time_error < 1e-11 && limit.period == 1, "{frames}: {limit:?}");
+    }
+}
