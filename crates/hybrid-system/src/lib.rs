@@ -100,8 +100,8 @@ mod next_event;
 mod number;
 #[cfg(feature = "ode")]
 mod ode;
-mod parameter_sensitivity;
 mod overshoots;
+mod parameter_sensitivity;
 mod point;
 mod searched;
 mod sensitivity;

@@ -18,7 +18,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         let flow = FlowFrom { system: self.system, mode, start: state };
         let mut leaving = LeavingGuards::new();
         let times = (horizon, self.limits.sampling_interval);
-        let start = start_of_arc(&flow, arrival.as_ref(), overshoots, initial, times, &mut leaving)?;
+        let start =
+            start_of_arc(&flow, arrival.as_ref(), overshoots, initial, times, &mut leaving)?;
         if let Start::Event { surface, certainty } = start {
             return Ok(NextEvent::Crossing(Crossing {
                 surface,

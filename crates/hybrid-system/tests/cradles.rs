@@ -10,12 +10,8 @@ use hybrid_system::*;
 const BALLS: usize = 5;
 
 /// Masses of the balls of a mode. The mode says no more.
-const MASSES: [[f64; BALLS]; 4] = [
-    [1.0; BALLS],
-    [1.0, 2.0, 1.0, 2.0, 1.0],
-    [2.0, 1.0, 0.5, 1.0, 2.0],
-    [1.0, 0.3, 0.1, 3.0, 7.0],
-];
+const MASSES: [[f64; BALLS]; 4] =
+    [[1.0; BALLS], [1.0, 2.0, 1.0, 2.0, 1.0], [2.0, 1.0, 0.5, 1.0, 2.0], [1.0, 0.3, 0.1, 3.0, 7.0]];
 
 const PAIRS: &[Guard<u8>] =
     &[Guard::falling(0), Guard::falling(1), Guard::falling(2), Guard::falling(3)];

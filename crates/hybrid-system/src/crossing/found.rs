@@ -9,6 +9,8 @@ pub(crate) enum Found {
         time: f64,
         /// Bound on the distance from the zero.
         error: f64,
+        /// True if rounding hides the function from `time` − `error` to `time`: each time in between may be the zero.
+        hidden: bool,
         /// True if the function goes from negative to positive.
         rising: bool,
     },

@@ -60,7 +60,13 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
             // A guard that stays at a zero has the value of that zero as long as it does.
             let stays = known.map_or(value == 0.0, |side| side == 0.0);
             let level = if stays { value } else { 0.0 };
-            Ok(SampledGuard { guard, side: (!stays).then_some(side), level, since: 0.0, zero: None })
+            Ok(SampledGuard {
+                guard,
+                side: (!stays).then_some(side),
+                level,
+                since: 0.0,
+                zero: None,
+            })
         })
         .collect::<Result<_, _>>()?;
     let budget = u64::try_from(search.steps).unwrap_or(u64::MAX).min(MOST_SAMPLES);
@@ -85,6 +91,10 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
                     let (time, error) = crossing(flow, surface, (left, right), side, interval)?;
                     Candidate { time, error, index, touch: None }
                 }
+                Sample::ThroughZeros { since, zero, beyond } => {
+                    let time = end_of_zeros(flow, surface, zero, beyond);
+                    Candidate { time, error: time - since, index, touch: None }
+                }
             };
             if first.is_none_or(|first| found.is_sooner_than(&first)) {
                 first = Some(found);
@@ -93,7 +103,7 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
         // A guard that is zero at the end has no later sample. It has reached its surface there.
         if time >= until && first.is_none() {
             for (guard, &index) in sampled.iter().zip(indices) {
-                if let (Some(side), Some(zero)) = (guard.side, guard.zero)
+                if let (Some(side), Some((zero, _))) = (guard.side, guard.zero)
                     && zero > 0.0
                     && guard.guard.direction.admits(side, -side)
                 {
@@ -167,6 +177,25 @@ fn bracket<F: GuardedFlow>(
     None
 }
 
+/// The end of a stretch of zeros: between the sample `zero` and the sample `beyond`, by halving.
+fn end_of_zeros<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    mut zero: f64,
+    mut beyond: f64,
+) -> f64 {
+    loop {
+        let middle = zero + 0.5 * (beyond - zero);
+        if !(middle > zero && middle < beyond) {
+            return beyond;
+        }
+        match flow.guard_at(surface, middle) {
+            0.0 => zero = middle,
+            _ => beyond = middle,
+        }
+    }
+}
+
 /// What a sample shows.
 enum Sample {
     /// No event.
@@ -175,6 +204,9 @@ enum Sample {
     Touch { time: f64 },
     /// The guard is crossed between two times, coming from `side`.
     Crossing { left: f64, right: f64, side: f64 },
+    /// The guard was on its side at `since`, is exactly zero at several samples, the last of them `zero`, and is on the
+    /// other side at `beyond`.
+    ThroughZeros { since: f64, zero: f64, beyond: f64 },
 }
 
 /// One guard, sampled from the start of an arc.
@@ -186,8 +218,8 @@ struct SampledGuard<S> {
     level: f64,
     /// The last sample at which the guard was on that side.
     since: f64,
-    /// The first of the samples since then, at all of which the guard is exactly zero.
-    zero: Option<f64>,
+    /// The first and the last of the samples since then, at all of which the guard is exactly zero.
+    zero: Option<(f64, f64)>,
 }
 
 impl<S: Copy + Debug> SampledGuard<S> {
@@ -200,11 +232,12 @@ impl<S: Copy + Debug> SampledGuard<S> {
     /// | 0 since the start | before the surface | left the start, no crossing |
     /// | one side, with zeros in between | the same side | touch |
     /// | one side | other side, admitted | crossing |
+    /// | one side, with several zeros in between | other side, admitted | crossing where the zeros end |
     fn advance(&mut self, time: f64, value: f64, interval: f64) -> Result<Sample, Error> {
         let level = if self.side.is_none() { self.level } else { 0.0 };
         let value = value - level;
         if value == 0.0 {
-            self.zero.get_or_insert(time);
+            self.zero = Some((self.zero.map_or(time, |zero| zero.0), time));
             return Ok(Sample::Quiet);
         }
         let now = value.signum();
@@ -214,13 +247,19 @@ impl<S: Copy + Debug> SampledGuard<S> {
             None if direction.leads_to(value) => {
                 Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval })
             }
+            Some(side)
+                if direction.admits(side, now) && zero.is_some_and(|zero| zero.0 < zero.1) =>
+            {
+                let last = zero.map_or(since, |zero| zero.1);
+                Ok(Sample::ThroughZeros { since, zero: last, beyond: time })
+            }
             // A sample that is exactly zero is the first root. With this sample as right end the bracket returns it; the
             // root finder could return a later one otherwise.
             Some(side) if direction.admits(side, now) => {
-                Ok(Sample::Crossing { left: since, right: zero.unwrap_or(time), side })
+                Ok(Sample::Crossing { left: since, right: zero.map_or(time, |zero| zero.0), side })
             }
             Some(side) if side == now && touch != Touch::Ignore => {
-                Ok(zero.map_or(Sample::Quiet, |time| Sample::Touch { time }))
+                Ok(zero.map_or(Sample::Quiet, |zero| Sample::Touch { time: zero.0 }))
             }
             _ => Ok(Sample::Quiet),
         }

@@ -163,7 +163,8 @@ impl ZeroSearch {
                     if self.stays && self.direction.is_beyond(side) {
                         (self.stays, self.left_hidden) = (false, true);
                         let error = time - from;
-                        return Ok(Found::Crossing { time, error, rising: side > 0.0 });
+                        let rising = side > 0.0;
+                        return Ok(Found::Crossing { time, error, hidden: true, rising });
                     }
                 }
                 // The function stays zero. The side is still to be found, on the next stretch.
@@ -214,6 +215,7 @@ impl ZeroSearch {
                                 return Ok(Found::Crossing {
                                     time: right,
                                     error,
+                                    hidden: false,
                                     rising: side < 0.0,
                                 });
                             }
@@ -293,11 +295,11 @@ impl ZeroSearch {
         let at_start = self.leaving && self.direction == Direction::Either;
         self.left_hidden = self.leaving;
         let found = if self.direction.admits(side, sign) && !at_start {
-            let (time, error) = match hidden {
+            let (time, error) = match &hidden {
                 // Where the function is clear again. At an earlier time a new search would start in the same hidden
                 // interval, and could find a part of the same crossing.
                 Some(hidden) => {
-                    let time = self.clear_again(function, &hidden, (left, right), sign)?;
+                    let time = self.clear_again(function, hidden, (left, right), sign)?;
                     (time, time - hidden.from)
                 }
                 None => {
@@ -307,7 +309,8 @@ impl ZeroSearch {
                     (time, function.root_error(time, after, right)?)
                 }
             };
-            Some(Found::Crossing { time, error, rising: side < 0.0 })
+            let hidden = hidden.is_some();
+            Some(Found::Crossing { time, error, hidden, rising: side < 0.0 })
         } else {
             None
         };

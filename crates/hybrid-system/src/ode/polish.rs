@@ -86,10 +86,11 @@ where
 /// The error of the time of a crossing: the distance in time at which the guard differs from zero by more than its error.
 ///
 /// For a guard that is crossed at the rate ġ it is the error over |ġ|. At a touch it is about the root of the error. It is
-/// at most the length of the step: farther away the guard is not looked at.
+/// at most the length of the step: farther away the guard is not looked at. If the search has seen that rounding hides the
+/// guard for the time `hidden` before the crossing, also on earlier steps, the error is no less.
 pub(super) fn time_error<V: StateVector>(
     step: &Step<V>,
-    time: f64,
+    (time, hidden): (f64, f64),
     state: &V,
     guard: impl Fn(&V) -> f64,
     accuracy: Accuracy,
@@ -103,15 +104,17 @@ pub(super) fn time_error<V: StateVector>(
         // if the crossing is there.
         if inside == time { value } else { value + (time - inside) * rate(step, inside, &guard) }
     };
-    let mut distance = (error / rate(step, time, &guard).abs()).max(f64::EPSILON * time);
+    let mut distance =
+        (error / rate(step, time, &guard).abs()).max(f64::EPSILON * time).max(hidden);
     for _ in 0..DOUBLINGS {
         // The condition is true for NaN: then nothing is known on the step.
         if !(distance < length) {
-            return length;
+            return length.max(hidden);
         }
         // A quarter less, for the bend of the guard.
         let clear = |moved: f64| along(moved).abs() >= CLEAR * error;
-        if clear(time - distance) && clear(time + distance) {
+        let before_step = hidden > 0.0 && time - distance < step.from;
+        if (before_step || clear(time - distance)) && clear(time + distance) {
             break;
         }
         distance *= 2.0;

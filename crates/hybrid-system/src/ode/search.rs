@@ -164,19 +164,17 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 Found::Touch { .. } | Found::Undecided { .. } => EventKind::Touch,
                 _ => EventKind::Crossing,
             };
-            let (time, state) = if kind == EventKind::Touch {
-                (time, step.state(time))
-            } else {
-                let hidden = match found {
-                    Found::Crossing { error, .. } => error,
-                    _ => 0.0,
-                };
-                polished(&mut integration, &step, (time, hidden), until, value)?
+            let (time, state) = match found {
+                Found::Crossing { error, .. } => {
+                    polished(&mut integration, &step, (time, error), until, value)?
+                }
+                _ => (time, step.state(time)),
             };
-            let mut time_error = time_error(&step, time, &state, value, accuracy);
-            if let Found::Touch { error, .. } = found {
-                time_error = time_error.max(error);
-            }
+            let hidden = match found {
+                Found::Touch { error, .. } | Found::Crossing { error, hidden: true, .. } => error,
+                _ => 0.0,
+            };
+            let time_error = time_error(&step, (time, hidden), &state, value, accuracy);
             let certainty = Certainty::Interpolated;
             let crossing = Crossing { surface, time, time_error, state, kind, certainty };
             return Ok(Outcome::Finished(NextEvent::Crossing(crossing)));
@@ -363,7 +361,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 continue;
             }
             let time = step.to;
-            let time_error = time_error(&step, time, &state, value, accuracy);
+            let time_error = time_error(&step, (time, 0.0), &state, value, accuracy);
             let kind = EventKind::Crossing;
             let crossing = Crossing { surface, time, time_error, state, kind, certainty };
             return Ok(NextEvent::Crossing(crossing));
