@@ -2,10 +2,9 @@
 
 use crate::arc::{Arc, ArcEnd, Event};
 use crate::arrival::Arrival;
-use crate::crossing::{Certainty, Crossing, EventKind};
+use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
-use crate::guard::Role;
 use crate::limits::Stop;
 use crate::next_event::flow_to;
 use crate::sliding::{AtOnce, Sliding, sliding_point};
@@ -60,16 +59,18 @@ impl<T: HybridSystem> Execution<'_, T> {
             certainty,
         });
         let arc = self.new_arc(duration, end);
-        self.at.overshoots.keep_beyond(|surface| self.system.guard_value(surface, &state));
+        let passed = (kind == EventKind::Crossing).then_some(surface);
+        self.forget_residues(passed, &state);
         match kind {
             EventKind::Crossing | EventKind::Touch => {
                 let flow =
                     FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
                 let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
                 let touch = kind == EventKind::Touch;
-                let value = self.system.guard_value(surface, &state);
-                if kind == EventKind::Crossing && self.is_beyond(surface, value) {
-                    self.at.overshoots.push(surface, value);
+                if kind == EventKind::Crossing
+                    && let Some(guard) = flow.guards().iter().find(|guard| guard.surface == surface)
+                {
+                    self.at.residues.push(guard, flow.guard_value(surface, &state));
                 }
                 self.at.arrival = Some(if touch { arrival.by_touch() } else { arrival });
             }
@@ -123,7 +124,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
             let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
             self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
-            self.at.overshoots.keep_beyond(|surface| self.system.guard_value(surface, &state));
+            self.forget_residues(None, &state);
             self.at.history.pass(duration);
             self.at.time = self.at.time.plus(duration);
             self.at.state = state;
@@ -132,10 +133,11 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
     }
 
-    /// True if a switch of the mode has no flow where its guard has this value.
-    fn is_beyond(&self, surface: T::Surface, value: f64) -> bool {
-        let guard = self.system.guards(self.at.mode).iter().find(|guard| guard.surface == surface);
-        guard.is_some_and(|guard| guard.role == Role::Switch && guard.direction.is_beyond(value))
+    /// Forgets the residues of earlier events that the state has left, at the end of an arc.
+    fn forget_residues(&mut self, passed: Option<T::Surface>, state: &T::State) {
+        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+        let value = |surface| flow.guard_value(surface, state);
+        self.at.residues.keep(passed, value, |surface| flow.rounding_at(surface, state));
     }
 
     /// An arc from the present state.
@@ -205,7 +207,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         self.at.history.clear();
         self.at.chain.clear();
         self.at.arrival = None;
-        self.at.overshoots.clear();
+        self.at.residues.clear();
         match after {
             Some((mode, state)) => (self.at.mode, self.at.state) = (mode, state),
             None => {

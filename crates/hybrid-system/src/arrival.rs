@@ -63,7 +63,9 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         for guard in others.filter(|guard| Some(guard.surface) != surface) {
             let value = |state: &X| arc.guard_value(guard.surface, state);
             let rounding = guard_rounding(before, before, value);
-            if !(value(before).abs() <= arrival.change(arc.system, guard.surface) + rounding) {
+            if !(value(before).abs() <= arrival.change(arc.system, guard.surface) + rounding)
+                || arrival.has_stayed(arc, guard.surface)
+            {
                 continue;
             }
             // The side from which the guard comes: by its rate, or by its value at the start of the arc.
@@ -104,6 +106,12 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         self.duration
     }
 
+    /// The largest component at the start of the arc. On this scale the error of the arrival is small: an arc that ends near
+    /// the origin is wrong by rounding of the numbers that it began with.
+    pub(crate) fn size(&self) -> f64 {
+        self.start.largest()
+    }
+
     /// The state before the reset.
     pub(crate) fn before(&self) -> &X {
         &self.before
@@ -128,6 +136,17 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         } else {
             change
         }
+    }
+
+    /// True if a guard was on its surface at the start of the arc, and has not left it up to the end, as far as rounding
+    /// shows: the arc was too short. Its event has been before this arc, or is still to come.
+    fn has_stayed<T>(&self, arc: &FlowFrom<T>, surface: S) -> bool
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        let is_zero =
+            |state: &X| arc.guard_value(surface, state).abs() <= arc.rounding_at(surface, state);
+        is_zero(arc.start) && is_zero(&arc.state(0.5 * self.duration))
     }
 
     /// The change of a guard within the error of the time of the crossing.

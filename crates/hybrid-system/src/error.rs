@@ -33,6 +33,16 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// A derivative of a quasi-polynomial overflows, and with it the bounds of the search.
+    #[error(
+        "a derivative of the quasi-polynomial overflows up to time {horizon}: multiply the function by a small number, \
+         which leaves its zeros where they are",
+        horizon = Number(*.horizon)
+    )]
+    DerivativeOverflows {
+        /// The end of the search.
+        horizon: f64,
+    },
     /// A search reached its limit of iterations or intervals.
     #[error(
         "the search on [{left}, {right}] did not end within {iterations} iterations",

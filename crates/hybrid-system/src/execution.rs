@@ -5,8 +5,8 @@ use crate::chain::Chain;
 use crate::crossing::{Certainty, EventKind, NextEvent};
 use crate::error::Error;
 use crate::limits::{Limits, Stop};
-use crate::overshoots::Overshoots;
 use crate::point::Point;
+use crate::residues::Residues;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use crate::time_sum::TimeSum;
@@ -36,7 +36,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             history: History::new(),
             chain: Chain::new(),
             arrival: None,
-            overshoots: Overshoots::new(),
+            residues: Residues::new(),
         };
         Execution { system, limits, stop: None, at }
     }

@@ -100,9 +100,9 @@ mod next_event;
 mod number;
 #[cfg(feature = "ode")]
 mod ode;
-mod overshoots;
 mod parameter_sensitivity;
 mod point;
+mod residues;
 mod searched;
 mod sensitivity;
 mod series_fit;

@@ -14,12 +14,11 @@ impl<T: HybridSystem> Execution<'_, T> {
         &self,
         horizon: f64,
     ) -> Result<NextEvent<T::Surface, T::State>, Error> {
-        let Point { mode, ref state, ref time, ref arrival, ref overshoots, initial, .. } = self.at;
+        let Point { mode, ref state, ref time, ref arrival, ref residues, initial, .. } = self.at;
         let flow = FlowFrom { system: self.system, mode, start: state };
         let mut leaving = LeavingGuards::new();
         let times = (horizon, self.limits.sampling_interval);
-        let start =
-            start_of_arc(&flow, arrival.as_ref(), overshoots, initial, times, &mut leaving)?;
+        let start = start_of_arc(&flow, arrival.as_ref(), residues, initial, times, &mut leaving)?;
         if let Start::Event { surface, certainty } = start {
             return Ok(NextEvent::Crossing(Crossing {
                 surface,

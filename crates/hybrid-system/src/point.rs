@@ -2,7 +2,7 @@
 
 use crate::arrival::Arrival;
 use crate::chain::Chain;
-use crate::overshoots::Overshoots;
+use crate::residues::Residues;
 use crate::time_sum::TimeSum;
 use crate::zeno::History;
 
@@ -22,6 +22,6 @@ pub(crate) struct Point<M, S, X> {
     pub(crate) chain: Chain<M, S>,
     /// The last crossing, if no time has passed since.
     pub(crate) arrival: Option<Arrival<M, S, X>>,
-    /// The surfaces beyond which the state lies by rounding.
-    pub(crate) overshoots: Overshoots<S>,
+    /// The values of guards at their events, as long as the state is on the same side.
+    pub(crate) residues: Residues<S>,
 }

@@ -24,7 +24,8 @@ use crate::crossing::{
 };
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role};
-use crate::overshoots::Overshoots;
+use crate::residues::Residues;
+use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
 use smallvec::SmallVec;
 
@@ -45,8 +46,8 @@ pub(crate) enum Start<S> {
 
 /// The start of an arc: an event at once, or a flow. `leaving` becomes the list of the guards on whose surfaces it starts.
 ///
-/// `arrival` is the crossing before the arc, at the same instant, and `overshoots` are the surfaces that lie behind the state
-/// by the rounding of their events. `initial` is true at the start of an execution. The search
+/// `arrival` is the crossing before the arc, at the same instant, and `residues` are the values of guards at events from which
+/// the state has not gone away yet. `initial` is true at the start of an execution. The search
 /// goes up to a horizon, with samples at an interval, if there is one.
 ///
 /// # Errors
@@ -55,12 +56,13 @@ pub(crate) enum Start<S> {
 pub(crate) fn start_of_arc<T: HybridSystem>(
     flow: &FlowFrom<T>,
     arrival: Option<&Arrival<T::Mode, T::Surface, T::State>>,
-    overshoots: &Overshoots<T::Surface>,
+    residues: &Residues<T::Surface>,
     initial: bool,
     (horizon, interval): (f64, Option<f64>),
     leaving: &mut LeavingGuards<T::Surface>,
 ) -> Result<Start<T::Surface>, Error> {
     leaving.clear();
+    let size = flow.start.largest().max(arrival.map_or(0.0, Arrival::size));
     for guard in flow.guards().iter().filter(|guard| guard.role != Role::Clock) {
         let Guard { surface, direction, role, .. } = *guard;
         let value = |state: &T::State| flow.guard_value(surface, state);
@@ -74,7 +76,9 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let beyond = switch && direction.is_beyond(now);
         // The crossed surface itself may be farther than that, by the error of the time of the crossing.
         let crossed = arrival.is_some_and(|arrival| arrival.surface() == Some(surface));
-        if !beyond && reached.is_none() && !crossed && is_far(flow.start, now, value) {
+        let far = || is_far(flow.start, size, now, value);
+        let residue = residues.error(surface);
+        if !beyond && reached.is_none() && !crossed && residue == 0.0 && far() {
             continue;
         }
         let rounding = rounding_at_start(flow, surface, now);
@@ -82,7 +86,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let by_time = arrival
             .filter(|_| now != 0.0)
             .map_or(0.0, |arrival| arrival.error_after(flow, surface));
-        let error = (rounding + by_time).max(overshoots.error(surface));
+        let error = rounding + by_time.max(residue);
         let on_surface = now.abs() <= error;
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
         if on_surface && touched && switch && direction != Direction::Either {

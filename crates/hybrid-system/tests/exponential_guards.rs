@@ -216,3 +216,16 @@ fn the_rounding_of_coefficients_counts() {
     let FirstCrossing::Touch { time, .. } = found else { panic!("{found:?}") };
     assert!((time - third).abs() < 1e-6, "{time}");
 }
+
+#[test]
+fn a_function_whose_derivatives_overflow_is_an_error_with_a_remedy() {
+    // e^{700 t} = 1e300: the derivatives of 1 − 1e300 e^{−700 t} exceed the largest double.
+    let large = QuasiPolynomial::exponential(1.0, 700.0) + QuasiPolynomial::polynomial(&[-1e300]);
+    let error = large.first_crossing(Direction::Rising, 10.0).unwrap_err();
+    assert!(matches!(error, Error::DerivativeOverflows { .. }), "{error}");
+    // The remedy.
+    let small = QuasiPolynomial::exponential(1e-300, 700.0) + QuasiPolynomial::polynomial(&[-1.0]);
+    let found = small.first_crossing(Direction::Rising, 10.0).unwrap();
+    let FirstCrossing::At { time, rising: true } = found else { panic!("{found:?}") };
+    assert!((time - 300.0 * std::f64::consts::LN_10 / 700.0).abs() < 1e-15, "{time}");
+}

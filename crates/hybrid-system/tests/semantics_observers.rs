@@ -228,3 +228,61 @@ fn a_jump_of_a_guard_is_located() {
         assert!((found[0] - 0.7).abs() < 1e-12, "{found:?}");
     }
 }
+
+/// A ball with e = 1 and two observers: at a quarter of its height, and at its tops. It stops at each of its events, or a few
+/// ulps behind it.
+#[test]
+fn a_stop_just_behind_an_event_counts_no_event_twice() {
+    for height in [0.123, 0.37, 0.5, 1.7] {
+        let flow = |(), x: &State<2>, t: f64| [x[0] + t * (x[1] - t / 2.0), x[1] - t];
+        let ball = || {
+            Model::closed_form(flow)
+                .falling((), |x| x[0], |x| ((), [0.0, -x[1]]))
+                .observer(Guard::either(1), move |x| x[0] - 0.25 * height)
+                .observer(Guard::falling(2), |x| x[1])
+        };
+        let signal = QuasiPolynomial::polynomial;
+        let signals = ball()
+            .signal(0, move |(), x| Some(signal(&[x[0], x[1], -0.5])))
+            .signal(1, move |(), x| Some(signal(&[x[0] - 0.25 * height, x[1], -0.5])))
+            .signal(2, move |(), x| Some(signal(&[x[1], -1.0])));
+        let integrated = Model::integrated(|(), x: &State<2>| [x[1], -1.0])
+            .falling((), |x| x[0], |x| ((), [0.0, -x[1]]))
+            .observer(Guard::either(1), move |x| x[0] - 0.25 * height)
+            .observer(Guard::falling(2), |x| x[1]);
+        stops_count_nothing_twice(&signals, height);
+        stops_count_nothing_twice(&ball().sampled(0.07), height);
+        stops_count_nothing_twice(&integrated, height);
+    }
+}
+
+#[track_caller]
+fn stops_count_nothing_twice<T>(ball: &T, height: f64)
+where
+    T: HybridSystem<State = State<2>, Mode = (), Surface = usize>,
+{
+    let limits = Limits::sampled(12.0, 1000, 0.07);
+    let start = State::from([height, 0.0]);
+    let events = |arcs: Vec<Arc<(), usize, State<2>>>| -> Vec<(usize, f64)> {
+        arcs.iter().filter_map(Arc::event).map(|event| (event.surface, event.time)).collect()
+    };
+    let whole = Execution::new(ball, (), start, limits).collect::<Result<_, _>>().unwrap();
+    let whole = events(whole);
+    assert!(whole.len() > 10);
+    for ulps in 0..4 {
+        let (mut execution, mut last) = (Execution::new(ball, (), start, limits), 12.0f64);
+        let mut arcs = Vec::new();
+        for (_, time) in &whole {
+            let stop = (0..ulps).fold(*time, |time, _| time.next_up());
+            arcs.extend(execution.run_until(stop).map(Result::unwrap));
+            last = last.max(stop);
+        }
+        arcs.extend(execution.run_until(last).map(Result::unwrap));
+        let found = events(arcs);
+        let surfaces = |list: &[(usize, f64)]| list.iter().map(|event| event.0).collect::<Vec<_>>();
+        assert_eq!(surfaces(&found), surfaces(&whole), "{height}, {ulps} ulps: {found:?}");
+        for (found, whole) in found.iter().zip(&whole) {
+            assert!((found.1 - whole.1).abs() < 1e-9, "{height}, {ulps} ulps: {found:?} {whole:?}");
+        }
+    }
+}

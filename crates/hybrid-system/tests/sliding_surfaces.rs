@@ -201,3 +201,27 @@ fn a_bounce_while_sliding_keeps_the_state_on_the_surface() {
         assert!(is_sliding(&mode) && after[0].abs() < 1e-15, "{mode:?} {after}");
     }
 }
+
+/// The same with names of their own for the guards of each mode, as `falling` and `rising` of a model count them. Both
+/// components reach zero at the same instant.
+#[test]
+fn two_relays_whose_guards_have_other_names_in_each_mode_end_where_both_are_zero() {
+    let side = |positive: bool| if positive { -1.0 } else { 1.0 };
+    let relays = Model::integrated(|(a, b), _: &State<2>| [side(a), side(b)])
+        .falling((true, true), |x| x[0], |x| ((false, true), *x))
+        .falling((true, true), |x| x[1], |x| ((true, false), *x))
+        .rising((false, true), |x| x[0], |x| ((true, true), *x))
+        .falling((false, true), |x| x[1], |x| ((false, false), *x))
+        .falling((true, false), |x| x[0], |x| ((false, false), *x))
+        .rising((true, false), |x| x[1], |x| ((true, true), *x))
+        .rising((false, false), |x| x[0], |x| ((true, false), *x))
+        .rising((false, false), |x| x[1], |x| ((false, true), *x));
+    for start in [[1.0, 1.0], [0.3, 0.3]] {
+        let mut execution =
+            Execution::new(&relays, (true, true), start.into(), Limits::new(3.0, 200));
+        let last = execution.by_ref().last().unwrap().unwrap();
+        assert!(matches!(last.end, ArcEnd::Sliding { .. }), "{:?}", last.end);
+        assert_eq!(execution.stop(), Some(Stop::Sliding));
+        assert!((execution.time() - start[0]).abs() < 1e-12);
+    }
+}

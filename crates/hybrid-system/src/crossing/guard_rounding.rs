@@ -92,7 +92,8 @@ pub(crate) fn side_of_surface<X: StateVector>(
     if value == 0.0 || value.is_nan() {
         return None;
     }
-    let far = stated.is_none_or(|stated| stated < value.abs()) && is_far(state, value, &guard);
+    let far = stated.is_none_or(|stated| stated < value.abs())
+        && is_far(state, state.largest(), value, &guard);
     let rounding = || match stated {
         Some(stated) => rounding_of_state(state, state, &guard) + stated,
         None => guard_rounding(state, state, &guard),
@@ -102,9 +103,16 @@ pub(crate) fn side_of_surface<X: StateVector>(
 
 /// True if the guard, whose value at `state` is `value`, is clearly off its surface. This test takes one evaluation.
 ///
+/// `size` is the size of the state, or a larger one if the state has an error that is small on another scale only.
+///
 /// Each component is moved by its own distance. A gap between two components does not change if both move by the same.
-pub(crate) fn is_far<X: StateVector>(state: &X, value: f64, guard: impl Fn(&X) -> f64) -> bool {
-    let reach = FAR_MOVE * state.largest();
+pub(crate) fn is_far<X: StateVector>(
+    state: &X,
+    size: f64,
+    value: f64,
+    guard: impl Fn(&X) -> f64,
+) -> bool {
+    let reach = FAR_MOVE * size;
     let moved = state.filled(|axis| state.components()[axis] + reach * spread(axis));
     value != 0.0 && (guard(&moved) - value).abs() <= FAR * value.abs()
 }
@@ -217,11 +225,11 @@ mod tests {
             state[dimension - 1] += 8.0 * f64::EPSILON;
             for i in 0..dimension - 1 {
                 let gap = |x: &DVector<f64>| x[dimension - 1] - x[i];
-                assert!(!is_far(&state, gap(&state), gap), "{i} of {dimension}");
+                assert!(!is_far(&state, 1.0, gap(&state), gap), "{i} of {dimension}");
             }
             state[dimension - 1] = 2.0;
             let gap = |x: &DVector<f64>| x[dimension - 1] - x[0];
-            assert!(is_far(&state, gap(&state), gap));
+            assert!(is_far(&state, 2.0, gap(&state), gap));
         }
     }
 }

@@ -70,7 +70,7 @@ impl Layers {
     ///
     /// # Errors
     /// [`Error::NotFinite`] if a coefficient, a rate or a frequency is not finite, or the horizon so long that the
-    /// function overflows there.
+    /// function overflows there; [`Error::DerivativeOverflows`].
     pub(crate) fn new(
         function: &QuasiPolynomial,
         horizon: f64,
@@ -101,6 +101,9 @@ impl Layers {
             for (term, kind) in (0..terms.len()).map(|k| (layer * terms.len() + k, k)) {
                 layers.push_slopes(layers.places[term], kind);
             }
+        }
+        if !layers.coefficients.iter().all(|c| c.size().is_finite()) {
+            return Err(Error::DerivativeOverflows { horizon });
         }
         Ok(layers)
     }

@@ -5,7 +5,7 @@ use super::candidate::Candidate;
 use super::guarded_flow::GuardedFlow;
 use super::search_request::Search;
 use crate::error::Error;
-use crate::guard::{Guard, Touch};
+use crate::guard::{Guard, Role, Touch};
 use std::fmt::Debug;
 
 /// Most samples of one search, unless the budget of steps is smaller: a limit for a search that would take days. At some
@@ -82,7 +82,8 @@ pub(crate) fn sampled_event<F: GuardedFlow>(
             if !value.is_finite() {
                 return Err(Error::NotFinite { at: time, value });
             }
-            let found = match guard.advance(time, value, interval)? {
+            let rounding = || flow.rounding_at(surface, &state);
+            let found = match guard.advance(time, value, rounding, interval)? {
                 Sample::Quiet => continue,
                 Sample::Touch { time } => {
                     Candidate { time, error: interval, index, touch: Some(0.0) }
@@ -228,23 +229,30 @@ impl<S: Copy + Debug> SampledGuard<S> {
     /// | before | now | meaning |
     /// |---|---|---|
     /// | any | 0 | undecided until the next value that is not zero |
-    /// | 0 since the start | beyond the surface | error: crossed at once, or gone and come back between two samples |
+    /// | 0 since the start | 0 within rounding | the same |
+    /// | 0 since the start | beyond the surface of a switch | error: crossed at once, or gone and come back between two samples |
     /// | 0 since the start | before the surface | left the start, no crossing |
     /// | one side, with zeros in between | the same side | touch |
     /// | one side | other side, admitted | crossing |
     /// | one side, with several zeros in between | other side, admitted | crossing where the zeros end |
-    fn advance(&mut self, time: f64, value: f64, interval: f64) -> Result<Sample, Error> {
-        let level = if self.side.is_none() { self.level } else { 0.0 };
-        let value = value - level;
-        if value == 0.0 {
+    fn advance(
+        &mut self,
+        time: f64,
+        value: f64,
+        rounding: impl Fn() -> f64,
+        interval: f64,
+    ) -> Result<Sample, Error> {
+        let at_start = self.side.is_none();
+        let value = if at_start { value - self.level } else { value };
+        if value == 0.0 || at_start && value.abs() <= rounding() {
             self.zero = Some((self.zero.map_or(time, |zero| zero.0), time));
             return Ok(Sample::Quiet);
         }
         let now = value.signum();
         let (zero, since) = (self.zero.take(), std::mem::replace(&mut self.since, time));
-        let Guard { surface, direction, touch, .. } = self.guard;
+        let Guard { surface, direction, touch, role } = self.guard;
         match self.side.replace(now) {
-            None if direction.leads_to(value) => {
+            None if role == Role::Switch && direction.is_beyond(value) => {
                 Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval })
             }
             Some(side)

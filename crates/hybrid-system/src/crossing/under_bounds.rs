@@ -11,6 +11,7 @@ use super::search_request::Search;
 use super::zero_search::ZeroSearch;
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
+use crate::state::StateVector;
 
 /// The first event of one guard up to `until`, under the bounds that the model gives; `None` if the model gives none.
 ///
@@ -62,7 +63,7 @@ fn first_event<F: GuardedFlow>(
         let value = |state: &F::State| flow.guard_value(surface, state);
         let now = value(start);
         let stated = flow.guard_error(surface, start).unwrap_or(0.0);
-        stated < now.abs() && is_far(start, now, value)
+        stated < now.abs() && is_far(start, start.largest(), now, value)
     };
     let error = match leaving.is_none() && at_start.sign().is_some() && far() {
         true => 0.0,

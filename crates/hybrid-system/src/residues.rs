@@ -1,0 +1,67 @@
+//! Values of guards at their events, as long as the state has not come to the side where the event leads.
+//!
+//! The state of an event lies on the surface within an error: a little beyond it, or a little before. The next arc leads
+//! away from there: back, if the reset has turned the motion round, or through the surface of an observer. But the next
+//! event, or a limit on time, may come earlier:
+//!
+//! ```text
+//!   ball 1 arrives at 2.2·10⁻¹⁶ and stops,
+//!   ball 2 leaves 10⁻¹⁶ at velocity 1, and is stopped by ball 3 at 2·10⁻¹⁶: still behind ball 1
+//! ```
+//!
+//! Then the guard is zero within the error of that first event, and this is no new event.
+
+use crate::guard::{Direction, Guard, Role};
+use smallvec::SmallVec;
+
+/// Surfaces that are kept without allocating.
+const FEW: usize = 4;
+
+/// The surfaces, each with the value that its guard had at its event.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub(crate) struct Residues<S>(SmallVec<[(S, f64); FEW]>);
+
+impl<S: Copy + PartialEq> Residues<S> {
+    pub(crate) fn new() -> Self {
+        Residues(SmallVec::new())
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// The guard has this value at its event.
+    pub(crate) fn push(&mut self, guard: &Guard<S>, value: f64) {
+        let is_left_behind = match (guard.role, guard.direction) {
+            (_, Direction::Either) => value != 0.0,
+            // The flow goes on at the side from which it came.
+            (Role::Switch, direction) => direction.is_beyond(value),
+            (Role::Observer | Role::Clock, direction) => direction.is_beyond(-value),
+        };
+        if is_left_behind {
+            self.0.push((guard.surface, value));
+        }
+    }
+
+    /// Forgets the surfaces whose guards have changed sign or have gone away, with the values and their rounding at the end
+    /// of an arc. The event there is one of the surface `now`, if any.
+    pub(crate) fn keep(
+        &mut self,
+        now: Option<S>,
+        value: impl Fn(S) -> f64,
+        rounding: impl Fn(S) -> f64,
+    ) {
+        self.0.retain(|(surface, before)| {
+            let value = value(*surface);
+            Some(*surface) != now
+                && *before * value > 0.0
+                && (value.abs() <= before.abs() || value.abs() <= before.abs() + rounding(*surface))
+        });
+    }
+
+    /// The distance from zero within which a guard has had its event; 0 for a guard that is not among them.
+    pub(crate) fn error(&self, surface: S) -> f64 {
+        self.0.iter().find(|known| known.0 == surface).map_or(0.0, |known| known.1.abs())
+    }
+}
