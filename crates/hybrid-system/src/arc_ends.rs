@@ -79,12 +79,19 @@ impl<T: HybridSystem> Execution<'_, T> {
                 arrival => *arrival = None,
             },
         }
+        let same = |(mode, after): &(T::Mode, T::State)| *mode == self.at.mode && *after == state;
+        let changes_nothing = after.as_ref().is_some_and(same);
         self.at.time = time;
         self.at.jump += 1;
         self.at.initial = false;
         match after {
             Some((mode, state)) => {
-                self.at.history.push(duration, time_error, time, state.clone());
+                // An event that changes nothing, as that of an observer, divides one flow in two.
+                if changes_nothing {
+                    self.at.history.pass(duration);
+                } else {
+                    self.at.history.push(duration, time_error, time, state.clone());
+                }
                 (self.at.mode, self.at.state) = (mode, state);
             }
             None => {

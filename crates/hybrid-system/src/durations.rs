@@ -322,7 +322,12 @@ impl Durations {
         for index in 0..number {
             let first = dropped + index * stride;
             let error = (first..first + period).map(|back| self.duration_error(back)).sum();
-            periods.push(Period { end, length: sum(first, first + period), error });
+            let length = sum(first, first + period);
+            // A length that is smaller than its error is no length: any law could be fitted to such numbers.
+            if !(error < length) {
+                return None;
+            }
+            periods.push(Period { end, length, error });
             end -= sum(first, first + stride);
         }
         periods.reverse();
@@ -338,7 +343,7 @@ impl Durations {
         for back in dropped..dropped + number {
             let mark = &self.marks[(self.marked - 1 - back) % MARKS];
             let length: f64 = mark.durations[..period].iter().sum();
-            if !(length > 0.0) {
+            if !(mark.error < length) {
                 return None;
             }
             periods.push(Period { end: mark.time.since(self.now), length, error: mark.error });
