@@ -36,24 +36,29 @@ pub(super) struct GuardOnStep<A, R> {
     to: f64,
     /// The longest interval that is tested.
     longest: f64,
-    /// The result of `rounding`, computed at its first use.
+    /// The result of `rounding` for the whole step, computed at its first use.
     known_rounding: OnceCell<f64>,
     /// The rounding of the guard's own arithmetic, as far as it has been seen on this step.
     own: Cell<f64>,
 }
 
-impl<A: Fn(f64) -> f64, R: Fn() -> f64> GuardOnStep<A, R> {
-    /// The guard `along` the step [`from`, `to`]. `rounding()` estimates the error of its values by the rounding of the
-    /// state. The guard is evaluated at least every `check_interval`.
+impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> GuardOnStep<A, R> {
+    /// The guard `along` the step [`from`, `to`]. `rounding(left, right)` estimates the error of its values there by the
+    /// rounding of the state. The guard is evaluated at least every `check_interval`.
     pub(super) fn new(along: A, rounding: R, (from, to): (f64, f64), check_interval: f64) -> Self {
         let longest = check_interval / NODE_DISTANCE;
         let (known_rounding, own) = (OnceCell::new(), Cell::new(0.0));
         GuardOnStep { along, rounding, from, to, longest, known_rounding, own }
     }
 
-    /// An estimate of the error of the values.
+    /// An estimate of the error of the values on the step.
     pub(super) fn error(&self) -> f64 {
-        self.known_rounding.get_or_init(&self.rounding).max(self.own.get())
+        self.known_rounding.get_or_init(|| (self.rounding)(self.from, self.to)).max(self.own.get())
+    }
+
+    /// The same for an interval. Where the guard is flat, rounding of the state changes it less than elsewhere on the step.
+    fn error_on(&self, left: f64, right: f64) -> f64 {
+        (self.rounding)(left, right).max(self.own.get())
     }
 
     /// The values at the nodes of an interval minus `level`; `None` if the interval is to be halved because one of them is
@@ -82,7 +87,7 @@ impl<A: Fn(f64) -> f64, R: Fn() -> f64> GuardOnStep<A, R> {
     }
 }
 
-impl<A: Fn(f64) -> f64, R: Fn() -> f64> Bounded for GuardOnStep<A, R> {
+impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<A, R> {
     fn value(&self, time: f64) -> f64 {
         (self.along)(time)
     }
@@ -92,7 +97,9 @@ impl<A: Fn(f64) -> f64, R: Fn() -> f64> Bounded for GuardOnStep<A, R> {
         if !value.is_finite() {
             return Err(Error::NotFinite { at: time, value });
         }
-        Ok(Enclosure::around(value, self.error()))
+        let error = self.error();
+        let hidden = value.abs() <= error;
+        Ok(Enclosure::around(value, if hidden { self.error_on(time, time) } else { error }))
     }
 
     fn test(&self, left: f64, right: f64, level: f64) -> Result<ZeroTest, Error> {
@@ -102,12 +109,17 @@ impl<A: Fn(f64) -> f64, R: Fn() -> f64> Bounded for GuardOnStep<A, R> {
         let Some(values) = self.values_at_nodes(left, right, level)? else {
             return Ok(ZeroTest::Undecided);
         };
-        let found = zero_test(&values, self.error());
+        let mut error = self.error();
+        let mut found = zero_test(&values, error);
+        if matches!(found, ZeroTest::Undecided | ZeroTest::Hidden) {
+            error = self.error_on(left, right);
+            found = zero_test(&values, error);
+        }
         let short = right - left < STRAIGHT * (self.to - self.from);
         // A jump of the guard is halved down to the rounding of the time, and says nothing about the values elsewhere.
         if matches!(found, ZeroTest::Undecided) && short && !is_jump(&values) {
             self.own.set(self.own.get().max(scatter(&values)));
-            if largest(&values) <= 2.0 * self.error() {
+            if largest(&values) <= 2.0 * error.max(self.own.get()) {
                 return Ok(ZeroTest::Hidden);
             }
         }
@@ -152,7 +164,7 @@ impl<A: Fn(f64) -> f64, R: Fn() -> f64> Bounded for GuardOnStep<A, R> {
     fn root_error(&self, time: f64, left: f64, right: f64) -> Result<f64, Error> {
         // The guard is monotone on the interval. Its mean rate stands for the rate at the zero.
         let rate = ((self.along)(right) - (self.along)(left)).abs() / (right - left);
-        let error = (self.along)(time).abs() + self.error();
+        let error = (self.along)(time).abs() + self.error_on(left, right);
         // 0/0 for a guard that is exactly zero: `min` drops NaN.
         Ok((error / rate).min(right - left))
     }

@@ -315,14 +315,14 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         step: &Step<T::State>,
         surface: T::Surface,
         stated: f64,
-    ) -> GuardOnStep<impl Fn(f64) -> f64, impl Fn() -> f64> {
+    ) -> GuardOnStep<impl Fn(f64) -> f64, impl Fn(f64, f64) -> f64> {
         let value = move |state: &T::State| self.system.guard_value(surface, state);
-        // The largest of three places stands for the step: at one of them a guard may have a rate of zero.
-        let rounding = move || {
+        // The largest of three places stands for the interval: at one of them a guard may have a rate of zero.
+        let rounding = move |left: f64, right: f64| {
             let magnitude = step.magnitude();
             let size = magnitude.filled(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
-            let middle = step.from + 0.5 * (step.to - step.from);
-            [step.from, middle, step.to]
+            let middle = left + 0.5 * (right - left);
+            [left, middle, right]
                 .map(|time| stated + rounding_of_state(&step.state(time), &size, value))
                 .into_iter()
                 .fold(0.0, f64::max)
