@@ -6,6 +6,7 @@ use crate::crossing::{Certainty, Crossing, EventKind};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
 use crate::limits::Stop;
+use crate::missed::check_missed;
 use crate::next_event::flow_to;
 use crate::sliding::{AtOnce, Sliding, sliding_point};
 use crate::state::StateVector;
@@ -23,6 +24,10 @@ impl<T: HybridSystem> Execution<'_, T> {
         let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
         let before = self.at.time.value();
         self.check_state(before + duration, &state)?;
+        // The searches of this crate certify less, and miss no change of sign.
+        if certainty == Certainty::Exact && kind != EventKind::AtStart {
+            check_missed(&self.flow(), Some(surface), &state, (duration, time_error))?;
+        }
         let mut time = self.at.time.plus(duration);
         // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the same time
         // once more.
@@ -61,11 +66,15 @@ impl<T: HybridSystem> Execution<'_, T> {
         let arc = self.new_arc(duration, end);
         match kind {
             EventKind::Crossing | EventKind::Touch => {
-                let flow =
-                    FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+                let flow = self.flow();
                 let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
                 let touch = kind == EventKind::Touch;
                 self.at.arrival = Some(if touch { arrival.by_touch() } else { arrival });
+            }
+            // A guard that is on its surface at the preset time, before it has passed through it, must not lose its event.
+            EventKind::Clock if duration > 0.0 => {
+                let flow = self.flow();
+                self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
             }
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
                 Some(arrival) if !time_passes => arrival.passed(surface),
@@ -102,9 +111,12 @@ impl<T: HybridSystem> Execution<'_, T> {
             self.stop = Some(Stop::NoFurtherEvent);
             return Ok(self.new_arc(horizon, ArcEnd::Never { certainty }));
         }
-        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+        let flow = self.flow();
         let state = end.unwrap_or_else(|| flow_to(&flow, horizon));
         self.check_state(self.at.time.value() + horizon, &state)?;
+        if certainty == Certainty::Exact {
+            check_missed(&flow, None, &state, (horizon, 0.0))?;
+        }
         let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
         self.stop = Some(Stop::TimeLimit);
         self.advance(horizon, state);
@@ -115,13 +127,18 @@ impl<T: HybridSystem> Execution<'_, T> {
     pub(crate) fn advance(&mut self, duration: f64, state: T::State) {
         if duration > 0.0 {
             // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
-            let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+            let flow = self.flow();
             self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
             self.at.time = self.at.time.plus(duration);
             self.at.state = state;
             self.at.chain.clear();
             self.at.initial = false;
         }
+    }
+
+    /// The flow from the present state.
+    fn flow(&self) -> FlowFrom<'_, T> {
+        FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state }
     }
 
     /// An arc from the present state.
@@ -181,7 +198,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     /// The arc that replaces infinitely many events up to their limit. The execution continues after it if the model
     /// gives a mode.
     pub(crate) fn zeno_arc(&mut self, limit: ZenoLimit<T::State>) -> AnArc<T> {
-        let horizon = self.at.time.until(self.limits.time).max(0.0);
+        let horizon = self.at.time.up_to(self.limits.time);
         if limit.remainder > horizon {
             // Rounding hides the events between here and the limit on time.
             self.stop = Some(Stop::TimeLimit);
