@@ -6,6 +6,7 @@ use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
 use crate::limits::Stop;
+use crate::missed::check_missed;
 use crate::next_event::flow_to;
 use crate::sliding::{AtOnce, Sliding, sliding_point};
 use crate::state::StateVector;
@@ -23,6 +24,16 @@ impl<T: HybridSystem> Execution<'_, T> {
         let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
         let before = self.at.time.value();
         self.check_state(before + duration, &state)?;
+        // The searches of this crate certify less, and miss no change of sign.
+        if certainty == Certainty::Exact && kind != EventKind::AtStart {
+            check_missed(
+                &self.flow(),
+                &self.at.residues,
+                Some(surface),
+                &state,
+                (duration, time_error),
+            )?;
+        }
         let mut time = self.at.time.plus(duration);
         // The sum of the rounded duration may miss the preset time by a rounding. The clock would then have the same time
         // once more.
@@ -59,26 +70,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             certainty,
         });
         let arc = self.new_arc(duration, end);
-        let passed = (kind == EventKind::Crossing).then_some(surface);
-        self.forget_residues(passed, &state);
-        match kind {
-            EventKind::Crossing | EventKind::Touch => {
-                let flow =
-                    FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-                let arrival = Arrival::new(&flow, Some(surface), &state, (duration, time_error));
-                let touch = kind == EventKind::Touch;
-                if kind == EventKind::Crossing
-                    && let Some(guard) = flow.guards().iter().find(|guard| guard.surface == surface)
-                {
-                    self.at.residues.push(guard, flow.guard_value(surface, &state));
-                }
-                self.at.arrival = Some(if touch { arrival.by_touch() } else { arrival });
-            }
-            EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
-                Some(arrival) if !time_passes => arrival.passed(surface),
-                arrival => *arrival = None,
-            },
-        }
+        self.remember((kind, surface), &state, (duration, time_error), time_passes);
         let same = |(mode, after): &(T::Mode, T::State)| *mode == self.at.mode && *after == state;
         let changes_nothing = after.as_ref().is_some_and(same);
         self.at.time = time;
@@ -102,6 +94,39 @@ impl<T: HybridSystem> Execution<'_, T> {
         Ok(arc)
     }
 
+    /// Keeps what the start of the next arc must know about the event at the end of this one.
+    fn remember(
+        &mut self,
+        (kind, surface): (EventKind, T::Surface),
+        state: &T::State,
+        (duration, time_error): (f64, f64),
+        time_passes: bool,
+    ) {
+        let passed = (kind == EventKind::Crossing).then_some(surface);
+        self.forget_residues(passed, state);
+        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+        let arrival =
+            |surface, time_error| Arrival::new(&flow, surface, state, (duration, time_error));
+        match kind {
+            EventKind::Crossing => {
+                let guard = flow.guards().iter().find(|guard| guard.surface == surface);
+                if let Some(guard) = guard {
+                    self.at.residues.push(guard, flow.guard_value(surface, state));
+                }
+                self.at.arrival = Some(arrival(Some(surface), time_error));
+            }
+            EventKind::Touch => {
+                self.at.arrival = Some(arrival(Some(surface), time_error).by_touch());
+            }
+            // A guard that is on its surface at the preset time, before it has passed through it, must not lose its event.
+            EventKind::Clock if duration > 0.0 => self.at.arrival = Some(arrival(None, 0.0)),
+            EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
+                Some(arrival) if !time_passes => arrival.passed(surface),
+                arrival => *arrival = None,
+            },
+        }
+    }
+
     /// An arc up to the limit on time, or for ever.
     ///
     /// # Errors
@@ -116,9 +141,12 @@ impl<T: HybridSystem> Execution<'_, T> {
             self.stop = Some(Stop::NoFurtherEvent);
             return Ok(self.new_arc(horizon, ArcEnd::Never { certainty }));
         }
-        let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+        let flow = self.flow();
         let state = end.unwrap_or_else(|| flow_to(&flow, horizon));
         self.check_state(self.at.time.value() + horizon, &state)?;
+        if certainty == Certainty::Exact {
+            check_missed(&flow, &self.at.residues, None, &state, (horizon, 0.0))?;
+        }
         let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
         self.stop = Some(Stop::TimeLimit);
         self.advance(horizon, state);
@@ -129,7 +157,7 @@ impl<T: HybridSystem> Execution<'_, T> {
     pub(crate) fn advance(&mut self, duration: f64, state: T::State) {
         if duration > 0.0 {
             // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
-            let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
+            let flow = self.flow();
             self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
             self.forget_residues(None, &state);
             self.at.history.pass(duration);
@@ -145,6 +173,11 @@ impl<T: HybridSystem> Execution<'_, T> {
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
         let value = |surface| flow.guard_value(surface, state);
         self.at.residues.keep(passed, value, |surface| flow.rounding_at(surface, state));
+    }
+
+    /// The flow from the present state.
+    fn flow(&self) -> FlowFrom<'_, T> {
+        FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state }
     }
 
     /// An arc from the present state.

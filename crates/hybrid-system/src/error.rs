@@ -57,7 +57,10 @@ pub enum Error {
         iterations: usize,
     },
     /// A guard must be sampled, because the model gives no bounds on it, and there is no sampling interval.
-    #[error("guard {surface} has neither bounds nor a solution: set a sampling interval")]
+    #[error(
+        "guard {surface} has neither bounds nor a solution: set a sampling interval in the limits of the execution, or by \
+         `sampled` for `Model::run`"
+    )]
     NoSamplingInterval {
         /// Name of the guard's surface.
         surface: String,
@@ -157,6 +160,24 @@ pub enum Error {
         value: f64,
         /// Its rounding error.
         rounding: f64,
+    },
+    /// The model's own search has found no event of a surface, and the state at the end of the arc is beyond it.
+    #[error(
+        "first_crossing of the model has missed an event of the surface {surface} in mode {mode}: after {duration} the guard \
+         is {value}, with an error of {error}. Let it return the first event of all guards, or call default_search",
+        duration = Number(*.duration), value = Number(*.value), error = Number(*.error)
+    )]
+    MissedEvent {
+        /// Name of the mode.
+        mode: String,
+        /// Name of the surface.
+        surface: String,
+        /// Duration of the arc.
+        duration: f64,
+        /// Value of the guard at its end.
+        value: f64,
+        /// The error of this value, by rounding and by the error of the duration.
+        error: f64,
     },
     /// A model without a vector field where one is needed.
     #[error("mode {mode} has no vector field: implement HybridSystem::vector_field")]
@@ -258,6 +279,20 @@ pub enum Error {
         /// The budget.
         intervals: usize,
     },
+    /// The budgets of an execution end before its search for the next event makes any progress.
+    #[error(
+        "a budget of {intervals} intervals and {steps} steps ends before the search up to {horizon} makes progress: set \
+         larger budgets, or a shorter horizon",
+        horizon = Number(*.horizon)
+    )]
+    BudgetTooSmall {
+        /// The horizon of the search.
+        horizon: f64,
+        /// The budget of intervals.
+        intervals: usize,
+        /// The budget of steps.
+        steps: usize,
+    },
     /// An integration cannot go on: the field is infinite or NaN just after this state, however short the step.
     #[error(
         "the field is not finite just after time {time}, where the last state is {state:?}: let an event end the arc \
@@ -313,6 +348,22 @@ pub enum Error {
         /// Name of the surface.
         surface: String,
     },
+    /// A part of a model belongs to a surface that no guard has.
+    #[error(
+        "{part} is given for surface {surface}, which is no guard of the model: give it the name of a guard"
+    )]
+    NoSuchGuard {
+        /// The part.
+        part: &'static str,
+        /// Name of the surface.
+        surface: String,
+    },
+    /// A guard that is a clock, in a model that gives it no times.
+    #[error("the clock {surface} has a guard function and no times: add it by `Model::clock`")]
+    ClockWithoutTimes {
+        /// Name of the surface.
+        surface: String,
+    },
     /// Guards of different modes have the same surface and different functions.
     #[error(
         "surface {surface} has two guard functions, with values {first} and {second} at one state: give each of them a \
@@ -321,7 +372,7 @@ pub enum Error {
     TwoGuardFunctions {
         /// Name of the surface.
         surface: String,
-        /// The value of one function at the start of an arc.
+        /// The value of one function, at the initial state or at a state near it.
         first: f64,
         /// The value of another one there.
         second: f64,

@@ -56,8 +56,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
     /// The next arc. The state of the execution moves to the end of the arc.
     fn arc(&mut self) -> Result<AnArc<T>, Error> {
         self.check()?;
-        // The time of an event at the limit may be rounded up beyond it.
-        let horizon = self.at.time.until(self.limits.time).max(0.0);
+        let horizon = self.at.time.up_to(self.limits.time);
         // Events before a limit on time that lies before the Zeno limit are followed.
         let limit = self.at.history.zeno_limit(false);
         if let Some(limit) = limit.filter(|limit| limit.remainder <= horizon) {
@@ -103,6 +102,11 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
             }
             NextEvent::None { state, certainty } => {
                 self.arc_without_event(horizon, state, certainty)
+            }
+            // Going on with the same budgets would never end.
+            NextEvent::Unfinished { time, .. } if !(time > 0.0) => {
+                let Limits { intervals, steps, .. } = self.limits;
+                Err(Error::BudgetTooSmall { horizon, intervals, steps })
             }
             NextEvent::Unfinished { time, state, certainty } => {
                 let end = ArcEnd::Unfinished { certainty };

@@ -95,6 +95,7 @@ mod error;
 mod execution;
 mod guard;
 mod limits;
+mod missed;
 mod model;
 mod next_event;
 mod number;

@@ -74,8 +74,12 @@ impl<T: HybridSystem> Execution<'_, T> {
                 let what = "a time of a clock that is not later than the time before it";
                 return Err(Error::BadLimit { what, value: time });
             }
-            let until = self.at.time.until(time).max(0.0);
-            if until <= horizon && earliest.is_none_or(|first| until < first.until) {
+            // An infinite time never comes.
+            let until = self.at.time.up_to(time);
+            if time.is_finite()
+                && until <= horizon
+                && earliest.is_none_or(|first| until < first.until)
+            {
                 earliest = Some(ClockEvent { surface: guard.surface, until, time });
             }
         }

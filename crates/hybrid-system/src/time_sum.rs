@@ -54,6 +54,12 @@ impl TimeSum {
         TimeSum::new(later).since(self)
     }
 
+    /// The duration from this time up to a limit; zero if this time, as a double, has reached it. The rest below the
+    /// rounding of a double is no time to search in: a state moves by less than its rounding.
+    pub(crate) fn up_to(self, limit: f64) -> f64 {
+        if self.high >= limit { 0.0 } else { self.until(limit) }
+    }
+
     /// The duration from `earlier` to this time, rounded once or twice.
     pub(crate) fn since(self, earlier: TimeSum) -> f64 {
         let (sum, rest) = two_sum(self.high, -earlier.high);

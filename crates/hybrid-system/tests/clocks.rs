@@ -175,3 +175,46 @@ fn a_clock_that_does_not_move_on_is_an_error() {
         assert_eq!(execution.stop(), Some(Stop::Failed));
     }
 }
+
+/// x = vt passes 1 at the time of a clock, 1/v, within rounding: on either side of it, or exactly.
+#[test]
+fn an_observer_that_is_crossed_at_the_time_of_a_clock_has_one_event() {
+    for k in 1..100 {
+        let speed = 0.37 * f64::from(k);
+        let tick = 1.0 / speed;
+        let clock = PeriodicTimes::new(tick, tick).unwrap();
+        for observer in [Guard::either(1), Guard::rising(1)] {
+            let line = || {
+                Model::closed_form(move |(), x: &State<1>, t| [x[0] + speed * t])
+                    .clock((), 0, move |after| clock.next_after(after), |(), x| ((), *x))
+                    .observer(observer, |x| x[0] - 1.0)
+            };
+            let signal =
+                move |(), x: &State<1>| Some(QuasiPolynomial::polynomial(&[x[0] - 1.0, speed]));
+            let by_signal = line().signal(1, signal);
+            let sampled = line().sampled(0.1 * tick);
+            let count = |arcs: Vec<Arc<(), i32, State<1>>>| {
+                arcs.iter().filter_map(Arc::event).filter(|event| event.surface == 1).count()
+            };
+            let end = 3.1 * tick;
+            let arcs = by_signal.run((), [0.0], end).collect::<Result<_, _>>().unwrap();
+            assert_eq!(count(arcs), 1, "signal, {k}");
+            let arcs = sampled.run((), [0.0], end).collect::<Result<_, _>>().unwrap();
+            assert_eq!(count(arcs), 1, "sampled, {k}");
+        }
+    }
+}
+
+#[test]
+fn an_infinite_time_of_a_clock_never_comes() {
+    let decay = Model::closed_form(|(), x: &State<1>, t| [x[0] / (1.0 + t)]).clock(
+        (),
+        0,
+        |_| Some(f64::INFINITY),
+        |(), x| ((), *x),
+    );
+    for end in [3.0, f64::INFINITY] {
+        let arcs: Vec<_> = decay.run((), [1.0], end).collect::<Result<_, _>>().unwrap();
+        assert!(arcs.len() == 1 && arcs[0].event().is_none() && arcs[0].duration == end);
+    }
+}

@@ -299,3 +299,44 @@ fn derivatives_through_events() {
     let arc = integrated.run((), start, 100.0).next().unwrap().unwrap();
     assert!((change(arc_sensitivity(&integrated, &arc)) - 2.5).abs() < 1e-9);
 }
+
+/// At the start both functions are zero. Beside it they differ.
+#[test]
+fn two_functions_of_a_surface_that_agree_at_the_start_are_an_error() {
+    let line = Model::integrated(|heater, _: &State<1>| [if heater == On { -1.0 } else { 1.0 }])
+        .guard(On, Guard::falling("line"), |x| x[0], |x| (Off, *x))
+        .guard(Off, Guard::falling("line"), |x| -x[0], |x| (On, *x));
+    let first = line.run(On, [0.0], 2.0).next().unwrap();
+    assert!(matches!(first, Err(Error::TwoGuardFunctions { .. })), "{first:?}");
+}
+
+#[test]
+fn bounds_of_a_guard_that_the_model_does_not_have_are_an_error() {
+    let ball = || {
+        Model::closed_form(|(), x: &State<1>, t| [x[0] - t])
+            .guard((), Guard::falling("floor"), |x| x[0], |_| ((), [1.0]))
+            .sampled(0.1)
+    };
+    let misspelt = ball().signal("flor", |(), x| Some(QuasiPolynomial::polynomial(&[x[0], -1.0])));
+    let first = misspelt.run((), [1.0], 3.0).next().unwrap();
+    assert!(matches!(&first, Err(Error::NoSuchGuard { surface, .. }) if surface == "\"flor\""));
+    let misspelt = ball().enclosure("flor", |(), _, _, _| Some(Enclosure::new(-9.0, 9.0)));
+    let first = misspelt.run((), [1.0], 3.0).next().unwrap();
+    assert!(matches!(first, Err(Error::NoSuchGuard { .. })), "{first:?}");
+}
+
+/// `Model::clock` takes the times of a clock. Such a guard would never have an event.
+#[test]
+fn a_clock_with_a_guard_function_is_an_error() {
+    let line = || Model::integrated(|(), _: &State<1>| [-1.0]);
+    let expected = Err(Error::ClockWithoutTimes { surface: "7".into() });
+    let clock = Guard::clock(7);
+    let guarded = line().guard((), clock, |x| x[0], |_| ((), [1.0]));
+    assert_eq!(guarded.run((), [1.0], 3.0).next().unwrap(), expected);
+    let everywhere = line().guard_everywhere(clock, |x| x[0], |(), _| ((), [1.0]));
+    assert_eq!(everywhere.run((), [1.0], 3.0).next().unwrap(), expected);
+    let terminal = line().terminal((), clock, |x| x[0]);
+    assert_eq!(terminal.run((), [1.0], 3.0).next().unwrap(), expected);
+    let observed = line().observer(clock, |x| x[0]);
+    assert_eq!(observed.run((), [1.0], 3.0).next().unwrap(), expected);
+}

@@ -225,3 +225,72 @@ fn two_relays_whose_guards_have_other_names_in_each_mode_end_where_both_are_zero
         assert!((execution.time() - start[0]).abs() < 1e-12);
     }
 }
+
+/// The four quadrants by closures: the front end gives the guards numbers, another one in each mode for the same surface.
+#[test]
+fn two_sliding_surfaces_with_names_of_their_own_in_each_mode_end_the_execution() {
+    let quadrants = || {
+        let sign = |positive| if positive { 1.0 } else { -1.0 };
+        Model::integrated(move |(right, up): (bool, bool), _: &State<2>| [-sign(right), -sign(up)])
+            .falling((true, true), |x| x[0], |x| ((false, true), *x))
+            .falling((true, true), |x| x[1], |x| ((true, false), *x))
+            .rising((false, true), |x| x[0], |x| ((true, true), *x))
+            .falling((false, true), |x| x[1], |x| ((false, false), *x))
+            .falling((true, false), |x| x[0], |x| ((false, false), *x))
+            // Another multiple of the same function.
+            .rising((true, false), |x| 2.0 * x[1], |x| ((true, true), *x))
+            .rising((false, false), |x| x[0], |x| ((true, false), *x))
+            .rising((false, false), |x| x[1], |x| ((false, true), *x))
+    };
+    for (x, y) in [(0.0, 0.0), (1.0, 0.5), (0.1, 0.3)] {
+        let system = Filippov::new(quadrants(), TIGHT);
+        let start = (FilippovMode::Free((true, true)), State::<2>::new(x, y));
+        let (arcs, stop) = run(&system, start.0, start.1, Limits::new(5.0, 50)).unwrap();
+        assert_eq!(stop, Some(Stop::Sliding), "{x} {y}");
+        let ArcEnd::Sliding { sliding, after: None } = &arcs.last().unwrap().end else {
+            panic!("{:?}", arcs.last())
+        };
+        assert!(is_sliding(&sliding.below) && is_sliding(&sliding.above));
+        assert!((sliding.time - x.max(y)).abs() < 1e-13 && sliding.state.amax() < 1e-13);
+    }
+}
+
+/// A relay that leaves its surface at 2.1, where the field of one side turns tangent. At a stop before that point, within
+/// the error of its time, both fields still point at the surface.
+#[test]
+fn a_stop_beside_an_exit_changes_nothing() {
+    for tolerance in [1e-6, 1e-8, 1e-10, 1e-12] {
+        let relay = || {
+            let relay = Model::integrated(|above, x: &State<2>| {
+                [if above { -1.0 } else { 1.0 } + 0.3 + x[1] / 3.0, 1.0]
+            })
+            .tolerance(tolerance)
+            .falling(true, |x| x[0], |x| (false, *x))
+            .rising(false, |x| x[0], |x| (true, *x));
+            Filippov::new(relay, Tolerances::both(tolerance))
+        };
+        let (system, limits) = (relay(), Limits::new(4.0, 50));
+        let start = State::from([-0.5, 0.0]);
+        let arcs = Execution::new(&system, FilippovMode::Free(false), start, limits);
+        let times: Vec<f64> = arcs.map(|arc| arc.unwrap().time).collect();
+        for time in times {
+            let stops = [-1e-6, -1e-7, -1e-8, -1e-9, -1e-11].map(|shift| time + shift);
+            for stop in stops.into_iter().chain([time.next_down(), time, time.next_up()]) {
+                if stop < 0.0 {
+                    continue;
+                }
+                let mut execution =
+                    Execution::new(&system, FilippovMode::Free(false), start, limits);
+                for end in [stop, 4.0] {
+                    for arc in execution.run_until(end) {
+                        arc.unwrap_or_else(|error| panic!("{tolerance} {stop}: {error}"));
+                    }
+                }
+                assert_eq!(execution.stop(), Some(Stop::TimeLimit), "{tolerance} {stop}");
+                // From 2.1 on ẋ = (t − 2.1)/3.
+                let exact = 1.9 * 1.9 / 6.0;
+                assert!((execution.state()[0] - exact).abs() < 10.0 * tolerance.max(1e-9));
+            }
+        }
+    }
+}

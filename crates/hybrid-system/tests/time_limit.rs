@@ -149,3 +149,50 @@ fn a_landing_away_from_the_end_is_not_flagged() {
         }
     }
 }
+
+/// A ball that has an event exactly at the limit on time: the low digits of the time leave no interval to search.
+#[test]
+fn an_observed_event_at_the_limit_ends_the_execution_without_an_error() {
+    let ball = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+        .falling((), |x| x[0], |x| ((), [0.0, -x[1]]))
+        .observer(Guard::either(1), |x| x[0] - 0.125)
+        .observer(Guard::falling(2), |x| x[1])
+        .sampled(0.07);
+    // From ½ it lands after 1, 3, 5 …, and is at the top after 2, 4, 6 …
+    let mut execution = ball.run((), [0.5, 0.0], 4.0);
+    let events: Vec<_> =
+        execution.by_ref().filter_map(|arc| arc.unwrap().event().copied()).collect();
+    let last = events.last().unwrap();
+    assert_eq!((last.surface, last.time, last.at_time_limit), (2, 4.0, true));
+    assert_eq!(execution.stop(), Some(Stop::TimeLimit));
+}
+
+/// Going on with such a budget would never end.
+#[test]
+fn a_budget_that_allows_no_progress_is_an_error() {
+    let swing = Model::integrated(|(), x: &State<2>| [x[1], -x[0]]).falling(
+        (),
+        |x| x[0] - 0.5,
+        |x| ((), [x[0], -x[1]]),
+    );
+    let start = State::from([1.0, 0.0]);
+    for (intervals, steps) in [(0, usize::MAX), (usize::MAX, 0)] {
+        let limits = Limits { intervals, steps, ..Limits::new(9.0, 50) };
+        let first = Execution::new(&swing, (), start, limits).next().unwrap();
+        assert_eq!(first, Err(Error::BudgetTooSmall { horizon: 9.0, intervals, steps }));
+    }
+    // With one step at a time the execution gets to its end, with the same events.
+    let limits = Limits { intervals: 1, steps: 1, ..Limits::new(9.0, 50) };
+    let mut execution = Execution::new(&swing, (), start, limits);
+    let mut times = Vec::new();
+    while execution.stop().is_none_or(|stop| stop == Stop::Unfinished) {
+        let arcs = execution.go_on(limits).map(|arc| arc.unwrap());
+        times.extend(arcs.filter_map(|arc| arc.event().map(|event| event.time)));
+    }
+    assert_eq!(execution.stop(), Some(Stop::TimeLimit));
+    let whole = swing.run((), start, 9.0).map(|arc| arc.unwrap());
+    let whole: Vec<f64> = whole.filter_map(|arc| arc.event().map(|event| event.time)).collect();
+    assert_eq!(times.len(), whole.len());
+    // The steps differ, and with them the errors of the flow, which has the tolerance 1e-10.
+    assert!(times.iter().zip(&whole).all(|(one, other)| (one - other).abs() < 1e-9));
+}

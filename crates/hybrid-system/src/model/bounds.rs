@@ -15,6 +15,9 @@ where
     S: Copy + Eq,
     F: Fn(M, &X) -> Option<QuasiPolynomial>,
 {
+    fn unknown_surface(&self, known: &dyn Fn(S) -> bool) -> Option<S> {
+        (!known(self.surface)).then_some(self.surface)
+    }
     #[inline]
     fn quasi_polynomial(&self, mode: M, surface: S, start: &X) -> Option<QuasiPolynomial> {
         if surface == self.surface { (self.signal)(mode, start) } else { None }
@@ -33,6 +36,9 @@ where
     S: Copy + Eq,
     F: Fn(M, &X, u32, (f64, f64)) -> Option<Enclosure>,
 {
+    fn unknown_surface(&self, known: &dyn Fn(S) -> bool) -> Option<S> {
+        (!known(self.surface)).then_some(self.surface)
+    }
     #[inline]
     fn enclosure(
         &self,

@@ -1,7 +1,7 @@
 //! The guards of each mode of a model, in the order in which they were added.
 
 use crate::error::Error;
-use crate::guard::Guard;
+use crate::guard::{Guard, Role};
 use std::fmt::Debug;
 
 /// The guards of each mode.
@@ -15,11 +15,19 @@ pub(super) struct GuardLists<M, S> {
     repeated: Vec<S>,
     /// The first surface with two guards in one mode.
     doubled: Option<S>,
+    /// The first clock that has a guard function instead of times.
+    timeless: Option<S>,
 }
 
 impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
     pub(super) const fn new() -> Self {
-        GuardLists { modes: Vec::new(), elsewhere: Vec::new(), repeated: Vec::new(), doubled: None }
+        GuardLists {
+            modes: Vec::new(),
+            elsewhere: Vec::new(),
+            repeated: Vec::new(),
+            doubled: None,
+            timeless: None,
+        }
     }
 
     /// Adds a guard to one mode, or to all modes for `None`.
@@ -42,6 +50,25 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
         Self::push(&mut self.modes[place].1, guard, &mut self.doubled);
     }
 
+    /// Adds a guard that has a function, likewise.
+    pub(super) fn add_watched(&mut self, mode: Option<M>, guard: Guard<S>) {
+        self.note_clock(guard);
+        self.add(mode, guard);
+    }
+
+    /// Adds an observer to all modes.
+    pub(super) fn add_observer(&mut self, guard: Guard<S>) {
+        self.note_clock(guard);
+        self.add(None, guard.observer());
+    }
+
+    /// A clock has times, and no function.
+    fn note_clock(&mut self, guard: Guard<S>) {
+        if guard.role == Role::Clock {
+            self.timeless.get_or_insert(guard.surface);
+        }
+    }
+
     fn push(list: &mut Vec<Guard<S>>, guard: Guard<S>, doubled: &mut Option<S>) {
         if list.iter().any(|listed| listed.surface == guard.surface) {
             doubled.get_or_insert(guard.surface);
@@ -62,13 +89,21 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
         &self.repeated
     }
 
-    /// An error if a surface has two guards in one mode: their resets could not be told apart.
+    /// An error if a surface has two guards in one mode, whose resets could not be told apart, and for a clock without
+    /// times.
     #[inline]
     pub(super) fn check(&self) -> Result<(), Error> {
-        match self.doubled {
-            Some(surface) => Err(Error::SurfaceTwice { surface: format!("{surface:?}") }),
-            None => Ok(()),
+        let name = |surface: S| format!("{surface:?}");
+        match (self.doubled, self.timeless) {
+            (Some(surface), _) => Err(Error::SurfaceTwice { surface: name(surface) }),
+            (None, Some(surface)) => Err(Error::ClockWithoutTimes { surface: name(surface) }),
+            (None, None) => Ok(()),
         }
+    }
+
+    /// True if a mode has a guard of this surface.
+    pub(super) fn contains(&self, surface: S) -> bool {
+        self.surfaces().any(|listed| listed == surface)
     }
 
     /// The number of guards that were added, those of all modes counted once.

@@ -79,9 +79,9 @@ use std::marker::PhantomData;
 /// # Errors
 /// An execution of a model in which one mode has two guards with the same surface begins with
 /// [`Error::SurfaceTwice`](crate::Error::SurfaceTwice). Guards of different modes may have the same surface if their
-/// functions are the same. They are compared at the initial state, and a difference is
-/// [`Error::TwoGuardFunctions`](crate::Error::TwoGuardFunctions). A mode without guards is allowed: its arcs end at the
-/// limit on time.
+/// functions are the same. They are compared at the initial state and beside it, and a difference is
+/// [`Error::TwoGuardFunctions`](crate::Error::TwoGuardFunctions). A signal or an enclosure of a surface that no guard has is
+/// [`Error::NoSuchGuard`](crate::Error::NoSuchGuard). A mode without guards is allowed: its arcs end at the limit on time.
 #[derive(Debug, Clone)]
 #[must_use]
 pub struct Model<M, S, X, F, P = ()> {
@@ -238,7 +238,7 @@ where
         R: Fn(&X) -> J,
         J: Outcome<M, X>,
     {
-        self.guards.add(Some(mode), watched);
+        self.guards.add_watched(Some(mode), watched);
         self.with(Jump { mode, surface: watched.surface, guard, reset })
     }
 
@@ -254,7 +254,7 @@ where
         R: Fn(M, &X) -> J,
         J: Outcome<M, X>,
     {
-        self.guards.add(None, watched);
+        self.guards.add_watched(None, watched);
         self.with(JumpEverywhere { surface: watched.surface, guard, reset })
     }
 
@@ -268,7 +268,7 @@ where
     where
         G: Fn(&X) -> f64,
     {
-        self.guards.add(Some(mode), watched);
+        self.guards.add_watched(Some(mode), watched);
         self.with(Terminal { mode, surface: watched.surface, guard })
     }
 
@@ -277,7 +277,7 @@ where
     where
         G: Fn(&X) -> f64,
     {
-        self.guards.add(None, watched.observer());
+        self.guards.add_observer(watched);
         self.with(Watch { surface: watched.surface, guard })
     }
 
@@ -333,15 +333,6 @@ where
         self.with(Bounds { surface, enclosure })
     }
 
-    /// Gives f(x) of ẋ = f(x) for a flow in closed form. Sliding points and derivatives through events need it.
-    pub fn field<B, Y>(self, field: B) -> Model<M, S, X, F, (Field<B>, P)>
-    where
-        B: Fn(M, &X) -> Y,
-        Y: Into<X>,
-    {
-        self.with(Field(field))
-    }
-
     /// Gives the mode and the state after a Zeno limit, from the mode before it and the state at the limit.
     pub fn rest<B, Y>(self, rest: B) -> Model<M, S, X, F, (Rest<B>, P)>
     where
@@ -364,6 +355,23 @@ where
     pub fn sampled(mut self, interval: f64) -> Self {
         self.sampling_interval = Some(interval);
         self
+    }
+}
+
+// Each part of a model has a type of its own.
+#[allow(clippy::type_complexity)]
+impl<M, S, X, G, P> Model<M, S, X, ClosedForm<G>, P>
+where
+    M: Copy + Eq,
+    S: Copy + Eq + Debug,
+{
+    /// Gives f(x) of ẋ = f(x) for a flow in closed form. Sliding points and derivatives through events need it.
+    pub fn field<B, Y>(self, field: B) -> Model<M, S, X, ClosedForm<G>, (Field<B>, P)>
+    where
+        B: Fn(M, &X) -> Y,
+        Y: Into<X>,
+    {
+        self.with(Field(field))
     }
 }
 

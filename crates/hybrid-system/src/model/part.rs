@@ -18,6 +18,11 @@ pub trait Part<M, S, X> {
         let _ = (surface, state, value);
         None
     }
+    /// A surface that has bounds in this part, and is not among the `known` ones.
+    fn unknown_surface(&self, known: &dyn Fn(S) -> bool) -> Option<S> {
+        let _ = known;
+        None
+    }
     /// Mode and state after an event.
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {
@@ -78,6 +83,9 @@ impl<M: Copy, S: Copy, X, A: Part<M, S, X>, B: Part<M, S, X>> Part<M, S, X> for 
     fn other_value(&self, surface: S, state: &X, value: f64) -> Option<f64> {
         let first = self.0.other_value(surface, state, value);
         first.or_else(|| self.1.other_value(surface, state, value))
+    }
+    fn unknown_surface(&self, known: &dyn Fn(S) -> bool) -> Option<S> {
+        self.0.unknown_surface(known).or_else(|| self.1.unknown_surface(known))
     }
     #[inline]
     fn reset(&self, mode: M, surface: S, before: &X) -> Option<Reset<M, X>> {

@@ -83,17 +83,26 @@ where
         self.motion.states(self, mode, start, times)
     }
 
-    /// Finds surfaces that are used twice.
+    /// Finds surfaces that are used twice, clocks without times, and bounds on a guard that the model does not have.
+    ///
+    /// Guard functions are compared at the initial state and beside it: at a start on both surfaces all of them are zero.
     ///
     /// # Errors
-    /// [`Error::SurfaceTwice`] and [`Error::TwoGuardFunctions`].
+    /// [`Error::SurfaceTwice`], [`Error::ClockWithoutTimes`], [`Error::NoSuchGuard`] and [`Error::TwoGuardFunctions`].
     fn validate(&self, _: M, start: &X) -> Result<(), Error> {
         self.guards.check()?;
+        let known = |surface| self.guards.contains(surface);
+        if let Some(surface) = self.parts.unknown_surface(&known) {
+            let (part, surface) = ("a signal or an enclosure", format!("{surface:?}"));
+            return Err(Error::NoSuchGuard { part, surface });
+        }
         for &surface in self.guards.repeated() {
-            let first = self.guard_value(surface, start);
-            if let Some(second) = self.parts.other_value(surface, start, first) {
-                let surface = format!("{surface:?}");
-                return Err(Error::TwoGuardFunctions { surface, first, second });
+            for state in [start.clone(), beside(start)] {
+                let first = self.guard_value(surface, &state);
+                if let Some(second) = self.parts.other_value(surface, &state, first) {
+                    let surface = format!("{surface:?}");
+                    return Err(Error::TwoGuardFunctions { surface, first, second });
+                }
             }
         }
         Ok(())
@@ -107,4 +116,20 @@ where
     ) -> Result<NextEvent<S, X>, Error> {
         self.motion.first_crossing(self, mode, start, search)
     }
+}
+
+/// The fractional parts of the multiples of the golden ratio: the components of a state are moved by different parts, so
+/// that no sum or difference of them keeps its value.
+const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
+
+/// A component is moved by up to this part of its size. A larger number could leave the region in which the guards are
+/// defined; a smaller one would lose digits of the difference.
+const BESIDE: f64 = 1.0 / 64.0;
+
+/// A state beside `state`.
+fn beside<X: StateVector>(state: &X) -> X {
+    state.filled(|axis| {
+        let component = state.components()[axis];
+        component + BESIDE * (1.0 + component.abs()) * ((axis + 1) as f64 * GOLDEN_RATIO).fract()
+    })
 }

@@ -13,7 +13,7 @@
 //! If the sliding field behind ρ points back at ρ, the motion stays where both surfaces meet. Filippov's convention gives
 //! no unique field there. The execution recognises this as sliding along ρ between two sliding modes, and ends.
 
-use super::detection::is_unchanged;
+use super::detection::{is_unchanged, same_surface};
 use super::filippov::{Filippov, Sides};
 use super::filippov_modes::FilippovMode;
 use super::rates::guard_rates;
@@ -47,16 +47,35 @@ pub(super) fn after_crossing<T: HybridSystem>(
     // The direction in which the sliding motion passes through the other surface.
     let field = filippov.field_at(sides, state);
     let rate = field.map_or(0.0, |field| filippov.rate(other, state, &field));
-    let crossed = |guard: &&Guard<T::Surface>| {
-        let admits = guard.direction == Direction::Either || guard.direction.leads_to(rate);
-        guard.surface == other && (admits || guard.role == Role::Clock || rate == 0.0)
+    let admits = |guard: &Guard<T::Surface>, rate: f64| {
+        guard.direction == Direction::Either || guard.direction.leads_to(rate) || rate == 0.0
     };
-    let after = |mode: T::Mode| match system.guards(mode).iter().find(crossed) {
-        None => Side::Unaffected,
-        Some(_) => match system.reset(mode, other, state) {
-            Reset::Jump { mode, state } => Side::Jump(mode, state),
-            Reset::Stop => Side::Stop,
-        },
+    let by_name = |guard: &&Guard<T::Surface>| {
+        guard.surface == other && (guard.role == Role::Clock || admits(guard, rate))
+    };
+    let own = [sides.surface, partner];
+    // The mode of the other side may have a name of its own for the same surface. Its guard is crossed as well.
+    let by_place = |guard: &&Guard<T::Surface>| {
+        guard.role == Role::Switch
+            && !own.contains(&guard.surface)
+            && same_surface(system, other, guard.surface, state)
+                .is_some_and(|scale| admits(guard, rate / scale))
+    };
+    let is_switch = |mode: T::Mode| {
+        system.guards(mode).iter().any(|guard| guard.surface == other && guard.role == Role::Switch)
+    };
+    let is_place = is_switch(sides.below) || is_switch(sides.above);
+    let after = |mode: T::Mode| {
+        let guards = system.guards(mode);
+        let named = guards.iter().find(by_name);
+        let placed = || guards.iter().filter(|_| is_place).find(by_place);
+        match named.or_else(placed) {
+            None => Side::Unaffected,
+            Some(guard) => match system.reset(mode, guard.surface, state) {
+                Reset::Jump { mode, state } => Side::Jump(mode, state),
+                Reset::Stop => Side::Stop,
+            },
+        }
     };
     let unchanged = |after: &T::State| is_unchanged(state, after);
     let (below, above, reached) = match (after(sides.below), after(sides.above)) {

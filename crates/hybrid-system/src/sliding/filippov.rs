@@ -158,13 +158,24 @@ impl<T: HybridSystem> Filippov<T> {
         state: &T::State,
     ) -> Result<(), OffSurface> {
         let guard = |state: &T::State| self.system.guard_value(surface, state);
+        let largest = self.error_of_flow(surface, state, START_TOLERANCES);
+        let value = guard(state);
+        if value.abs() <= largest { Ok(()) } else { Err(OffSurface { value, largest }) }
+    }
+
+    /// The change of a guard of the model if the state changes by this multiple of the tolerances of the flow.
+    pub(super) fn error_of_flow(
+        &self,
+        surface: T::Surface,
+        state: &T::State,
+        multiple: f64,
+    ) -> f64 {
         // In units of the roundings that `guard_rounding` applies to components.
         let size = state.filled(|axis| {
             let component = state.components()[axis].abs();
-            START_TOLERANCES * self.tolerances.of(axis, component) / f64::EPSILON
+            multiple * self.tolerances.of(axis, component) / f64::EPSILON
         });
-        let (value, largest) = (guard(state), guard_rounding(state, &size, guard));
-        if value.abs() <= largest { Ok(()) } else { Err(OffSurface { value, largest }) }
+        guard_rounding(state, &size, |state| self.system.guard_value(surface, state))
     }
 
     /// The point of the surface next to `state` along f⁺ − f⁻, as far as the rounding of the guard allows.

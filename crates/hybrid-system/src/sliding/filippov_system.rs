@@ -2,7 +2,8 @@
 
 use super::crossing_while_sliding::after_crossing;
 use super::detection::same_surface;
-use super::filippov::{Filippov, OffSurface, Sides};
+use super::exit::side_after_exit;
+use super::filippov::{Fields, Filippov, OffSurface, Sides};
 use super::filippov_modes::{FilippovMode, FilippovSurface};
 use super::sliding_point::Sliding;
 use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
@@ -159,6 +160,19 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         self.system.guard_error(surface, state)
     }
 
+    fn leaving_side(
+        &self,
+        mode: Self::Mode,
+        surface: Self::Surface,
+        start: &T::State,
+    ) -> Option<f64> {
+        let (FilippovMode::Free(mode), FilippovSurface::Model(surface)) = (mode, surface) else {
+            return None;
+        };
+        let own = self.system.leaving_side(mode, surface, start);
+        own.or_else(|| side_after_exit(self, mode, surface, start))
+    }
+
     fn next_time(&self, mode: Self::Mode, surface: Self::Surface, after: f64) -> Option<f64> {
         let FilippovSurface::Model(surface) = surface else { return None };
         let of = |mode| self.system.next_time(mode, surface, after);
@@ -292,6 +306,15 @@ impl<T: HybridSystem> Filippov<T> {
                     {
                         return Err(not_unique(crossing.time, "both fields are tangent"));
                     }
+                    // An exit is where the rate has changed its sign. At a limit on time within the error of the exit
+                    // both fields may still point at the surface, and a free mode would slide again at once.
+                    FilippovSurface::Tangent { mode, .. }
+                        if crossing.time >= search.horizon
+                            && self.is_led_back(sides, mode, &crossing.state) =>
+                    {
+                        let Crossing { state, certainty, .. } = crossing;
+                        return Ok(NextEvent::None { state: Some(state), certainty });
+                    }
                     FilippovSurface::Tangent { .. } => {}
                 }
                 Ok(NextEvent::Crossing(crossing))
@@ -303,6 +326,18 @@ impl<T: HybridSystem> Filippov<T> {
                 Ok(NextEvent::Unfinished { time, state: on(state), certainty })
             }
         }
+    }
+
+    /// True if the field of `mode`, on one of the sides, points at the surface.
+    fn is_led_back(
+        &self,
+        sides: &Sides<T::Mode, T::Surface>,
+        mode: T::Mode,
+        state: &T::State,
+    ) -> bool {
+        self.fields(sides, state).is_some_and(|Fields { rates: (below, above), .. }| {
+            if mode == sides.below { below > 0.0 } else { above < 0.0 }
+        })
     }
 
     /// True if both fields are tangent to the surface, within the tolerance of the flow.

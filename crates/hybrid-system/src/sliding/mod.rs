@@ -11,6 +11,7 @@
 //! | Which modes and surfaces does the wrapped system have? | `filippov_modes` |
 //! | How does it move? | `filippov`, as a hybrid system `filippov_system` |
 //! | What happens at other surfaces? | `crossing_while_sliding` |
+//! | To which side does a free mode start at an exit? | `exit` |
 //! | What are its derivatives? | `filippov_sensitivity` |
 
 mod detection;
@@ -21,6 +22,8 @@ mod sliding_point;
 
 #[cfg(feature = "ode")]
 mod crossing_while_sliding;
+#[cfg(feature = "ode")]
+mod exit;
 #[cfg(feature = "ode")]
 mod filippov;
 #[cfg(feature = "ode")]
