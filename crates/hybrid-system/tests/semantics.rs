@@ -268,3 +268,64 @@ fn a_clear_miss_is_no_touch() {
         assert_eq!((stop, arcs.len()), (Stop::TimeLimit, 1));
     }
 }
+
+/// ẋ = −1 over a floor at 0. Its events put x to `after`. The search is the library's, or sees nothing.
+struct Falling {
+    after: f64,
+    blind: bool,
+}
+
+impl HybridSystem for Falling {
+    type State = State<1>;
+    type Mode = ();
+    type Surface = u8;
+    fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
+        State::from([x[0] - t])
+    }
+    fn guards(&self, _: ()) -> &[Guard<u8>] {
+        const { &[Guard::falling(FLOOR)] }
+    }
+    fn guard_value(&self, _: u8, x: &State<1>) -> f64 {
+        x[0]
+    }
+    fn guard_quasi_polynomial(&self, _: (), _: u8, x: &State<1>) -> Option<QuasiPolynomial> {
+        Some(QuasiPolynomial::polynomial(&[x[0], -1.0]))
+    }
+    fn reset(&self, _: (), _: u8, _: &State<1>) -> Reset<(), State<1>> {
+        Reset::Jump { mode: (), state: State::from([self.after]) }
+    }
+    fn first_crossing(
+        &self,
+        mode: (),
+        x: &State<1>,
+        search: &Search<u8>,
+    ) -> Result<NextEvent<u8, State<1>>, Error> {
+        if self.blind { Ok(NextEvent::never()) } else { default_search(self, mode, x, search) }
+    }
+}
+
+/// The starts of all arcs are decided by the execution, whatever the model's own search finds. The search of the library
+/// can be called from there, with its certainty.
+#[test]
+fn a_model_with_its_own_search_is_checked_at_every_start() {
+    let first = |after, blind, start| {
+        let system = Falling { after, blind };
+        let limits = Limits::new(3.0, 10);
+        Execution::new(&system, (), State::<1>::from([start]), limits).next().unwrap()
+    };
+    for blind in [false, true] {
+        let below = first(1.0, blind, -0.25);
+        assert!(matches!(below, Err(Error::StartsBeyond { .. })), "{below:?}");
+        let on_the_floor = first(1.0, blind, 0.0).unwrap();
+        let event = on_the_floor.event().unwrap();
+        assert_eq!((event.time, event.kind), (0.0, EventKind::AtStart));
+    }
+    let seen = first(1.0, false, 0.5).unwrap();
+    let event = seen.event().unwrap();
+    assert_eq!((event.time, event.kind), (0.5, EventKind::Crossing));
+    assert_eq!(event.certainty, Certainty::Certain);
+    // A reset to a state below the floor is an event at once, again and again.
+    let system = Falling { after: -1.0, blind: true };
+    let last = Execution::new(&system, (), State::from([0.0]), Limits::new(3.0, 10_000)).last();
+    assert!(matches!(last, Some(Err(Error::TimelessChain { .. }))), "{last:?}");
+}
