@@ -273,6 +273,8 @@ fn a_clear_miss_is_no_touch() {
 struct Falling {
     after: f64,
     blind: bool,
+    /// The rounding of the guard that the model states.
+    stated: Option<f64>,
 }
 
 impl HybridSystem for Falling {
@@ -287,6 +289,9 @@ impl HybridSystem for Falling {
     }
     fn guard_value(&self, _: u8, x: &State<1>) -> f64 {
         x[0]
+    }
+    fn guard_error(&self, _: u8, _: &State<1>) -> Option<f64> {
+        self.stated
     }
     fn guard_quasi_polynomial(&self, _: (), _: u8, x: &State<1>) -> Option<QuasiPolynomial> {
         Some(QuasiPolynomial::polynomial(&[x[0], -1.0]))
@@ -309,7 +314,7 @@ impl HybridSystem for Falling {
 #[test]
 fn a_model_with_its_own_search_is_checked_at_every_start() {
     let first = |after, blind, start| {
-        let system = Falling { after, blind };
+        let system = Falling { after, blind, stated: None };
         let limits = Limits::new(3.0, 10);
         Execution::new(&system, (), State::<1>::from([start]), limits).next().unwrap()
     };
@@ -325,7 +330,21 @@ fn a_model_with_its_own_search_is_checked_at_every_start() {
     assert_eq!((event.time, event.kind), (0.5, EventKind::Crossing));
     assert_eq!(event.certainty, Certainty::Certain);
     // A reset to a state below the floor is an event at once, again and again.
-    let system = Falling { after: -1.0, blind: true };
+    let system = Falling { after: -1.0, blind: true, stated: None };
     let last = Execution::new(&system, (), State::from([0.0]), Limits::new(3.0, 10_000)).last();
     assert!(matches!(last, Some(Err(Error::TimelessChain { .. }))), "{last:?}");
+}
+
+/// A value within the error that the model states is on the surface, and the flow decides; a larger one is beyond.
+#[test]
+fn the_rounding_that_a_model_states_for_its_guard_counts() {
+    let first = |stated| {
+        let system = Falling { after: 1.0, blind: false, stated };
+        Execution::new(&system, (), State::<1>::from([-1e-9]), Limits::new(3.0, 10)).next().unwrap()
+    };
+    for stated in [None, Some(1e-10)] {
+        assert!(matches!(first(stated), Err(Error::StartsBeyond { .. })), "{stated:?}");
+    }
+    let arc = first(Some(1e-8)).unwrap();
+    assert_eq!(arc.event().map(|event| (event.time, event.kind)), Some((0.0, EventKind::AtStart)));
 }
