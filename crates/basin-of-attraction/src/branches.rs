@@ -176,6 +176,10 @@ const SUSPECT_STEP: f64 = 4.0;
 /// smaller fraction would find lower jumps; it would also cut a branch where rounding is a larger part of a low step.
 const JUMP_FRACTION: f64 = 0.25;
 
+/// Most samples of a search for branches: 1.6 gigabytes of values. A count far above this is a mistake, and would end in a
+/// lack of memory.
+const MOST_SAMPLES: usize = 100_000_000;
+
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.
 ///
 /// Turning points are refined by golden-section search, to the square root of an ulp. Points at which the map loses its
@@ -184,7 +188,7 @@ const JUMP_FRACTION: f64 = 0.25;
 /// them.
 ///
 /// # Errors
-/// [`Error::TooFewSamples`] for fewer than three samples.
+/// [`Error::TooFewSamples`] for fewer than three samples, [`Error::TooManySamples`] for more than a hundred million.
 pub fn monotone_branches(
     map: &impl ScalarMap,
     window: Interval,
@@ -192,6 +196,10 @@ pub fn monotone_branches(
 ) -> Result<Vec<Branch>, Error> {
     if samples < 3 {
         return Err(Error::TooFewSamples { samples });
+    }
+    if samples > MOST_SAMPLES {
+        let remedy = "divide the window, and search each part";
+        return Err(Error::TooManySamples { samples, most: MOST_SAMPLES, remedy });
     }
     let value = |x: f64| match map.image(x) {
         Image::Point(value) => Some(value),
@@ -284,6 +292,15 @@ mod tests {
         samples: usize,
     ) -> Vec<Branch> {
         monotone_branches(&map, Interval { left, right }, samples).unwrap()
+    }
+
+    #[test]
+    fn a_count_of_samples_beyond_all_memory_is_an_error() {
+        let window = Interval { left: 0.0, right: 1.0 };
+        for samples in [MOST_SAMPLES + 1, 1_000_000_000_000, usize::MAX] {
+            let error = monotone_branches(&|x: f64| Some(x), window, samples).unwrap_err();
+            assert!(matches!(error, Error::TooManySamples { most: MOST_SAMPLES, .. }), "{error}");
+        }
     }
 
     #[test]

@@ -65,6 +65,16 @@ pub enum Error {
         /// Requested number of samples.
         samples: usize,
     },
+    /// More samples than a computer can keep, or label in a usable time.
+    #[error("{samples} samples are more than the {most} that are accepted; {remedy}")]
+    TooManySamples {
+        /// Requested number of samples; the largest `usize` if the product of two counts exceeds it.
+        samples: usize,
+        /// The largest number of samples.
+        most: usize,
+        /// What to do instead.
+        remedy: &'static str,
+    },
     /// A proportion without trials, or with more successes than trials.
     #[error(
         "{successes} successes in {trials} trials: there must be at least 1 trial, and no more successes than trials"

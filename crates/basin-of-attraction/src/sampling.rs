@@ -9,22 +9,40 @@ use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
+/// Most points of all replicates together: two gigabytes of labels. With a label in a microsecond they take a quarter of an
+/// hour on one core, and give fractions to four digits; a count far above this is a mistake, such as one that overflowed, and
+/// would end in a lack of memory or never.
+const MOST_POINTS: usize = 1_000_000_000;
+
+/// An error for more points than can be labelled.
+pub(crate) fn check_count(samples: usize) -> Result<(), Error> {
+    if samples <= MOST_POINTS {
+        return Ok(());
+    }
+    let remedy = "take fewer points: the error of a fraction falls like one over the root of their number at least";
+    Err(Error::TooManySamples { samples, most: MOST_POINTS, remedy })
+}
+
 /// How many of `count` equally spaced points of `window` have each label. The points are the middles of `count`
 /// equal parts of the window.
 ///
 /// ```
 /// use basin_of_attraction::{Interval, equally_spaced_counts};
 /// let window = Interval::new(-1.0, 3.0)?;
-/// let counts = equally_spaced_counts(window, 1000, |x| u16::from(x > 0.0));
+/// let counts = equally_spaced_counts(window, 1000, |x| u16::from(x > 0.0))?;
 /// assert_eq!(counts, [(0, 250), (1, 750)].into());
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
+///
+/// # Errors
+/// [`Error::TooManySamples`] for more than a billion points.
 pub fn equally_spaced_counts(
     window: Interval,
     count: usize,
     label: impl Fn(f64) -> u16 + Sync,
-) -> BTreeMap<u16, usize> {
-    tally(&labels(count, |k| middle(window, count, k), label))
+) -> Result<BTreeMap<u16, usize>, Error> {
+    check_count(count)?;
+    Ok(tally(&labels(count, |k| middle(window, count, k), label)))
 }
 
 /// The fraction of equally spaced points that have a label.
@@ -43,7 +61,7 @@ pub struct EquallySpacedFraction {
 /// different labels the boundary may lie anywhere.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points.
 pub fn equally_spaced_fractions(
     window: Interval,
     count: usize,
@@ -52,6 +70,7 @@ pub fn equally_spaced_fractions(
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
+    check_count(count)?;
     let labels = labels(count, |k| middle(window, count, k), label);
     // The number of ends of runs of each label.
     let mut ends: BTreeMap<u16, usize> = BTreeMap::new();
@@ -78,13 +97,14 @@ pub fn equally_spaced_fractions(
 /// fraction is [`wilson_interval`]`(0, count)`.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points.
 pub fn random_fractions(
     window: Interval,
     count: usize,
     seed: u64,
     label: impl Fn(f64) -> u16 + Sync,
 ) -> Result<BTreeMap<u16, ConfidenceInterval>, Error> {
+    check_count(count)?;
     let random = SplitMix64::from_seed(seed);
     let at = |k| window.left + window.length() * random.uniform(k as u64);
     let counts = tally(&labels(count, at, label));
@@ -100,7 +120,8 @@ pub fn random_fractions(
 /// count * replicates)`.
 ///
 /// # Errors
-/// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] for a `count` of 0.
+/// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more
+/// than a billion points in all.
 pub fn low_discrepancy_fractions(
     window: Interval,
     count: usize,
@@ -114,6 +135,7 @@ pub fn low_discrepancy_fractions(
     if replicates < 2 {
         return Err(Error::TooFewReplicates { replicates });
     }
+    check_count(count.saturating_mul(replicates))?;
     let random = SplitMix64::from_seed(seed);
     let tallies: Vec<BTreeMap<u16, usize>> = (0..replicates)
         .map(|replicate| {

@@ -5,6 +5,7 @@ use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
 use crate::error::Error;
 use crate::interval::{Interval, IntervalSet};
 use crate::interval_basins::IntervalBasins;
+use crate::sampling::check_count;
 use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 
@@ -15,7 +16,8 @@ use rayon::prelude::*;
 /// exponent is the uncertainty exponent, which [`power_law`](crate::power_law) fits.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0, [`Error::BadPerturbation`] unless `epsilon` is positive and finite.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion, [`Error::BadPerturbation`]
+/// unless `epsilon` is positive and finite.
 pub fn uncertain_fraction(
     window: Interval,
     epsilon: f64,
@@ -24,6 +26,7 @@ pub fn uncertain_fraction(
     label: impl Fn(f64) -> u16 + Sync,
 ) -> Result<ConfidenceInterval, Error> {
     check_perturbation(epsilon)?;
+    check_count(count)?;
     let random = SplitMix64::from_seed(seed);
     let uncertain = |k: usize| {
         let x = window.left + window.length() * random.uniform(k as u64);

@@ -5,7 +5,8 @@
 mod cantor;
 
 use basin_of_attraction::{
-    ConfidenceInterval, Interval, low_discrepancy_fractions, random_fractions, wilson_interval,
+    ConfidenceInterval, Error, Interval, equally_spaced_counts, equally_spaced_fractions,
+    low_discrepancy_fractions, random_fractions, uncertain_fraction, wilson_interval,
 };
 use cantor::{cantor_label, interval};
 
@@ -56,4 +57,25 @@ fn low_discrepancy_intervals_are_shorter_than_random_ones() {
     let random = random_fractions(window, 20_000, 1, label).unwrap()[&1];
     let low = low_discrepancy_fractions(window, 1000, 20, 1, label).unwrap()[&1];
     assert!(low.half_width() < 0.1 * random.half_width());
+}
+
+/// A count that overflowed, or that no memory holds, is an error with the largest count, and no call of the label.
+#[test]
+fn counts_beyond_all_memory_are_errors() {
+    let window = Interval::new(0.0, 1.0).unwrap();
+    let label = |_: f64| -> u16 { panic!("no point is labelled") };
+    for count in [1_000_000_001, 1_000_000_000_000, usize::MAX] {
+        let errors = [
+            equally_spaced_counts(window, count, label).unwrap_err(),
+            equally_spaced_fractions(window, count, label).unwrap_err(),
+            random_fractions(window, count, 1, label).unwrap_err(),
+            low_discrepancy_fractions(window, count, 2, 1, label).unwrap_err(),
+            low_discrepancy_fractions(window, 2, count, 1, label).unwrap_err(),
+            low_discrepancy_fractions(window, count, count, 1, label).unwrap_err(),
+            uncertain_fraction(window, 0.1, count, 1, label).unwrap_err(),
+        ];
+        for error in errors {
+            assert!(matches!(error, Error::TooManySamples { most: 1_000_000_000, .. }), "{error}");
+        }
+    }
 }

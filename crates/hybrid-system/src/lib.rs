@@ -56,6 +56,9 @@
 //! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in `dry_friction` a mass
 //! sticks to a belt.
 //!
+//! # Features
+//! `ode`: modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints that can be saved and loaded. Both are off by default.
+//!
 //! # Accuracy
 //! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
 //! as a [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed. If a guard starts at

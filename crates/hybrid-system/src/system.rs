@@ -147,8 +147,8 @@ pub trait HybridSystem {
         None
     }
 
-    /// The guard along the flow from `start`, g(φ(t; x₀)), as a quasi-polynomial in t: a sum of polynomials times sines
-    /// and cosines. Its crossings are then found with certainty.
+    /// The guard along the flow from `start`, g(φ(t; x₀)), as a quasi-polynomial in t: a sum of polynomials times
+    /// exponentials, sines and cosines. Its crossings are then found with certainty.
     ///
     /// Default: `None`.
     fn guard_quasi_polynomial(
@@ -210,11 +210,19 @@ pub trait HybridSystem {
 /// without a change of sign; a zero at a sample counts once. If any guard was sampled, the result has
 /// [`Certainty::Sampled`](crate::Certainty::Sampled).
 ///
+/// If a budget of the search ends before its horizon, of intervals or of samples, the result is
+/// [`NextEvent::Unfinished`] with the time up to which there is no event. This is no error: a search from there goes on.
+///
 /// # Errors
-/// [`Error::Grazing`] if a guard under bounds comes so close to zero that rounding hides whether it crosses,
-/// and the errors of [`QuasiPolynomial::first_crossing`]; [`Error::NoSamplingInterval`] if a guard must be
-/// sampled and there is no interval; [`Error::UndecidedStart`] if a sampled guard is zero at the start and
-/// beyond its surface at the first sample.
+/// * [`Error::Grazing`] for a touch of a guard whose [`Touch`](crate::Touch) is an error: the guard comes so close to zero that
+///   rounding hides whether it crosses, and its sign is the same before and behind.
+/// * [`Error::UndecidedStart`], [`Error::UndecidedSign`] if rounding or the samples hide to which side a guard leaves its zero
+///   at the start.
+/// * [`Error::NoSamplingInterval`] if a guard must be sampled and there is no interval; [`Error::BadSamplingInterval`] for an
+///   interval that is not positive or vanishes beside the horizon, and for an infinite horizon of a sampled guard.
+/// * [`Error::BadLimit`] for a horizon that is negative or NaN, and for an infinite one of a guard under bounds.
+/// * [`Error::NotFinite`] where a guard or a coefficient of its quasi-polynomial is infinite or NaN;
+///   [`Error::BadEnclosure`] for an enclosure without an inside.
 pub fn default_search<T: HybridSystem + ?Sized>(
     system: &T,
     mode: T::Mode,

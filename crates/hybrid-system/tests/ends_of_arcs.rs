@@ -106,3 +106,65 @@ fn a_guard_that_stays_zero_for_a_while_has_no_event_at_the_start() {
     let found = integrated.run((), [1.5], 5.0).next().unwrap();
     assert!(matches!(found, Err(Error::UndecidedStart { .. })), "{found:?}");
 }
+
+/// The end of the first arc from x = `start`.
+fn first_end<T>(system: &T, start: f64, limits: Limits) -> ArcEnd<(), T::Surface, State<1>>
+where
+    T: HybridSystem<State = State<1>, Mode = ()>,
+{
+    Execution::new(system, (), State::from([start]), limits).next().unwrap().unwrap().end
+}
+
+#[test]
+fn arcs_without_an_event_carry_their_certainty() {
+    let rise = || {
+        let flow = Model::closed_form(|(), x: &State<1>, t| [x[0] + t]);
+        flow.rising((), |x| x[0] - 10.0, |x| ((), *x))
+    };
+    let signal = rise().signal(0, |(), x| Some(QuasiPolynomial::polynomial(&[x[0] - 10.0, 1.0])));
+    let field = Model::integrated(|(), x: &State<1>| [1.0 - x[0]]).rising(
+        (),
+        |x| x[0] - 10.0,
+        |x| ((), *x),
+    );
+    let certainty = |end| match end {
+        ArcEnd::TimeLimit { certainty } => certainty,
+        other => panic!("{other:?}"),
+    };
+    let limits = Limits::new(3.0, 10);
+    assert_eq!(certainty(first_end(&signal, 0.0, limits)), Certainty::Certain);
+    let sampled = Limits::sampled(3.0, 10, 0.5);
+    let by_samples = certainty(first_end(&rise(), 0.0, sampled));
+    assert_eq!(by_samples, Certainty::Sampled { interval: 0.5 });
+    assert_eq!(certainty(first_end(&field, 0.0, limits)), Certainty::Interpolated);
+    // Where the field is zero no event follows, up to any time.
+    let never = first_end(&field, 1.0, Limits::new(f64::INFINITY, 10));
+    assert!(matches!(never, ArcEnd::Never { certainty: Certainty::Interpolated }), "{never:?}");
+}
+
+#[test]
+fn an_arc_whose_steps_end_is_unfinished_and_goes_on() {
+    let swing = Model::integrated(|(), x: &State<2>| [x[1], -x[0]]).tolerance(1e-10).rising(
+        (),
+        |x| x[0] - 2.0,
+        |x| ((), *x),
+    );
+    let limits = Limits { steps: 40, ..Limits::new(f64::INFINITY, 10) };
+    let mut execution = Execution::new(&swing, (), State::from([1.0, 0.0]), limits);
+    let mut time = 0.0;
+    for _ in 0..3 {
+        let arcs: Vec<_> = execution.go_on(limits).collect::<Result<_, _>>().unwrap();
+        let [arc] = &arcs[..] else { panic!("{arcs:?}") };
+        assert!(matches!(arc.end, ArcEnd::Unfinished { certainty: Certainty::Interpolated }));
+        assert_eq!((execution.stop(), arc.time), (Some(Stop::Unfinished), time));
+        assert!(arc.duration > 1.0);
+        time = execution.time();
+        let (sin, cos) = time.sin_cos();
+        assert!((execution.state() - State::from([cos, -sin])).amax() < 1e-8, "{time}");
+    }
+    // A quiet arc to a late time ends.
+    let settling =
+        Model::integrated(|(), x: &State<1>| [-x[0]]).rising((), |x| x[0] - 2.0, |x| ((), *x));
+    let end = first_end(&settling, 1.0, Limits::new(1e6, 10));
+    assert!(matches!(end, ArcEnd::TimeLimit { .. }), "{end:?}");
+}

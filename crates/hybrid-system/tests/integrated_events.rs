@@ -141,6 +141,110 @@ fn the_zeros_of_an_oscillator_are_found() {
     }
 }
 
+/// Roots on and within steps are found once each, whatever the steps and the tolerance.
+#[test]
+fn each_root_is_found_once_for_every_step_and_tolerance() {
+    let field = |_: &State<1>| Vector1::new(1.0);
+    let three = |_: usize, x: &State<1>| (x[0] - 0.1) * (x[0] - 0.4) * (x[0] - 0.8);
+    let nine =
+        |_: usize, x: &State<1>| (1..10).map(|k| x[0] - f64::from(k) / 10.0).product::<f64>();
+    let guards = [Guard::either(0)];
+    for longest_step in [0.01, 0.1, 0.2, 0.05 + 1e-9, f64::INFINITY] {
+        for tolerance in [1e-3, 1e-6, 1e-9, 1e-13] {
+            let tolerances = Tolerances { longest_step, ..Tolerances::both(tolerance) };
+            let system = Watched { field, values: three, guards: &guards, tolerances };
+            let found = events(&system, Vector1::new(0.0), 1.0);
+            let at: Vec<_> = found.iter().map(|event| event.before[0]).collect();
+            assert_eq!(at.len(), 3, "{longest_step} {tolerance}: {at:?}");
+            assert!(at.iter().zip([0.1, 0.4, 0.8]).all(|(x, root)| (x - root).abs() < 1e-14));
+            let system = Watched { field, values: nine, guards: &guards, tolerances };
+            let found = events(&system, Vector1::new(0.0), 1.0);
+            assert_eq!(found.len(), 9, "{longest_step} {tolerance}: {found:?}");
+            for (k, event) in (1..).zip(&found) {
+                assert!((event.before[0] - f64::from(k) / 10.0).abs() < 1e-12);
+            }
+        }
+    }
+}
+
+/// ẋ = 1, and x → x − 2 where x + y ≥ 0: after t = 2 the state is the start again.
+#[test]
+fn an_integrated_constant_flow_with_jumps_returns_to_its_start() {
+    let saw = Model::integrated(|(), _: &State<2>| [1.0, 0.0]).tolerance(1e-13).rising(
+        (),
+        |x| x[0] + x[1],
+        |x| ((), [x[0] - 2.0, x[1]]),
+    );
+    for start in [[-0.3, 0.1], [-1.9, 0.0], [0.2, -0.7], [-0.1, -1.1]].map(State::from) {
+        let arcs: Vec<_> = saw.run((), start, 2.0).collect::<Result<_, _>>().unwrap();
+        assert_eq!(arcs.len(), 2);
+        let end = arcs[1].state(&saw, arcs[1].duration).unwrap();
+        assert!((end - start).amax() < 1e-14, "{end}");
+    }
+}
+
+/// Two masses on a spring, k = 500, g = 9.8, dropped from heights 5 and 6: the contact lasts 0.146, and the lower mass
+/// leaves the floor like t³. The issue reports a crash.
+#[test]
+fn sciml_647_two_masses_on_a_spring() {
+    const STIFFNESS: f64 = 500.0;
+    const GRAVITY: f64 = 9.8;
+    let masses = Model::integrated(|contact, x: &State<4>| {
+        let pull = STIFFNESS * (x[1] - x[0] - 1.0);
+        [x[2], x[3], if contact { 0.0 } else { pull - GRAVITY }, -pull - GRAVITY]
+    })
+    .tolerance(1e-13)
+    .guard(false, Guard::falling("landing"), |x| x[0], |x| (true, [0.0, x[1], 0.0, x[3]]))
+    .guard(
+        true,
+        Guard::falling("lift-off"),
+        |x| GRAVITY - STIFFNESS * (x[1] - x[0] - 1.0),
+        |x| (false, *x),
+    )
+    .observer(Guard::rising("shortest spring"), |x| x[3] - x[2]);
+    let events: Vec<_> = masses
+        .run(false, [5.0, 6.0, 0.0, 0.0], 2.2)
+        .filter_map(|arc| arc.unwrap().event().copied())
+        .collect();
+    let named = |name| events.iter().filter(move |event| event.surface == name);
+    let landings: Vec<_> = named("landing").collect();
+    let lift_offs: Vec<_> = named("lift-off").collect();
+    assert_eq!((landings.len(), lift_offs.len()), (2, 2));
+    // At the second landing the spring pulls harder than the weight: the lower mass lifts off at once.
+    assert_eq!(lift_offs[1].time, landings[1].time);
+    let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-10, "{a} {b}");
+    close(landings[0].time, 1.01015254455221075);
+    close(landings[0].before[2], -9.89949493661166534);
+    close(lift_offs[0].time - landings[0].time, 0.146436001872528801);
+    close(lift_offs[0].time, 1.15658854642473955);
+    close(lift_offs[0].before[1], 1.0196);
+    close(lift_offs[0].before[3], 9.8703475116127497);
+    close(landings[1].time, 2.15693455833089148);
+    close(landings[1].before[2], -9.61984490010233);
+    let shortest: Vec<_> =
+        named("shortest spring").filter(|event| event.before[0] == 0.0).collect();
+    assert_eq!(shortest.len(), 1);
+    close(shortest[0].before[1], 0.537247475466967);
+    let (_, at_lift_off) = lift_offs[0].after.unwrap();
+    let later = masses.flow(false, &at_lift_off, 1e-4);
+    assert!((later[0] / 8.22488e-10 - 1.0).abs() < 1e-5, "{:e}", later[0]);
+}
+
+/// Without loss: eleven bounces in ten time units, and their last height and velocity.
+#[test]
+fn the_integrated_elastic_ball_of_drake_ends_in_its_known_state() {
+    let ball = Model::integrated(|(), x: &State<2>| [x[1], -9.81]).tolerance(1e-13).falling(
+        (),
+        |x| x[0],
+        |x| ((), [0.0, -x[1]]),
+    );
+    let arcs: Vec<_> = ball.run((), [1.0, 0.0], 10.0).collect::<Result<_, _>>().unwrap();
+    assert_eq!(arcs.len(), 12);
+    let end = arcs[11].state(&ball, arcs[11].duration).unwrap();
+    let exact = Vector2::new(0.978_321_975_404_438, -0.652_167_802_459_556_2);
+    assert!((end - exact).amax() < 1e-11, "{}", end - exact);
+}
+
 /// Nine roots, and a parabola that misses, touches or crosses, on ẋ = 1, where each step is ten times as long as the
 /// one before.
 #[test]

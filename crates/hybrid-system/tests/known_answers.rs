@@ -114,13 +114,16 @@ fn the_elastic_ball_of_drake_ends_in_its_known_state() {
 fn an_event_at_the_end_time_has_both_states_as_in_diffeqgpu_540() {
     let ball = Ball { gravity: 10.0, restitution: 1.0 };
     let found = impacts(&ball, 45.0, Limits::sampled(15.0, 100, 0.25));
-    let times: Vec<f64> = found.iter().map(|event| event.time).collect();
-    for (time, exact) in times.iter().zip([3.0, 9.0, 15.0]) {
-        assert_relative_eq!(*time, exact, max_relative = 1e-14);
+    assert_eq!(found.len(), 3);
+    for (event, exact) in found.iter().zip([3.0, 9.0, 15.0]) {
+        assert_relative_eq!(event.time, exact, max_relative = 1e-14);
+        assert_relative_eq!(event.before[1], -30.0, max_relative = 1e-13);
+        assert_relative_eq!(event.after.unwrap().1[1], 30.0, max_relative = 1e-13);
     }
-    // The third event may be rounded beyond the end time. The second one has both one-sided states.
-    assert_relative_eq!(found[1].before[1], -30.0, max_relative = 1e-13);
-    assert_relative_eq!(found[1].after.unwrap().1[1], 30.0, max_relative = 1e-13);
+    assert_eq!(
+        found.iter().map(|event| event.at_time_limit).collect::<Vec<_>>(),
+        [false, false, true]
+    );
 }
 
 #[test]
@@ -151,6 +154,14 @@ fn all_three_zeros_of_scipy_9228_are_found() {
 /// Roots at samples and between them are found once each, with every interval shorter than their distance.
 #[test]
 fn each_root_is_found_once_at_and_between_samples() {
+    let three = |x: f64| (x - 0.1) * (x - 0.4) * (x - 0.8);
+    for interval in [0.29, 0.2, 0.1, 0.05, 0.0625, 0.033] {
+        let zeros = crossings(three, Guard::either(Surface), 1.0, interval);
+        assert_eq!(zeros.len(), 3, "interval {interval}: {zeros:?}");
+        for (zero, exact) in zeros.iter().zip([0.1, 0.4, 0.8]) {
+            assert_relative_eq!(*zero, exact, max_relative = 1e-15);
+        }
+    }
     let product = |x: f64| (1..=9).map(|k| x - f64::from(k) / 10.0).product::<f64>();
     for interval in [0.05, 0.01, 0.033, 0.09, 1.0 / 128.0] {
         let zeros = crossings(product, Guard::either(Surface), 1.0, interval);
@@ -158,6 +169,20 @@ fn each_root_is_found_once_at_and_between_samples() {
         for (k, zero) in (1..=9).zip(&zeros) {
             assert_relative_eq!(*zero, f64::from(k) / 10.0, max_relative = 1e-14);
         }
+    }
+}
+
+/// ẋ = 1, and x → x − 2 where x + y ≥ 0: after t = 2 the state is the start again.
+#[test]
+fn a_sampled_constant_flow_with_jumps_returns_to_its_start() {
+    let saw = Model::closed_form(|(), x: &State<2>, t| [x[0] + t, x[1]])
+        .rising((), |x| x[0] + x[1], |x| ((), [x[0] - 2.0, x[1]]))
+        .sampled(0.3);
+    for start in [[-0.3, 0.1], [-1.9, 0.0], [0.2, -0.7], [-0.1, -1.1]].map(State::from) {
+        let arcs: Vec<_> = saw.run((), start, 2.0).collect::<Result<_, _>>().unwrap();
+        assert_eq!(arcs.len(), 2);
+        let end = arcs[1].state(&saw, arcs[1].duration).unwrap();
+        assert!((end - start).amax() < 1e-14, "{end}");
     }
 }
 
@@ -173,11 +198,23 @@ fn samples_report_no_crossing_at_a_touch() {
     assert!(matches!(first, Err(Error::Grazing { time: 0.5, .. })), "{first:?}");
 }
 
+/// The product of two such values underflows to zero.
 #[test]
 fn tiny_values_cross_as_in_sundials_57() {
-    let zeros = crossings(|x| 1e-166 * (x - 0.37), Guard::rising(Surface), 1.0, 0.1);
-    assert_eq!(zeros.len(), 1);
-    assert_relative_eq!(zeros[0], 0.37, max_relative = 1e-15);
+    for (sign, direction, opposite) in [
+        (1.0, Guard::rising(Surface), Guard::falling(Surface)),
+        (-1.0, Guard::falling(Surface), Guard::rising(Surface)),
+    ] {
+        let line = |x: f64| sign * 1e-166 * (x - 0.37);
+        let jump = |x: f64| if x < 0.37 { -sign * 1e-166 } else { sign * 1e-166 };
+        for guard in [direction, Guard::either(Surface)] {
+            for zeros in [crossings(line, guard, 1.0, 0.1), crossings(jump, guard, 1.0, 0.1)] {
+                assert_eq!(zeros.len(), 1);
+                assert_relative_eq!(zeros[0], 0.37, max_relative = 1e-15);
+            }
+        }
+        assert!(crossings(line, opposite, 1.0, 0.1).is_empty());
+    }
 }
 
 #[test]

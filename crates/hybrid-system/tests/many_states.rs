@@ -76,3 +76,15 @@ fn times_are_in_order() {
     let again = integrated_states(&pendulum, (), &back, &[3.0], TOLERANCES).unwrap()[0];
     assert!((again - start).norm() < 1e-7);
 }
+
+/// The flow to a negative time is the way back.
+#[test]
+fn a_flow_to_a_negative_time_leads_back() {
+    let pendulum = Pendulum(Cell::new(0));
+    let start = Vector2::new(2.0, 0.3);
+    let there = pendulum.flow((), &start, 7.0);
+    assert!((pendulum.flow((), &there, -7.0) - start).amax() < 1e-7);
+    let back = pendulum.flow_at((), &there, &[0.0, -3.0, -7.0]).unwrap();
+    assert!((back[1] - pendulum.flow((), &start, 4.0)).amax() < 1e-7);
+    assert!((back[2] - start).amax() < 1e-7);
+}

@@ -312,4 +312,83 @@ fn a_stretch_of_zeros_is_crossed_at_its_end() {
             assert!(event.time_error < 5.0, "{width}: {event:?}");
         }
     }
+
+/// ẋ = −1 over a floor at 0. Its events put x to `after`. The search is the library's, or sees nothing.
+struct Falling {
+    after: f64,
+    blind: bool,
+    /// The rounding of the guard that the model states.
+    stated: Option<f64>,
+}
+
+impl HybridSystem for Falling {
+    type State = State<1>;
+    type Mode = ();
+    type Surface = u8;
+    fn flow(&self, _: (), x: &State<1>, t: f64) -> State<1> {
+        State::from([x[0] - t])
+    }
+    fn guards(&self, _: ()) -> &[Guard<u8>] {
+        const { &[Guard::falling(FLOOR)] }
+    }
+    fn guard_value(&self, _: u8, x: &State<1>) -> f64 {
+        x[0]
+    }
+    fn guard_error(&self, _: u8, _: &State<1>) -> Option<f64> {
+        self.stated
+    }
+    fn guard_quasi_polynomial(&self, _: (), _: u8, x: &State<1>) -> Option<QuasiPolynomial> {
+        Some(QuasiPolynomial::polynomial(&[x[0], -1.0]))
+    }
+    fn reset(&self, _: (), _: u8, _: &State<1>) -> Reset<(), State<1>> {
+        Reset::Jump { mode: (), state: State::from([self.after]) }
+    }
+    fn first_crossing(
+        &self,
+        mode: (),
+        x: &State<1>,
+        search: &Search<u8>,
+    ) -> Result<NextEvent<u8, State<1>>, Error> {
+        if self.blind { Ok(NextEvent::never()) } else { default_search(self, mode, x, search) }
+    }
+}
+
+/// The starts of all arcs are decided by the execution, whatever the model's own search finds. The search of the library
+/// can be called from there, with its certainty.
+#[test]
+fn a_model_with_its_own_search_is_checked_at_every_start() {
+    let first = |after, blind, start| {
+        let system = Falling { after, blind, stated: None };
+        let limits = Limits::new(3.0, 10);
+        Execution::new(&system, (), State::<1>::from([start]), limits).next().unwrap()
+    };
+    for blind in [false, true] {
+        let below = first(1.0, blind, -0.25);
+        assert!(matches!(below, Err(Error::StartsBeyond { .. })), "{below:?}");
+        let on_the_floor = first(1.0, blind, 0.0).unwrap();
+        let event = on_the_floor.event().unwrap();
+        assert_eq!((event.time, event.kind), (0.0, EventKind::AtStart));
+    }
+    let seen = first(1.0, false, 0.5).unwrap();
+    let event = seen.event().unwrap();
+    assert_eq!((event.time, event.kind), (0.5, EventKind::Crossing));
+    assert_eq!(event.certainty, Certainty::Certain);
+    // A reset to a state below the floor is an event at once, again and again.
+    let system = Falling { after: -1.0, blind: true, stated: None };
+    let last = Execution::new(&system, (), State::from([0.0]), Limits::new(3.0, 10_000)).last();
+    assert!(matches!(last, Some(Err(Error::TimelessChain { .. }))), "{last:?}");
+}
+
+/// A value within the error that the model states is on the surface, and the flow decides; a larger one is beyond.
+#[test]
+fn the_rounding_that_a_model_states_for_its_guard_counts() {
+    let first = |stated| {
+        let system = Falling { after: 1.0, blind: false, stated };
+        Execution::new(&system, (), State::<1>::from([-1e-9]), Limits::new(3.0, 10)).next().unwrap()
+    };
+    for stated in [None, Some(1e-10)] {
+        assert!(matches!(first(stated), Err(Error::StartsBeyond { .. })), "{stated:?}");
+    }
+    let arc = first(Some(1e-8)).unwrap();
+    assert_eq!(arc.event().map(|event| (event.time, event.kind)), Some((0.0, EventKind::AtStart)));
 }

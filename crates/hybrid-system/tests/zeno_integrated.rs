@@ -6,7 +6,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
-use nalgebra::{Vector3, Vector4};
+use nalgebra::{Vector2, Vector3, Vector4};
 
 /// What acts on the ball.
 #[derive(Debug, Clone, Copy)]
@@ -287,5 +287,31 @@ fn bounces_in_a_bowl_accumulate_at_their_limit() {
             .unwrap();
         let error = (limit.time - exact).abs();
         assert!(error <= limit.time_error, "{curvature}: {error:e} {limit:?}");
+    }
+}
+
+/// y = 0, v = 1, floor −1, g = 9.8. Other software lets the ball fall through the floor.
+#[test]
+fn an_integrated_ball_rests_as_in_sciml_696() {
+    for restitution in [0.0, 0.5] {
+        let ball = Model::integrated(|resting, x: &State<2>| match resting {
+            true => [0.0, 0.0],
+            false => [x[1], -9.8],
+        })
+        .tolerance(1e-12)
+        .falling(false, |x| x[0] + 1.0, move |x| (restitution == 0.0, [-1.0, -restitution * x[1]]))
+        .rest(|_, _| Some((true, [-1.0, 0.0])));
+        let arcs: Vec<_> = ball.run(false, [0.0, 1.0], 9.0).collect::<Result<_, _>>().unwrap();
+        let first = arcs[0].event().unwrap();
+        assert!((first.time - 0.565_175_743_588_172_131).abs() < 1e-12);
+        assert!((first.before[1] + 4.538_722_287_164_086_89).abs() < 1e-11);
+        if restitution > 0.0 {
+            let ArcEnd::Zeno { limit, .. } = arcs[arcs.len() - 2].end else { panic!() };
+            let error = (limit.time - 1.491_445_598_111_455_17).abs();
+            assert!(error <= limit.time_error && error < 1e-10, "{limit:?}");
+        }
+        let last = arcs.last().unwrap();
+        assert!(last.mode && matches!(last.end, ArcEnd::TimeLimit { .. }));
+        assert_eq!(last.state(&ball, last.duration).unwrap(), Vector2::new(-1.0, 0.0));
     }
 }

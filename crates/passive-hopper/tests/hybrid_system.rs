@@ -247,7 +247,7 @@ fn huge_falls_gain_no_energy() {
 /// The hopper of SciML DifferentialEquations.jl #647: g = 9.8, k = 500, natural length 1, masses 1, dropped from
 /// heights 5 and 6. The issue reports a crash of an integration; the expected values here are closed forms.
 #[test]
-fn the_hopper_of_sciml_647_agrees_with_closed_forms() {
+fn sciml_647_hopper() {
     let physical = PhysicalHopper::new(1.0, 1.0, 500.0, 9.8).unwrap();
     let hopper = Hopper::new(physical.mass_ratio().unwrap());
     let start = HopperState { upper_position: 5.0, lower_position: 5.0, ..HopperState::RELAXED };

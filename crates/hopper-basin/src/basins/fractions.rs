@@ -35,7 +35,7 @@ impl BasinFractions {
 /// intervals are averaged with equal weights, although the intervals differ in length.
 ///
 /// # Errors
-/// As [`Fates::new`], and [`Error::NoPoints`] if `points` is zero or `from` is not below `to`.
+/// As [`Fates::new`] and [`equally_spaced_counts`], and [`Error::NoPoints`] if `points` is zero or `from` is not below `to`.
 pub fn basin_fractions(
     mass_ratio: MassRatio,
     from: u64,
@@ -48,7 +48,7 @@ pub fn basin_fractions(
     let mut counts = BTreeMap::new();
     for n in from..to {
         let hump = Interval::new(alpha_star(n), alpha_star(n + 1))?;
-        for (label, count) in equally_spaced_counts(hump, points, label) {
+        for (label, count) in equally_spaced_counts(hump, points, label)? {
             *counts.entry(label).or_insert(0) += count;
         }
     }

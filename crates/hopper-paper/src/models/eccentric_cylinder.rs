@@ -17,7 +17,7 @@ const CYLINDER: EccentricCylinder = EccentricCylinder {
 
 /// Time of the pictures of the motion, and of the curves.
 const DRAWN: f64 = 7.2;
-const LONG: f64 = 20.0;
+const LONG: f64 = 32.0;
 
 /// The horizontal velocity of the frame from which the motion is drawn. The floor has no friction: the velocity is
 /// constant. It is chosen so that the outlines do not cover each other.
@@ -149,7 +149,7 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     energy.axes(&mut svg, &ticks(energy.x, 4), &ticks(energy.y, 4), "time $t$", "energy $E$");
     svg.text(energy.left, energy.top - 9.0, Anchor::Start, 12.5, "energy; $μ$: rolling resistance");
     for (time, value, label) in
-        [(8.0, 2.06, "$e$ = 1"), (13.2, 1.06, "$e$ = 0.8"), (16.0, 0.86, "$μ$ = 0.1")]
+        [(8.0, 2.06, "$e$ = 1"), (20.0, 1.06, "$e$ = 0.8"), (20.0, 0.82, "$μ$ = 0.1")]
     {
         let at = energy.at((time, value));
         svg.text(at.0, at.1, Anchor::Start, 11.0, label);

@@ -25,7 +25,7 @@ const PIXELS: (usize, usize) = (1160, 1160);
 const STARTS: [(f64, f64); 2] = [(0.3, 0.64), (0.3, 0.66)];
 
 /// Periods in which |y| is drawn.
-const PERIODS: usize = 1400;
+const PERIODS: usize = 1200;
 
 const COLORS: [&str; 2] = ["#10386e", "#d0702b"];
 
@@ -88,7 +88,7 @@ pub(super) fn figure(_: &Job) -> Result<Figure, Error> {
     );
 
     let fates =
-        Frame::linear(408.0, 30.0, 264.0, 280.0, (0.0, PERIODS as f64), (1e-12, 1e2)).log_y();
+        Frame::linear(408.0, 30.0, 264.0, 280.0, (0.0, PERIODS as f64), (1e-14, 1e2)).log_y();
     let orbits = [distances(STARTS[0])?, distances(STARTS[1])?];
     fates.clipped(&mut svg, |svg| {
         for (orbit, color) in orbits.iter().zip(COLORS) {

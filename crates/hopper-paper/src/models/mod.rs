@@ -5,6 +5,7 @@ mod forced_oscillator;
 mod guards;
 mod scene_panel;
 mod semantics;
+mod semantics_motion;
 mod valve;
 
 use crate::error::Error;
@@ -19,6 +20,7 @@ pub const ALL: &[(&str, Draw)] = &[
     ("guards", guards::figure),
     ("semantics_instant", semantics::events_at_one_instant),
     ("semantics_touch", semantics::sliding_and_touches),
+    ("semantics_motion", semantics_motion::figure),
     ("eccentric_cylinder", eccentric_cylinder::figure),
     ("forced_oscillator", forced_oscillator::figure),
     ("valve", valve::figure),

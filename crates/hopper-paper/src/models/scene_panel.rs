@@ -1,6 +1,5 @@
 //! A panel that shows an execution: components against time, with events, resets and errors.
 
-use example_systems::scenes::Scene;
 use hybrid_system::{Arc, ArcEnd, Error, EventKind, Execution, HybridSystem, Limits, State};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, ticks};
 
@@ -24,12 +23,16 @@ const SAME_DOT: f64 = 1e-6;
 /// A point of the panel: time and value.
 type Point = (f64, f64);
 
+/// The width of a dot, as a share of the time axis: 8 of 278 points.
+const WIDTH_OF_DOT: f64 = 0.03;
+
 /// A panel.
 pub(super) struct Panel {
     title: &'static str,
     label: &'static str,
     duration: f64,
     range: (f64, f64),
+    first_pen: usize,
     forbidden: Option<(f64, f64)>,
     surfaces: Vec<f64>,
     curves: Vec<(Vec<Point>, usize)>,
@@ -53,6 +56,7 @@ impl Panel {
             label,
             duration,
             range,
+            first_pen: 0,
             forbidden: None,
             surfaces: Vec::new(),
             curves: Vec::new(),
@@ -76,9 +80,16 @@ impl Panel {
     }
 
     /// A function of time.
-    pub(super) fn function(mut self, value: impl Fn(f64) -> f64) -> Self {
-        let times = (0..=4 * POINTS).map(|k| self.duration * f64::from(k) / f64::from(4 * POINTS));
-        self.curves.push((times.map(|t| (t, value(t))).collect(), 0));
+    pub(super) fn function(self, value: impl Fn(f64) -> f64) -> Self {
+        let whole = (0.0, self.duration);
+        self.piece(whole, value)
+    }
+
+    /// A function between two times: a piece of one that jumps.
+    pub(super) fn piece(mut self, (from, to): (f64, f64), value: impl Fn(f64) -> f64) -> Self {
+        let times =
+            (0..=4 * POINTS).map(|k| from + (to - from) * f64::from(k) / f64::from(4 * POINTS));
+        self.curves.push((times.map(|t| (t, value(t))).collect(), self.first_pen));
         self
     }
 
@@ -103,11 +114,17 @@ impl Panel {
         self.errors.push(at);
     }
 
-    /// The execution of a scene up to the end of the time axis: these components.
-    pub(super) fn scene<const N: usize>(
+    /// The curves that follow have the pens from this one on.
+    pub(super) fn pen(mut self, first: usize) -> Self {
+        self.first_pen = first;
+        self
+    }
+
+    /// The execution of a system up to the end of the time axis: these components.
+    pub(super) fn scene<T: HybridSystem<State = State<N>>, const N: usize>(
         mut self,
-        scene: &Scene<N>,
-        mode: u8,
+        scene: &T,
+        mode: T::Mode,
         start: State<N>,
         components: &[usize],
     ) -> Self {
@@ -131,10 +148,10 @@ impl Panel {
         self
     }
 
-    fn arc<const N: usize>(
+    fn arc<T: HybridSystem<State = State<N>>, const N: usize>(
         &mut self,
-        scene: &Scene<N>,
-        arc: &Arc<u8, u8, State<N>>,
+        scene: &T,
+        arc: &Arc<T::Mode, T::Surface, State<N>>,
         components: &[usize],
     ) {
         self.motion(scene, (arc.mode, arc.time, &arc.start), arc.duration, components);
@@ -158,14 +175,20 @@ impl Panel {
                 self.events.retain(|dot| (dot.0.0 - at.0).abs() > SAME_DOT * self.duration);
                 self.events.push((at, 1, Marker::Diamond));
             }
+            // Dots near the limit would cover each other.
+            ArcEnd::Zeno { limit, .. } => {
+                self.events
+                    .retain(|dot| (dot.0.0 - limit.time).abs() > WIDTH_OF_DOT * self.duration);
+                self.events.push(((limit.time, limit.state[components[0]]), 1, Marker::Wedge));
+            }
             _ => {}
         }
     }
 
-    fn motion<const N: usize>(
+    fn motion<T: HybridSystem<State = State<N>>, const N: usize>(
         &mut self,
-        scene: &Scene<N>,
-        (mode, time, start): (u8, f64, &State<N>),
+        scene: &T,
+        (mode, time, start): (T::Mode, f64, &State<N>),
         duration: f64,
         components: &[usize],
     ) {
@@ -177,7 +200,7 @@ impl Panel {
                 let elapsed = duration * f64::from(k) / f64::from(POINTS);
                 (time + elapsed, scene.flow(mode, start, elapsed)[component])
             };
-            self.curves.push(((0..=POINTS).map(point).collect(), pen));
+            self.curves.push(((0..=POINTS).map(point).collect(), self.first_pen + pen));
         }
     }
 

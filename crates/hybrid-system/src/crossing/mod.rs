@@ -7,6 +7,7 @@
 //! |---|---|---|
 //! | the guard as a quasi-polynomial | `quasi_polynomial_search` | bounds on g‴ and on rounding follow from the coefficients |
 //! | enclosures of g, g′, g″ | `enclosure_search` | the model's enclosures are bounds |
+//! | values along a step of an integrated flow | `ode/followed_guard` | polynomials through the values show it; an estimate, no bound |
 //! | values only | `sampled` | no guarantee between two samples |
 //!
 //! `bounded` is what a source of bounds gives, and `zero_search` the search that uses it, also along integrated flows. Where

@@ -145,9 +145,17 @@ fn between(a: f64, x: f64, b: f64) -> bool {
 /// # Ok::<(), Error>(())
 /// ```
 ///
+/// If the steps of the [`Search`] or of the [`Tolerances`] end, or the intervals of the search, the result is [`NextEvent::Unfinished`](crate::NextEvent::Unfinished)
+/// with the time and the state up to which there is no event. This is no error: a search from there goes on.
+///
 /// # Errors
-/// [`Error::Grazing`] where a guard comes within rounding of its surface; [`Error::UndecidedStart`] if rounding
-/// hides how a guard leaves a start on its surface; the errors of [`Integration`].
+/// * [`Error::Grazing`] for a touch of a guard whose [`Touch`](crate::Touch) is an error: the guard comes within rounding of its
+///   surface, and its sign is the same before and behind.
+/// * [`Error::UndecidedStart`], [`Error::UndecidedSign`] if rounding hides how a guard leaves a start on its surface.
+/// * [`Error::NotFinite`] where a guard is infinite or NaN and no event comes before; [`Error::FieldNotFinite`] where the field
+///   is, also in a mode for which the model gives no field; [`Error::StateNotFinite`] for such a start.
+/// * [`Error::Integration`] if no step is short enough for the tolerances; [`Error::BadTolerance`], [`Error::BadLimit`],
+///   [`Error::Dimension`] for tolerances, a horizon or a field that are not valid, as in [`Integration`].
 pub fn integrated_crossing<T>(
     system: &T,
     mode: T::Mode,
