@@ -312,6 +312,7 @@ fn a_stretch_of_zeros_is_crossed_at_its_end() {
             assert!(event.time_error < 5.0, "{width}: {event:?}");
         }
     }
+}
 
 /// ẋ = −1 over a floor at 0. Its events put x to `after`. The search is the library's, or sees nothing.
 struct Falling {
