@@ -30,12 +30,11 @@ mod tests {
     use hybrid_system::{ArcEnd, Execution, HybridSystem};
     use nalgebra::Vector3;
 
-    /// At large flow rates the disc comes to rest where spring and pressure balance: y₃ = y₁ + δ, q = y₁ √y₃. After some 1280 and
-    /// 188 turning points its oscillation is below the tolerance, and no more of them are found.
+    /// At large flow rates the disc comes to rest where spring and pressure balance: y₃ = y₁ + δ, q = y₁ √y₃.
     #[test]
     fn the_disc_comes_to_rest_at_large_flow_rates() {
-        for (flow_rate, count) in [(9.0, 1000), (9.9, 150)] {
-            let found = turning_points(flow_rate, count, 1).unwrap()[0];
+        for flow_rate in [9.0, 9.9] {
+            let found = turning_points(flow_rate, 1500, 1).unwrap()[0];
             assert!((found * (found + 10.0).sqrt() - flow_rate).abs() < 1e-6, "{found}");
         }
     }
