@@ -159,7 +159,7 @@ fn an_arc_whose_steps_end_is_unfinished_and_goes_on() {
         assert_eq!((execution.stop(), arc.time), (Some(Stop::Unfinished), time));
         assert!(arc.duration > 1.0);
         time = execution.time();
-        let (sin, cos) = time.sin_cos();
+        let (sin, cos) = pxfm::f_sincos(time);
         assert!((execution.state() - State::from([cos, -sin])).amax() < 1e-8, "{time}");
     }
     // A quiet arc to a late time ends.

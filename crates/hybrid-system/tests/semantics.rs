@@ -260,6 +260,21 @@ fn a_touch_can_be_ignored_and_the_execution_goes_on_behind_it() {
 }
 
 /// Slower by 1e-6 the ball stays below the ceiling by 2e-6: neither a crossing nor a touch.
+/// v²/2 = 2 at the ceiling: 2.2²/2 − 2 = 0.42 is left, and the ball arrives after 2.2 − √0.84 with the velocity √0.84.
+#[test]
+fn a_ball_that_is_faster_by_a_tenth_hits_the_ceiling() {
+    let speed = 0.84f64.sqrt();
+    for by in WAYS {
+        for scene in [CEILING, IGNORED_CEILING] {
+            let (arcs, _) = run(&scene.by(by), 0, State::from([0.0, 2.2]), 2.0, 100).unwrap();
+            assert_events(&arcs, &[(0, 2.2 - speed)], by);
+            let event = arcs[0].event().unwrap();
+            assert_eq!(event.kind, EventKind::Crossing);
+            assert!((event.before[1] - speed).abs() < error(by), "{by:?}: {}", event.before);
+        }
+    }
+}
+
 #[test]
 fn a_clear_miss_is_no_touch() {
     for by in WAYS {

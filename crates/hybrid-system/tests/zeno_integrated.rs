@@ -4,6 +4,7 @@
 
 #![cfg(feature = "ode")]
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+#![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use hybrid_system::*;
 use nalgebra::{Vector2, Vector3, Vector4};
