@@ -30,21 +30,22 @@ pub(crate) struct Delay<const C: usize> {
     pub(crate) time_error: f64,
 }
 
-/// ∂τ of an event; `None` for a touch, or a second event at one instant, that changes nothing. `by_guard` gives it for a crossing. `before` is that of the
+/// ∂τ of the event that ends an arc; `None` for a touch, or a second event at one instant, that changes nothing. `by_guard` gives it for a crossing. `before` is that of the
 /// event before.
 ///
 /// # Errors
-/// [`Error::GrazingSensitivity`] for a touch, [`Error::CornerSensitivity`] for two surfaces at one instant, and the errors of
-/// `by_guard`.
+/// [`Error::GrazingSensitivity`] for a touch, [`Error::CornerSensitivity`] for two surfaces at one instant,
+/// [`Error::NoSensitivity`] for an arc without an event, and the errors of `by_guard`.
 pub(crate) fn delay_of_event<T, const N: usize, const C: usize>(
     system: &T,
-    (arc, event): (&Arc<T::Mode, T::Surface, State<N>>, &Event<T::Mode, T::Surface, State<N>>),
+    arc: &Arc<T::Mode, T::Surface, State<N>>,
     by_guard: impl Fn() -> Result<RowSVector<f64, C>, Error>,
     before: Option<&Delay<C>>,
 ) -> Result<Option<RowSVector<f64, C>>, Error>
 where
     T: HybridSystem<State = State<N>>,
 {
+    let event = arc.event().ok_or(Error::NoSensitivity { time: arc.time })?;
     let at_once = event.kind == EventKind::AtStart
         || event.kind == EventKind::Crossing && arc.duration <= SAME_INSTANT * event.time.abs();
     // Where such an event changes nothing, its time does not matter.
@@ -63,7 +64,7 @@ where
                 return Ok(Some(*own));
             }
             if event.kind == EventKind::AtStart
-                && is_beyond(system, (arc, event), before.time_error)
+                && is_beyond(system, arc.mode, event, before.time_error)
             {
                 return Ok(Some(before.delay));
             }
@@ -79,7 +80,8 @@ where
 /// can explain.
 fn is_beyond<T, const N: usize>(
     system: &T,
-    (arc, event): (&Arc<T::Mode, T::Surface, State<N>>, &Event<T::Mode, T::Surface, State<N>>),
+    mode: T::Mode,
+    event: &Event<T::Mode, T::Surface, State<N>>,
     time_error: f64,
 ) -> bool
 where
@@ -87,7 +89,7 @@ where
 {
     let value = |state: &State<N>| system.guard_value(event.surface, state);
     let moved = system
-        .vector_field(arc.mode, &event.before)
+        .vector_field(mode, &event.before)
         .map_or(0.0, |field| value(&(event.before + field * time_error)) - value(&event.before));
     // The error counts for both events, in both directions.
     let error = guard_rounding(&event.before, &event.before, value) + 4.0 * moved.abs();

@@ -16,7 +16,7 @@
 //! with the saltation Ξ of `sensitivity`. A component p of the state with ṗ = 0 gives the same numbers: ∂x/∂p is then a
 //! block of Φ, Ξ and their products. The functions here need no such state.
 
-use crate::arc::{Arc, ArcEnd, Event};
+use crate::arc::{Arc, ArcEnd};
 use crate::crossing::EventKind;
 use crate::delay::{Delay, delay_of_event};
 use crate::error::Error;
@@ -127,7 +127,7 @@ where
     let event = last.event().filter(|event| event.after.is_some()).ok_or(none)?;
     let (change, before) = after_arcs(family, before, start)?;
     let change = along_arc(family, last, &change)?;
-    let delay = delay_at(family, last, event, &change, before.as_ref())?
+    let delay = delay_at(family, last, &change, before.as_ref())?
         .ok_or(Error::NoSensitivity { time: last.time })?;
     let field_before = field(family.system(), last.mode, &event.before)?;
     let reset = family.system().reset_jacobian(last.mode, event.surface, &event.before);
@@ -178,7 +178,7 @@ where
     else {
         return Ok((change, None));
     };
-    let Some(delay) = delay_at(family, arc, event, &change, before)? else {
+    let Some(delay) = delay_at(family, arc, &change, before)? else {
         return Ok((change, before.copied()));
     };
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
@@ -192,19 +192,19 @@ where
 fn delay_at<F, const N: usize, const P: usize>(
     family: &F,
     arc: &ArcOf<F, N, P>,
-    event: &Event<ModeOf<F, N, P>, SurfaceOf<F, N, P>, State<N>>,
     change: &SMatrix<f64, N, P>,
     before: Option<&Delay<P>>,
 ) -> Result<Option<RowSVector<f64, P>>, Error>
 where
     F: Parametric<N, P>,
 {
+    let event = arc.event().ok_or(Error::NoSensitivity { time: arc.time })?;
     if event.kind == EventKind::Clock {
         return Err(Error::ClockSensitivity { time: event.time });
     }
     let at = (event.surface, &event.before, event.time);
     let by_guard = || delay_by_guard(family, arc.mode, at, change).map(|(_, delay)| delay);
-    delay_of_event(family.system(), (arc, event), by_guard, before)
+    delay_of_event(family.system(), arc, by_guard, before)
 }
 
 /// ∂x⁻/∂p at the end of an arc: Φ ∂x₀/∂p + Π.

@@ -135,7 +135,7 @@ where
         let at = (event.surface, &event.before, event.time);
         Ok(arrival(system, arc.mode, at)?.1 * along)
     };
-    let Some(delay) = delay_of_event(system, (arc, event), by_guard, before)? else {
+    let Some(delay) = delay_of_event(system, arc, by_guard, before)? else {
         return Ok((along, before.copied()));
     };
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
@@ -167,7 +167,7 @@ where
         let at = (event.surface, &event.before, event.time);
         Ok(arrival(system, arc.mode, at)?.1 * along)
     };
-    let delay = delay_of_event(system, (arc, event), by_guard, None)?
+    let delay = delay_of_event(system, arc, by_guard, None)?
         .ok_or(Error::NoSensitivity { time: arc.time })?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // The state on the surface changes by Φδx₀ + f⁻δτ.
