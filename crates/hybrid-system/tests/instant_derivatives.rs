@@ -240,3 +240,39 @@ fn sliding_by_closures_has_the_derivatives_of_differences() {
     let found = parameter_sensitivity(&family, &arcs, &SMatrix::zeros()).unwrap();
     assert_close(&found, &by_friction);
 }
+
+/// The same by Filippov's convention. The surface depends on a parameter, the speed of the belt, and the exit on the
+/// friction.
+#[test]
+fn sliding_by_filippov_has_derivatives_by_parameters() {
+    let tolerances = Tolerances::both(1e-12);
+    let make = |[friction, speed]: [f64; 2]| {
+        let belt = Model::integrated(move |faster: bool, x: &V| {
+            [x[1], -x[0] - 0.1 * x[1] + if faster { -friction } else { friction }]
+        })
+        .tolerance(1e-12)
+        .rising(false, move |x| x[1] - speed, |x| (true, *x))
+        .falling(true, move |x| x[1] - speed, |x| (false, *x));
+        Filippov::new(belt, tolerances)
+    };
+    let (start, time, mode) = (Vector2::new(-1.0, 0.0), 7.0, FilippovMode::Free(false));
+    let parameters = [2.0, 1.0];
+    let family = Family::new(parameters, make);
+    let arcs = arcs_of(family.system(), mode, start, time);
+    let exits = arcs.iter().filter_map(Arc::event);
+    assert!(exits.filter(|e| matches!(e.surface, FilippovSurface::Tangent { .. })).count() > 0);
+    let column = |axis: usize| {
+        let end = |shift: f64| {
+            let mut parameters = parameters;
+            parameters[axis] += shift;
+            end_of(&make(parameters), mode, start, time)
+        };
+        (end(REACH) - end(-REACH)) / (2.0 * REACH)
+    };
+    let found = parameter_sensitivity(&family, &arcs, &SMatrix::zeros()).unwrap();
+    assert_close(&found, &Matrix2::from_columns(&[column(0), column(1)]));
+    // In the middle of the sliding motion the speed is that of the belt.
+    let sliding: Vec<_> = arcs_of(family.system(), mode, start, 2.0);
+    let found = parameter_sensitivity(&family, &sliding, &SMatrix::zeros()).unwrap();
+    assert!(found[(1, 0)].abs() < DIFFERENCES && (found[(1, 1)] - 1.0).abs() < DIFFERENCES);
+}
