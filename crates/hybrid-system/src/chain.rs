@@ -20,6 +20,7 @@ pub(crate) struct Chain<M, S> {
     pub(crate) events: SmallVec<[(M, S); FEW]>,
     /// How many of them, the newest, took no time at all, or only the error of their times. The others moved the time by
     /// less than the rounding of a double, as the last bounces of a ball late in time do.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub(crate) timeless: usize,
 }
 

@@ -125,10 +125,12 @@ pub(crate) struct Durations {
     /// Their errors.
     pub(crate) errors: [f64; KEPT],
     /// Number of durations pushed since the record is empty.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub(crate) count: usize,
     /// A ring of marks.
     pub(crate) marks: [Mark; MARKS],
     /// Number of marks since durations have grown for the last time.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub(crate) marked: usize,
     /// True if the newest event is a mark.
     pub(crate) fresh: bool,

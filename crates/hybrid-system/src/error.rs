@@ -206,6 +206,28 @@ pub enum Error {
         /// The rate, ∇g·f⁻.
         rate: f64,
     },
+    /// Two surfaces are reached at one instant: there is no derivative.
+    #[error(
+        "no sensitivity at time {time}: the surface {surface} is reached at the same instant as another one, and nearby \
+         orbits reach them in either order. Take the derivative from another start",
+        time = Number(*.time)
+    )]
+    CornerSensitivity {
+        /// Time of both events.
+        time: f64,
+        /// Name of the second surface.
+        surface: String,
+    },
+    /// A derivative by parameters through an event at a preset time, which may depend on the parameters.
+    #[error(
+        "no derivative by parameters through the clock at time {time}: its times may depend on them. Let time be a \
+         component of the state, and the clock a guard",
+        time = Number(*.time)
+    )]
+    ClockSensitivity {
+        /// Time of the event.
+        time: f64,
+    },
     /// A sensitivity along an arc without an event at its end, or with a flow that has no derivative.
     #[error(
         "no sensitivity along the arc from time {time}: it does not end in one event, or its flow has no derivative",

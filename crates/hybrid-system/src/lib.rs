@@ -92,7 +92,10 @@ mod checkpoint;
 #[cfg(feature = "serde")]
 mod checkpoint_writer;
 mod clock;
+#[cfg(feature = "serde")]
+mod count;
 mod crossing;
+mod delay;
 mod durations;
 mod error;
 mod execution;

@@ -17,6 +17,8 @@
 //! block of Φ, Ξ and their products. The functions here need no such state.
 
 use crate::arc::{Arc, ArcEnd};
+use crate::crossing::EventKind;
+use crate::delay::{Delay, delay_of_event};
 use crate::error::Error;
 use crate::sensitivity::{Differentiable, arrival, field, transition};
 use crate::state::State;
@@ -90,7 +92,8 @@ type ArcOf<F, const N: usize, const P: usize> = Arc<ModeOf<F, N, P>, SurfaceOf<F
 /// ```
 ///
 /// # Errors
-/// The errors of [`arc_sensitivity`](crate::arc_sensitivity).
+/// The errors of [`sensitivity`](crate::sensitivity), and [`Error::ClockSensitivity`] for a preset time, which may depend on
+/// the parameters.
 pub fn parameter_sensitivity<F, const N: usize, const P: usize>(
     family: &F,
     arcs: &[ArcOf<F, N, P>],
@@ -99,11 +102,7 @@ pub fn parameter_sensitivity<F, const N: usize, const P: usize>(
 where
     F: Parametric<N, P>,
 {
-    let mut change = *start;
-    for arc in arcs {
-        change = after_arc(family, arc, &change)?;
-    }
-    Ok(change)
+    Ok(after_arcs(family, arcs, start)?.0)
 }
 
 /// ∂x⁺/∂p and ∂τ/∂p: the derivatives of the state right after the event that ends the last of `arcs`, and of the time of
@@ -126,21 +125,41 @@ where
     };
     let none = Error::NoSensitivity { time: last.time };
     let event = last.event().filter(|event| event.after.is_some()).ok_or(none)?;
-    let change = along_arc(family, last, &parameter_sensitivity(family, before, start)?)?;
-    let at = (event.surface, &event.before, event.time);
-    let (field_before, delay) = delay(family, last.mode, at, &change)?;
+    let (change, before) = after_arcs(family, before, start)?;
+    let change = along_arc(family, last, &change)?;
+    let delay = delay_at(family, last, &change, before.as_ref())?
+        .ok_or(Error::NoSensitivity { time: last.time })?;
+    let field_before = field(family.system(), last.mode, &event.before)?;
     let reset = family.system().reset_jacobian(last.mode, event.surface, &event.before);
     let by_parameters = family.reset_by_parameters(last.mode, event.surface, &event.before);
     finite(reset * (change + field_before * delay) + by_parameters, last.time)
         .map(|state| (state, delay))
 }
 
-/// ∂x/∂p after the event of an arc, at fixed time, from that at its start.
+/// ∂x/∂p after the last of `arcs`, and the delay of its event.
+fn after_arcs<F, const N: usize, const P: usize>(
+    family: &F,
+    arcs: &[ArcOf<F, N, P>],
+    start: &SMatrix<f64, N, P>,
+) -> Result<(SMatrix<f64, N, P>, Option<Delay<P>>), Error>
+where
+    F: Parametric<N, P>,
+{
+    let (mut change, mut delay) = (*start, None);
+    for arc in arcs {
+        (change, delay) = after_arc(family, arc, &change, delay.as_ref())?;
+    }
+    Ok((change, delay))
+}
+
+/// ∂x/∂p after the event of an arc, at fixed time, from that at its start, and the delay of the event. `before` is the delay
+/// of the event before the arc.
 fn after_arc<F, const N: usize, const P: usize>(
     family: &F,
     arc: &ArcOf<F, N, P>,
     start: &SMatrix<f64, N, P>,
-) -> Result<SMatrix<f64, N, P>, Error>
+    before: Option<&Delay<P>>,
+) -> Result<(SMatrix<f64, N, P>, Option<Delay<P>>), Error>
 where
     F: Parametric<N, P>,
 {
@@ -149,21 +168,43 @@ where
     if let ArcEnd::Sliding { sliding, after: Some((mode, after)) } = &arc.end {
         // The sliding motion starts where the state is: DR = I, ∂R/∂p = 0.
         let at = (sliding.surface, &sliding.state, sliding.time);
-        let (field_before, delay) = delay(family, arc.mode, at, &change)?;
-        return finite(change - (field(system, *mode, after)? - field_before) * delay, arc.time);
+        let (field_before, delay) = delay_by_guard(family, arc.mode, at, &change)?;
+        let kink = field(system, *mode, after)? - field_before;
+        return Ok((finite(change - kink * delay, arc.time)?, None));
     }
     // An event that ends the execution has no state after it.
     let Some((event, (mode, after))) =
         arc.event().and_then(|event| event.after.map(|after| (event, after)))
     else {
-        return Ok(change);
+        return Ok((change, None));
     };
-    let at = (event.surface, &event.before, event.time);
-    let (field_before, delay) = delay(family, arc.mode, at, &change)?;
+    let Some(delay) = delay_at(family, arc, &change, before)? else {
+        return Ok((change, before.copied()));
+    };
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     let by_parameters = family.reset_by_parameters(arc.mode, event.surface, &event.before);
-    let jump = field(system, mode, &after)? - reset * field_before;
-    finite(reset * change + by_parameters - jump * delay, arc.time)
+    let jump = field(system, mode, &after)? - reset * field(system, arc.mode, &event.before)?;
+    let change = finite(reset * change + by_parameters - jump * delay, arc.time)?;
+    Ok((change, Some(Delay { delay, time_error: event.time_error })))
+}
+
+/// ∂τ/∂p of an event; `None` if it changes nothing, and needs none.
+fn delay_at<F, const N: usize, const P: usize>(
+    family: &F,
+    arc: &ArcOf<F, N, P>,
+    change: &SMatrix<f64, N, P>,
+    before: Option<&Delay<P>>,
+) -> Result<Option<RowSVector<f64, P>>, Error>
+where
+    F: Parametric<N, P>,
+{
+    let event = arc.event().ok_or(Error::NoSensitivity { time: arc.time })?;
+    if event.kind == EventKind::Clock {
+        return Err(Error::ClockSensitivity { time: event.time });
+    }
+    let at = (event.surface, &event.before, event.time);
+    let by_guard = || delay_by_guard(family, arc.mode, at, change).map(|(_, delay)| delay);
+    delay_of_event(family.system(), arc, by_guard, before)
 }
 
 /// ∂x⁻/∂p at the end of an arc: Φ ∂x₀/∂p + Π.
@@ -179,8 +220,8 @@ where
     finite(along + family.flow_by_parameters(arc.mode, &arc.start, arc.duration), arc.time)
 }
 
-/// f⁻, and ∂τ/∂p.
-fn delay<F, const N: usize, const P: usize>(
+/// f⁻, and ∂τ/∂p of a crossing.
+fn delay_by_guard<F, const N: usize, const P: usize>(
     family: &F,
     mode: ModeOf<F, N, P>,
     (surface, before, time): (SurfaceOf<F, N, P>, &State<N>, f64),

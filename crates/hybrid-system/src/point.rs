@@ -14,6 +14,7 @@ pub(crate) struct Point<M, S, X> {
     pub(crate) state: X,
     pub(crate) time: TimeSum,
     /// Number of events so far, j.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::count::read_count"))]
     pub(crate) jump: usize,
     /// False after the first arc.
     pub(crate) initial: bool,

@@ -11,6 +11,7 @@
 //! [mathematics](crate::mathematics). If the orbit only grazes the surface, ∇g·f⁻ = 0, and there is no such matrix.
 
 use crate::arc::{Arc, ArcEnd};
+use crate::delay::{Delay, delay_of_event};
 use crate::error::Error;
 use crate::state::State;
 use crate::system::HybridSystem;
@@ -92,8 +93,10 @@ const SMALLEST_RATE: f64 = 1e-12;
 /// # Ok::<(), Error>(())
 /// ```
 ///
+/// The time of a [clock](crate::Role::Clock) does not change with the start.
+///
 /// # Errors
-/// [`Error::GrazingSensitivity`] if the guard is crossed so slowly that there is no derivative;
+/// [`Error::GrazingSensitivity`] if the guard is crossed so slowly that there is no derivative, or only touches;
 /// [`Error::NoSensitivity`] for an arc that never ends or ends in a Zeno limit, and for a flow without a derivative.
 pub fn arc_sensitivity<T, const N: usize>(
     system: &T,
@@ -102,24 +105,45 @@ pub fn arc_sensitivity<T, const N: usize>(
 where
     T: Differentiable<N>,
 {
-    let along = transition(system, arc)?;
+    Ok(after_arc(system, arc, &SMatrix::identity(), None)?.0)
+}
+
+/// The change after the event that ends an arc, from the `change` at its start, and the delay of that event. `before` is the
+/// delay of the event before the arc.
+fn after_arc<T, const N: usize>(
+    system: &T,
+    arc: &Arc<T::Mode, T::Surface, State<N>>,
+    change: &SMatrix<f64, N, N>,
+    before: Option<&Delay<N>>,
+) -> Result<(SMatrix<f64, N, N>, Option<Delay<N>>), Error>
+where
+    T: Differentiable<N>,
+{
+    let along = transition(system, arc)? * change;
     if let ArcEnd::Sliding { sliding, after: Some((mode, after)) } = &arc.end {
         // The sliding motion starts where the state is: DR = I.
         let at = (sliding.surface, &sliding.state, sliding.time);
         let (field_before, arrival) = arrival(system, arc.mode, at)?;
+        let delay = arrival * along;
         let kink = field(system, *mode, after)? - field_before;
-        return Ok((SMatrix::identity() - kink * arrival) * along);
+        return Ok((along - kink * delay, None));
     }
-    let Some(event) = arc.event() else { return Ok(along) };
+    let Some(event) = arc.event() else { return Ok((along, None)) };
     // An event that ends the execution has no state after it.
-    let Some((mode, after)) = event.after else { return Ok(along) };
-    let (field_before, arrival) =
-        arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
+    let Some((mode, after)) = event.after else { return Ok((along, None)) };
+    let by_guard = || {
+        let at = (event.surface, &event.before, event.time);
+        Ok(arrival(system, arc.mode, at)?.1 * along)
+    };
+    let Some(delay) = delay_of_event(system, arc, by_guard, before)? else {
+        return Ok((along, before.copied()));
+    };
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // Ξ = DR − (f⁺ − DR f⁻) ∂τ/∂x⁻: if the orbit arrives later by δτ, it moves longer by δτ before the event and
     // shorter by δτ after it.
-    let jump = field(system, mode, &after)? - reset * field_before;
-    Ok((reset - jump * arrival) * along)
+    let jump = field(system, mode, &after)? - reset * field(system, arc.mode, &event.before)?;
+    let change = reset * along - jump * delay;
+    Ok((change, Some(Delay { delay, time_error: event.time_error })))
 }
 
 /// The matrices from a small change of the start of `arc` to the change of the state right after the event that
@@ -139,12 +163,16 @@ where
     let none = Error::NoSensitivity { time: arc.time };
     let event = arc.event().filter(|event| event.after.is_some()).ok_or(none)?;
     let along = transition(system, arc)?;
-    let (field_before, arrival) =
-        arrival(system, arc.mode, (event.surface, &event.before, event.time))?;
+    let by_guard = || {
+        let at = (event.surface, &event.before, event.time);
+        Ok(arrival(system, arc.mode, at)?.1 * along)
+    };
+    let delay = delay_of_event(system, arc, by_guard, None)?
+        .ok_or(Error::NoSensitivity { time: arc.time })?;
     let reset = system.reset_jacobian(arc.mode, event.surface, &event.before);
     // The state on the surface changes by Φδx₀ + f⁻δτ.
-    let on_surface = along + field_before * (arrival * along);
-    Ok((reset * on_surface, arrival * along))
+    let on_surface = along + field(system, arc.mode, &event.before)? * delay;
+    Ok((reset * on_surface, delay))
 }
 
 /// Φ along the whole arc.
@@ -198,8 +226,11 @@ where
 
 /// The matrix from a small change of the start of the first of `arcs` to the change at the end of the last one.
 ///
+/// An event at once after another one happens at the time of that event, however the start changes.
+///
 /// # Errors
-/// The errors of [`arc_sensitivity`].
+/// The errors of [`arc_sensitivity`], and [`Error::CornerSensitivity`] where two surfaces are reached at one instant: nearby
+/// orbits reach them one after the other, in either order.
 pub fn sensitivity<T, const N: usize>(
     system: &T,
     arcs: &[Arc<T::Mode, T::Surface, State<N>>],
@@ -207,9 +238,9 @@ pub fn sensitivity<T, const N: usize>(
 where
     T: Differentiable<N>,
 {
-    let mut product = SMatrix::identity();
+    let (mut product, mut delay) = (SMatrix::identity(), None);
     for arc in arcs {
-        product = arc_sensitivity(system, arc)? * product;
+        (product, delay) = after_arc(system, arc, &product, delay.as_ref())?;
     }
     Ok(product)
 }

@@ -186,6 +186,9 @@ pub trait HybridSystem {
     /// The start itself has been decided before: [`Search::leaving`] has the guards on whose surfaces it lies. Events at
     /// preset times are not searched here.
     ///
+    /// At the end of an arc whose certainty is `Exact` the execution checks the other guards. A state beyond one of their
+    /// surfaces is [`Error::MissedEvent`].
+    ///
     /// Default: [`default_search`].
     ///
     /// # Errors

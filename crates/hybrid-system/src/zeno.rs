@@ -52,9 +52,22 @@ pub(crate) struct History<X> {
     /// A ring of states: those after the last events, one more than the longest period has.
     pub(crate) states: [Option<X>; LONGEST_PERIOD + 1],
     /// Place of the newest state.
+    #[cfg_attr(feature = "serde", serde(deserialize_with = "read_place"))]
     pub(crate) newest: usize,
     /// Time since the newest event: the execution has stopped at limits on time since then.
     pub(crate) since_event: f64,
+}
+
+/// Reads a place in the ring of states.
+#[cfg(feature = "serde")]
+fn read_place<'de, D: serde::Deserializer<'de>>(reader: D) -> Result<usize, D::Error> {
+    let place = crate::count::read_count(reader)?;
+    if place <= LONGEST_PERIOD {
+        return Ok(place);
+    }
+    Err(serde::de::Error::custom(format!(
+        "a checkpoint with place {place} of its states is damaged"
+    )))
 }
 
 impl<X: StateVector> History<X> {

@@ -267,3 +267,43 @@ fn higher_limits_continue_and_other_stops_stay() {
     assert_eq!(execution.go_on(Limits::new(100.0, 9)).count(), 0);
     assert_eq!(execution.stop(), Some(Stop::Terminal));
 }
+
+/// Every number of a file in turn is replaced by other ones: the reader refuses the file, or the execution goes on or ends
+/// with an error.
+#[test]
+fn a_damaged_checkpoint_does_not_panic() {
+    let ball = Model::integrated(|(), x: &DVector<f64>| DVector::from_vec(vec![x[1], -1.0]))
+        .falling((), |x| x[0], |x| ((), vec![0.0, -0.5 * x[1]]));
+    let mut execution = ball.run((), vec![0.5, 0.0], 10.0);
+    for _ in 0..5 {
+        execution.next();
+    }
+    let text = serde_json::to_string(&execution.checkpoint()).unwrap();
+    let numbers = |text: &str| {
+        let starts = text.char_indices().filter(|(at, c)| {
+            (c.is_ascii_digit() || *c == '-') && "[,:".contains(&text[at - 1..*at])
+        });
+        starts.map(|(at, _)| at).collect::<Vec<_>>()
+    };
+    let (mut refused, mut read) = (0, 0);
+    for at in numbers(&text) {
+        let end = at + text[at..].find([',', ']', '}']).unwrap();
+        for other in ["0", "7", "-1.5", "1e308", "18446744073709551615", "-5e-324"] {
+            let damaged = format!("{}{other}{}", &text[..at], &text[end..]);
+            let Ok(checkpoint) = serde_json::from_str(&damaged) else {
+                refused += 1;
+                continue;
+            };
+            let limits = Limits { steps: 1000, ..Limits::new(10.0, usize::MAX) };
+            let arcs = Execution::restore(&ball, checkpoint, limits).take(20);
+            read += usize::from(arcs.count() <= 20);
+        }
+    }
+    assert!(refused > 20 && read > 500, "{refused} {read}");
+    // A state of another dimension than that of the model.
+    let other = Model::integrated(|(), x: &DVector<f64>| DVector::from_vec(vec![x[1], -1.0, 0.0]))
+        .falling((), |x| x[0], |x| ((), vec![0.0, -x[1], 0.0]));
+    let checkpoint = serde_json::from_str(&text).unwrap();
+    let first = Execution::restore(&other, checkpoint, Limits::new(10.0, 100)).next().unwrap();
+    assert!(matches!(first, Err(Error::Dimension { expected: 2, found: 3, .. })), "{first:?}");
+}

@@ -5,13 +5,15 @@
 //! (`continued`). Each part has a type of its own, and a model contains the nested pairs of its parts (`part`). The
 //! compiler therefore sees every closure: no call goes through a pointer. `guard_lists`
 //! has the guards of each mode. `system` implements [`HybridSystem`](crate::HybridSystem), `derivatives` and
-//! `integrated_derivatives` [`Differentiable`](crate::Differentiable); `family` and `integrated_family` have derivatives by
-//! parameters.
+//! `integrated_derivatives` [`Differentiable`](crate::Differentiable); `family`, `integrated_family` and `filippov_family`
+//! have derivatives by parameters.
 
 mod bounds;
 mod continued;
 mod derivatives;
 mod family;
+#[cfg(feature = "ode")]
+mod filippov_family;
 mod guard_lists;
 mod guarded;
 #[cfg(feature = "ode")]

@@ -81,7 +81,8 @@ use std::marker::PhantomData;
 /// [`Error::SurfaceTwice`](crate::Error::SurfaceTwice). Guards of different modes may have the same surface if their
 /// functions are the same. They are compared at the initial state and beside it, and a difference is
 /// [`Error::TwoGuardFunctions`](crate::Error::TwoGuardFunctions). A signal or an enclosure of a surface that no guard has is
-/// [`Error::NoSuchGuard`](crate::Error::NoSuchGuard). A mode without guards is allowed: its arcs end at the limit on time.
+/// [`Error::NoSuchGuard`](crate::Error::NoSuchGuard), and a [`Guard::clock`] with a function is
+/// [`Error::ClockWithoutTimes`](crate::Error::ClockWithoutTimes). A mode without guards is allowed: its arcs end at the limit on time.
 #[derive(Debug, Clone)]
 #[must_use]
 pub struct Model<M, S, X, F, P = ()> {

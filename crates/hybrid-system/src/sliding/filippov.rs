@@ -1,7 +1,7 @@
 //! A system that slides along its surfaces, by Filippov's convention.
 
 use super::directional::slope_along;
-use super::filippov_modes::GuardTable;
+use super::filippov_modes::{FilippovMode, GuardTable};
 use super::projection::onto_surface;
 use super::sliding_field::sliding_field;
 use crate::crossing::guard_rounding;
@@ -114,6 +114,25 @@ impl<T: HybridSystem> Filippov<T> {
     /// The model.
     pub fn system(&self) -> &T {
         &self.system
+    }
+
+    /// The tolerances of the sliding motion.
+    pub(crate) const fn tolerances(&self) -> Tolerances {
+        self.tolerances
+    }
+
+    /// The field of a mode, as a formula of the state. The field that is integrated along a surface leads back to it.
+    pub(crate) fn field_without_projection(
+        &self,
+        mode: FilippovMode<T::Mode, T::Surface>,
+        state: &T::State,
+    ) -> Option<T::State> {
+        match mode {
+            FilippovMode::Free(mode) => self.system.vector_field(mode, state),
+            FilippovMode::Sliding { surface, below, above, .. } => {
+                self.field_at(&Sides { surface, below, above }, state)
+            }
+        }
     }
 
     /// ∇g·f.
