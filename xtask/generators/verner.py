@@ -1,4 +1,4 @@
-"""Verner's Runge-Kutta pairs 9(8), 8(7) and 6(5) with interpolants, polished on the order conditions.
+"""Verner's Runge-Kutta pairs 9(8) and 6(5) with interpolants, polished on the order conditions.
 
 verner_published.json has the digits of Verner's pages, rounded to doubles. Published numbers of at most EXACT digits
 are parameters of the families and are kept. Newton's method moves all others to a solution next to them. The result is
@@ -41,7 +41,7 @@ SOURCES = ROOT / "crates" / "hybrid-system" / "src" / "ode" / "schemes"
 OUT = ROOT / "target" / "regenerate"
 # Published name, the higher order, the order of the interpolant, `kink_ratio` (schemes/scheme.rs; a test compares it
 # with the weights), the file.
-PAIRS = (("9(8)", 9, 8, 5, "nine.rs"), ("8(7)", 8, 8, 128, "eight.rs"), ("6(5)", 6, 6, 8, "six.rs"))
+PAIRS = (("9(8)", 9, 8, 5, "nine.rs"), ("6(5)", 6, 6, 8, "six.rs"))
 HEADER = """\
 //! J. H. Verner's "efficient" pair of orders {orders}: {stages} stages, and {more} more for its interpolant of order {inside}.
 //!

@@ -200,13 +200,13 @@ fn integral(t: f64) -> f64 {
     2.0 * half_waves + 1.0 - (t - half_waves * PI).cos()
 }
 
-/// x = ∫|sin(t + p)|: the field has a kink at each zero of the sine. At 1e-10 the pair 8(7) misses some kinks: the
-/// documentation of `Tolerances` has the measured errors, and the remedy is tested below.
+/// The tolerances of the table in the documentation of `Tolerances`, without the first.
+const TOLERANCES_AT_KINKS: [f64; 7] = [1e-6, 1e-8, 1e-9, 3e-10, 1e-10, 3e-11, 1e-12];
+
+/// x = ∫|sin(t + p)|: the field has a kink at each zero of the sine. The largest of the errors is 10.5 times the tolerance.
 #[test]
-fn errors_at_a_hidden_kink_are_ten_times_the_tolerance_or_thirty_with_the_pair_of_order_eight() {
-    for (tolerance, most) in
-        [(1e-6, 10.0), (1e-8, 10.0), (1e-9, 10.0), (1e-10, 30.0), (1e-12, 10.0)]
-    {
+fn errors_at_a_hidden_kink_are_about_ten_times_the_tolerance_at_most() {
+    for tolerance in TOLERANCES_AT_KINKS {
         for place in 0..200 {
             let phase = 0.3 + 0.0137 * f64::from(place);
             let start = Vector3::new(0.0, phase.sin(), phase.cos());
@@ -214,7 +214,36 @@ fn errors_at_a_hidden_kink_are_ten_times_the_tolerance_or_thirty_with_the_pair_o
             let run = Integration::new(field, &start, Tolerances::both(tolerance)).unwrap();
             let last = finish(run.until(3.0).unwrap()).unwrap();
             let error = (last[0] - (integral(3.0 + phase) - integral(phase))).abs();
-            assert!(error < most * tolerance, "{tolerance:e} {phase}: {error:e}");
+            assert!(error < 11.0 * tolerance, "{tolerance:e} {phase}: {error:e}");
+        }
+    }
+}
+
+/// A ball falls on a soft floor, with the force 30 (−x)^1.5 during the contact, and rises again. Where the contact is a
+/// surface, the errors stay near the tolerance; where it is hidden, they are up to 100 times as large.
+#[test]
+fn a_soft_contact_costs_digits_unless_it_is_a_surface() {
+    let force = |x: f64| 30.0 * (-x).max(0.0).powf(1.5);
+    let watched = |tolerance| {
+        Model::integrated(move |(), x: &State<2>| [x[1], force(x[0]) - 1.0])
+            .tolerance(tolerance)
+            .observer(Guard::either(0), |x: &State<2>| x[0])
+    };
+    let hidden = |_: f64, x: &Vector2<f64>| Vector2::new(x[1], force(x[0]) - 1.0);
+    for place in 0..200 {
+        let start = [0.5 + 0.0041 * f64::from(place), 0.0];
+        let with_surface = |tolerance| {
+            let model = watched(tolerance);
+            let last = model.run((), start, 3.0).last().unwrap().unwrap();
+            last.state(&model, last.duration).unwrap()
+        };
+        let exact = with_surface(1e-13);
+        for tolerance in TOLERANCES_AT_KINKS {
+            let error = (with_surface(tolerance) - exact).amax();
+            assert!(error < 7.0 * tolerance, "{tolerance:e} {start:?}: {error:e}");
+            let run = Integration::new(hidden, &start.into(), Tolerances::both(tolerance)).unwrap();
+            let error = (finish(run.until(3.0).unwrap()).unwrap() - exact).amax();
+            assert!(error < 100.0 * tolerance, "{tolerance:e} {start:?}: {error:e}");
         }
     }
 }

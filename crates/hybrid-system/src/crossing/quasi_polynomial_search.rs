@@ -164,8 +164,17 @@ impl Bounded for BoundedQuasiPolynomial<'_> {
         let middle = left + 0.5 * (right - left);
         let radius = (right - middle).max(middle - left) * (1.0 + RADIUS_MARGIN);
         let [value, slope, bend] = self.layers.values(0, middle);
-        let [of_value, of_slope, of_bend, third] = self.layers.sizes(0, left, right);
         let value = value - level;
+        // Without the bounds on roundings and on g‴ each condition below holds more easily. Most intervals are too long, and
+        // fail already here.
+        let least_reach = (slope.abs() + 0.5 * bend.abs() * radius) * radius;
+        if !(value.abs() > least_reach || slope.abs() > bend.abs() * radius) {
+            let [Size { rounding, .. }] = self.layers.sizes(0, left, right);
+            if !(value.abs() <= rounding && least_reach <= HIDDEN * rounding) {
+                return Ok(ZeroTest::Undecided);
+            }
+        }
+        let [of_value, of_slope, of_bend, third] = self.layers.sizes(0, left, right);
         let bend = bend.abs() + of_bend.rounding;
         let turn = (bend + 0.5 * third.bound * radius) * radius + of_slope.rounding;
         let half_turn = (0.5 * bend + third.bound * radius / 6.0) * radius + of_slope.rounding;

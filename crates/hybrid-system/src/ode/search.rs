@@ -20,9 +20,8 @@ const GUARDS_ON_STACK: usize = 8;
 
 /// Rounding error of an interpolant, in units of that of the largest state on its step. The value is an estimate, not
 /// derived: with the factors of `guard_rounding` it is 6·10⁻¹⁴ of the state. Measured on the problem of `schemes`, steps of
-/// 1/16 and 1/32: the pair 9(8) is wrong by 2·10⁻¹⁶, the pair 8(7) by 10⁻¹³. So rounding can exceed the estimate with the
-/// pair 8(7). That pair is used at tolerances from 2·10⁻¹¹ on, where the flow itself is known less well. If the value is
-/// too small, rounding is taken for a crossing; if it is too large, touches are reported too early.
+/// 1/16 and 1/32: the pair 9(8) is wrong by 2·10⁻¹⁶. If the value is too small, rounding is taken for a crossing; if it is
+/// too large, touches are reported too early.
 const INTERPOLANT_ROUNDING: f64 = 64.0;
 
 /// If rounding hides the guard at a time on the first step, and this multiple of the time is shorter than the step, the

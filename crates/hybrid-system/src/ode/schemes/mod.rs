@@ -1,12 +1,11 @@
 //! Which Runge–Kutta scheme takes the steps?
 //!
-//! [`scheme_for`] chooses between J. H. Verner's "efficient" pairs of orders 9(8) (`nine`) and 8(7) (`eight`), both with
-//! interpolants of order 8, and 6(5) (`six`), with one of order 6. `scheme` is the layout of their coefficients. The coefficients are not copied: they are
-//! Verner's published digits, polished on the order conditions with 120 digits (`xtask/generators/verner.py`).
+//! [`scheme_for`] chooses between J. H. Verner's "efficient" pairs of orders 9(8) (`nine`), with an interpolant of order 8,
+//! and 6(5) (`six`), with one of order 6. `scheme` is the layout of their coefficients. The coefficients are not copied:
+//! they are Verner's published digits, polished on the order conditions with 120 digits (`xtask/generators/verner.py`).
 //!
 //! # Rounding
-//! The weights of the pair 8(7) reach 15 000, and its rows 84. They are of both signs and cancel. Sums of slopes are
-//! therefore computed from differences, with Σⱼ aᵢⱼ = cᵢ and Σ bᵢ = 1:
+//! Sums of slopes are computed from differences, with Σⱼ aᵢⱼ = cᵢ and Σ bᵢ = 1:
 //!
 //! ```text
 //!   Σⱼ aᵢⱼ kⱼ = cᵢ k₀ + Σ aᵢⱼ (kⱼ − k₀)        Σ bᵢ kᵢ = k₀ + Σ bᵢ (kᵢ − k₀)        i, j ≥ 1
@@ -18,18 +17,6 @@
 //!
 //! More digits of the other factors would not help. A factor rounded to the nearest double is wrong by at most ε/2 of
 //! itself, ε = 2⁻⁵², and its product with a difference is rounded by as much.
-//!
-//! Measured on ẋ = xy, (y, z)˙ = (z, −y), x = exp(sin t), by equal steps from 0 to 8, the error of the pair 8(7):
-//!
-//! | steps | plain sums | sums of differences | exact arithmetic |
-//! |---:|---:|---:|---:|
-//! | 64 | 1e-10 | 4e-12 | 2e-13 |
-//! | 128 | 7e-11 | 2e-12 | 3e-16 |
-//! | 512 | 2e-11 | 1e-12 | 1e-21 |
-//!
-//! The remainder is the rounding of the slopes themselves, ε/2 Σ|bᵢ| = 3·10⁻¹² of a step's change. The pair 9(8) has
-//! weights near 1, and no such error.
-mod eight;
 mod nine;
 #[cfg(test)]
 mod order_tests;

@@ -24,8 +24,7 @@ pub(in crate::ode) struct Scheme {
     /// estimate, and h Σ wᵢ kᵢ with these weights: bᵢ minus the weights of least squares of a quadrature of degree three.
     ///
     /// For ẋ = max(0, t − θ) all these sums are h² times a function of the place of the kink in the step. The error itself
-    /// is up to 1000 times the usual estimate with the pair 8(7), at half of the places more than 44 times. It is at most
-    /// six times the estimate for kinks.
+    /// can be much larger than the usual estimate. It is at most six times the estimate for kinks.
     pub(in crate::ode) kinks: &'static [f64],
     pub(in crate::ode) kink_ratio: f64,
     /// cᵢ: stage i is at time t + cᵢ h.
