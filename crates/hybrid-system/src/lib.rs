@@ -132,12 +132,7 @@ pub use error::Error;
 pub use execution::Execution;
 pub use guard::{Direction, Guard, Role, Touch};
 pub use limits::{Limits, Stop};
-#[cfg(feature = "ode")]
-pub use model::Integrated;
-pub use model::{
-    Bounds, Clock, ClosedForm, Family, Field, Jump, JumpEverywhere, Model, Motion, Outcome, Part,
-    Rest, Signal, Slide, Terminal, Watch,
-};
+pub use model::{Family, Model};
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
@@ -153,6 +148,17 @@ pub use state::{State, StateVector};
 pub use system::{HybridSystem, Reset, default_search};
 pub use trajectory::{EventColumns, Trajectory};
 pub use zeno::ZenoLimit;
+
+/// The parts of a [`Model`]: each method of it adds one. A type of a model is seldom written, and `impl HybridSystem` or a
+/// generic parameter does.
+pub mod model_parts {
+    #[cfg(feature = "ode")]
+    pub use crate::model::Integrated;
+    pub use crate::model::{
+        Bounds, Clock, ClosedForm, Field, Jump, JumpEverywhere, Motion, Outcome, Part, Rest,
+        Signal, Slide, Terminal, Watch,
+    };
+}
 
 #[doc = include_str!("../docs/mathematics.md")]
 pub mod mathematics {}

@@ -4,6 +4,7 @@
 #![allow(clippy::type_complexity)] // the type of a model contains the types of its closures
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use hybrid_system::model_parts::{Integrated, Part};
 use hybrid_system::*;
 use nalgebra::{Matrix1x2, RowVector2, SMatrix, Vector2};
 
