@@ -24,6 +24,11 @@ const LEFT_ZERO: f64 = 16.0;
 /// is looked at this often at least.
 const NODE_DISTANCE: f64 = 0.098;
 
+/// Rounding may be the reason why a test of an interval fails if the values are below this many times their error: the test of
+/// the slope multiplies the error by 1240. Larger values fail for another reason, and the error of the interval alone,
+/// which takes some evaluations, is not computed.
+const NOISE_MATTERS: f64 = 1e5;
+
 /// Most intervals at a start on the surface: 53 halvings to the rounding of the time, and as many steps back. A guard that
 /// shows no side then is hidden.
 const MOST_INTERVALS: usize = 128;
@@ -111,7 +116,8 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<A, R> {
         };
         let mut error = self.error();
         let mut found = zero_test(&values, error);
-        if matches!(found, ZeroTest::Undecided | ZeroTest::Hidden) {
+        let undecided = matches!(found, ZeroTest::Undecided | ZeroTest::Hidden);
+        if undecided && largest(&values) <= NOISE_MATTERS * error {
             error = self.error_on(left, right);
             found = zero_test(&values, error);
         }
