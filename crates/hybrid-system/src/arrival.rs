@@ -1,6 +1,6 @@
 //! How the state came to the start of an arc: by a crossing, whose time has an error.
 
-use crate::crossing::{GuardedFlow, guard_rate, guard_rounding};
+use crate::crossing::{GuardedFlow, guard_rate};
 use crate::guard::{Direction, Guard, Role};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
@@ -62,7 +62,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         let others = arc.guards().iter().filter(both_ways);
         for guard in others.filter(|guard| Some(guard.surface) != surface) {
             let value = |state: &X| arc.guard_value(guard.surface, state);
-            let rounding = guard_rounding(before, before, value);
+            let rounding = arc.rounding_at(guard.surface, before);
             if !(value(before).abs() <= arrival.change(arc.system, guard.surface) + rounding)
                 || arrival.has_stayed(arc, guard.surface)
             {

@@ -9,7 +9,7 @@
 //! | a touch | none: nearby orbits miss the surface. An event that changes nothing needs none |
 
 use crate::arc::{Arc, Event};
-use crate::crossing::{EventKind, guard_rounding};
+use crate::crossing::{EventKind, stated_or_measured};
 use crate::error::Error;
 use crate::state::State;
 use crate::system::HybridSystem;
@@ -92,6 +92,7 @@ where
         .vector_field(mode, &event.before)
         .map_or(0.0, |field| value(&(event.before + field * time_error)) - value(&event.before));
     // The error counts for both events, in both directions.
-    let error = guard_rounding(&event.before, &event.before, value) + 4.0 * moved.abs();
+    let stated = system.guard_error(event.surface, &event.before);
+    let error = stated_or_measured(stated, &event.before, value) + 4.0 * moved.abs();
     value(&event.before).abs() > error
 }

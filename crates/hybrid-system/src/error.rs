@@ -33,6 +33,22 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
+    /// The bounds that a model gives on a guard do not hold at the start of an arc: they are those of another function.
+    #[error(
+        "the signal or the enclosure of guard {surface} says that it lies between {low} and {high} at the start, and its value \
+         is {value}: give the bounds of the guard's own function",
+        value = Number(*.value), low = Number(*.low), high = Number(*.high)
+    )]
+    WrongBounds {
+        /// The guard's surface.
+        surface: String,
+        /// The value of the guard at the start.
+        value: f64,
+        /// The lower bound there.
+        low: f64,
+        /// The upper bound.
+        high: f64,
+    },
     /// A derivative of a quasi-polynomial overflows, and with it the bounds of the search.
     #[error(
         "a derivative of the quasi-polynomial overflows up to time {horizon}: multiply the function by a small number, \

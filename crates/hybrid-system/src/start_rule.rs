@@ -18,10 +18,7 @@
 //! event lets the state pass through, that is an event. No crossing is lost between two resets.
 
 use crate::arrival::Arrival;
-use crate::crossing::{
-    Certainty, Departure, GuardedFlow, Leaving, departure, guard_rounding, is_far,
-    rounding_of_state,
-};
+use crate::crossing::{Certainty, Departure, GuardedFlow, Leaving, departure, is_far};
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role};
 use crate::residues::Residues;
@@ -81,7 +78,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         if !beyond && reached.is_none() && !crossed && residue == 0.0 && far() {
             continue;
         }
-        let rounding = rounding_at_start(flow, surface, now);
+        let rounding = flow.rounding_at(surface, flow.start);
         // An exact zero, to which a reset has moved the state, has no error by time.
         let by_time = arrival
             .filter(|_| now != 0.0)
@@ -128,15 +125,4 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         }
     }
     Ok(Start::Flows)
-}
-
-/// The rounding error of a guard, whose value is `now`, at the start of a flow.
-fn rounding_at_start<T: HybridSystem>(flow: &FlowFrom<T>, surface: T::Surface, now: f64) -> f64 {
-    let value = |state: &T::State| flow.guard_value(surface, state);
-    match flow.guard_error(surface, flow.start) {
-        // The operations that give an exact zero have not rounded.
-        _ if now == 0.0 => rounding_of_state(flow.start, flow.start, value),
-        Some(stated) => rounding_of_state(flow.start, flow.start, value) + stated,
-        None => guard_rounding(flow.start, flow.start, value),
-    }
 }

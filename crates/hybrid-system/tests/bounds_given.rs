@@ -176,3 +176,30 @@ fn the_elastic_ball_of_drake_needs_no_sampling() {
     let end = arcs[11].state(&Elastic, arcs[11].duration).unwrap();
     assert!((end - Vector2::new(0.978_321_975_404_437_9, -0.652_167_802_459_556_2)).amax() < 1e-12);
 }
+
+/// x falls from 1 at the rate 1 over a guard at 0. The bounds given are those of another function.
+#[test]
+fn bounds_of_another_function_are_an_error_at_the_start() {
+    let falling = || {
+        Model::closed_form(|(), x: &State<1>, t| [x[0] - t])
+            .terminal((), Guard::falling(0), |x| x[0])
+    };
+    let shifted = |(), x: &State<1>| Some(QuasiPolynomial::polynomial(&[x[0] + 7.0, -1.0]));
+    let error = falling().signal(0, shifted).run((), [1.0], 20.0).next().unwrap().unwrap_err();
+    assert!(matches!(error, Error::WrongBounds { .. }), "{error}");
+    let far = |(), _: &State<1>, _, _| Some(Enclosure { low: 5.0, high: 6.0 });
+    let error = falling().enclosure(0, far).run((), [1.0], 20.0).next().unwrap().unwrap_err();
+    assert!(matches!(error, Error::WrongBounds { value: 1.0, low: 5.0, high: 6.0, .. }), "{error}");
+    // A signal that has lost digits next to its zero is right: 10 cos(t + φ) with x = 10 cos φ near 0.
+    let phase = std::f64::consts::FRAC_PI_2 - 1e-14;
+    let swing = Model::closed_form(|(), x: &State<2>, t: f64| {
+        [x[0] * t.cos() + x[1] * t.sin(), x[1] * t.cos() - x[0] * t.sin()]
+    })
+    .terminal((), Guard::falling(0), |x| x[0])
+    .signal(0, move |(), _| {
+        let (sine, cosine) = phase.sin_cos();
+        Some(QuasiPolynomial::cosine(10.0 * cosine, 1.0) - QuasiPolynomial::sine(10.0 * sine, 1.0))
+    });
+    let arc = swing.run((), [1e-13, -10.0], 20.0).next().unwrap().unwrap();
+    assert!(arc.event().unwrap().time < 1e-13);
+}

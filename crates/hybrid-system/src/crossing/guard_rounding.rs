@@ -66,6 +66,18 @@ pub(crate) fn guard_rounding<X: StateVector>(
     if sum.is_finite() { sum } else { 0.0 }
 }
 
+/// The same, with the error of the guard's own operations as the model has `stated` it, if it has.
+pub(crate) fn stated_or_measured<X: StateVector>(
+    stated: Option<f64>,
+    state: &X,
+    guard: impl Fn(&X) -> f64,
+) -> f64 {
+    match stated {
+        Some(stated) => rounding_of_state(state, state, guard) + stated,
+        None => guard_rounding(state, state, guard),
+    }
+}
+
 /// An estimate of the error of `guard` at `state` by the rounding of the state. The components of `size` are |state| for a
 /// state that is given, and larger for a state that was computed from larger numbers.
 pub(crate) fn rounding_of_state<X: StateVector>(
@@ -94,10 +106,7 @@ pub(crate) fn side_of_surface<X: StateVector>(
     }
     let far = stated.is_none_or(|stated| stated < value.abs())
         && is_far(state, state.largest(), value, &guard);
-    let rounding = || match stated {
-        Some(stated) => rounding_of_state(state, state, &guard) + stated,
-        None => guard_rounding(state, state, &guard),
-    };
+    let rounding = || stated_or_measured(stated, state, &guard);
     (far || value.abs() > rounding()).then(|| value.signum())
 }
 
@@ -112,13 +121,23 @@ pub(crate) fn is_far<X: StateVector>(
     value: f64,
     guard: impl Fn(&X) -> f64,
 ) -> bool {
+    value != 0.0 && FAR_MOVE * range(state, size, value, guard) <= FAR * value.abs()
+}
+
+/// The size of the values of a guard among states of this size, by its change over a small part of that.
+pub(crate) fn range<X: StateVector>(
+    state: &X,
+    size: f64,
+    value: f64,
+    guard: impl Fn(&X) -> f64,
+) -> f64 {
     let reach = FAR_MOVE * size;
     let moved = state.filled(|axis| state.components()[axis] + reach * spread(axis));
-    value != 0.0 && (guard(&moved) - value).abs() <= FAR * value.abs()
+    (guard(&moved) - value).abs() / FAR_MOVE
 }
 
 /// A number from ½ to 3/2, different for each component: ½ and the fractional part of axis/golden ratio.
-fn spread(axis: usize) -> f64 {
+pub(crate) fn spread(axis: usize) -> f64 {
     /// 2³² divided by the golden ratio.
     const MULTIPLIER: u32 = 0x9e37_79b9;
     let fraction = (axis as u32).wrapping_mul(MULTIPLIER);

@@ -1,7 +1,7 @@
 //! The part of a model that a search for crossings needs: one flow, and the guards along it.
 
 use super::enclosure::Enclosure;
-use super::guard_rounding::{guard_rounding, rounding_of_state};
+use super::guard_rounding::{rounding_of_state, stated_or_measured};
 use super::quasi_polynomial::QuasiPolynomial;
 use crate::guard::Guard;
 use crate::state::StateVector;
@@ -49,11 +49,10 @@ pub(crate) trait GuardedFlow {
     /// they show it. The operations that give an exact zero have not rounded.
     fn rounding_at(&self, surface: Self::Surface, state: &Self::State) -> f64 {
         let value = |state: &Self::State| self.guard_value(surface, state);
-        match self.guard_error(surface, state) {
-            _ if value(state) == 0.0 => rounding_of_state(state, state, value),
-            Some(stated) => rounding_of_state(state, state, value) + stated,
-            None => guard_rounding(state, state, value),
+        if value(state) == 0.0 {
+            return rounding_of_state(state, state, value);
         }
+        stated_or_measured(self.guard_error(surface, state), state, value)
     }
 
     /// g(φ(t; x₀)).

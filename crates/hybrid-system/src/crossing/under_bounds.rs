@@ -1,9 +1,10 @@
 //! One guard for which the model gives bounds.
 
 use super::bounded::Bounded;
+use super::enclosure::Enclosure;
 use super::enclosure_search::EnclosedGuard;
 use super::found::Found;
-use super::guard_rounding::is_far;
+use super::guard_rounding::{is_far, range};
 use super::guarded_flow::GuardedFlow;
 use super::one_guard::OneGuard;
 use super::quasi_polynomial_search::BoundedQuasiPolynomial;
@@ -48,6 +49,29 @@ pub(crate) fn event_under_bounds<F: GuardedFlow>(
     first_event(flow, guard, search, &EnclosedGuard { value, enclosure }, until).map(Some)
 }
 
+/// The bounds at the start and the value of the guard there may differ by this part of the guard's size: a model may compute
+/// both in different ways. A larger number would let more wrong bounds pass; a smaller one would refuse models that lose
+/// digits.
+const AGREEMENT: f64 = 1e-6;
+
+/// An error if the bounds at the start do not contain the value of the guard. Wrong bounds elsewhere are not seen.
+fn check_bounds_at_start<F: GuardedFlow>(
+    flow: &F,
+    surface: F::Surface,
+    Enclosure { low, high }: Enclosure,
+) -> Result<(), Error> {
+    let (start, guard) = (flow.start(), |state: &F::State| flow.guard_value(surface, state));
+    let value = guard(start);
+    let outside = (low - value).max(value - high);
+    if outside > AGREEMENT * value.abs()
+        && outside > AGREEMENT * range(start, start.largest(), value, guard)
+    {
+        let surface = format!("{surface:?}");
+        return Err(Error::WrongBounds { surface, value, low, high });
+    }
+    Ok(())
+}
+
 fn first_event<F: GuardedFlow>(
     flow: &F,
     guard: Guard<F::Surface>,
@@ -57,6 +81,7 @@ fn first_event<F: GuardedFlow>(
 ) -> Result<OneGuard, Error> {
     let Guard { surface, direction, touch, .. } = guard;
     let (at_start, start) = (bounded.at(0.0)?, flow.start());
+    check_bounds_at_start(flow, surface, at_start)?;
     let leaving = search.side(surface);
     // The usual case, a guard far from its surface, needs no estimate of the rounding of the state.
     let far = || {

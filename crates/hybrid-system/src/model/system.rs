@@ -3,7 +3,7 @@
 use super::model::Model;
 use super::motion::Motion;
 use super::part::Part;
-use crate::crossing::{Enclosure, NextEvent, QuasiPolynomial, Search};
+use crate::crossing::{Enclosure, NextEvent, QuasiPolynomial, Search, spread};
 use crate::error::Error;
 use crate::guard::Guard;
 use crate::sliding::Sliding;
@@ -118,11 +118,7 @@ where
     }
 }
 
-/// The fractional parts of the multiples of the golden ratio: the components of a state are moved by different parts, so
-/// that no sum or difference of them keeps its value.
-const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
-
-/// A component is moved by up to this part of its size. A larger number could leave the region in which the guards are
+/// A component is moved by about this part of its size, each by another one. A larger number could leave the region in which the guards are
 /// defined; a smaller one would lose digits of the difference.
 const BESIDE: f64 = 1.0 / 64.0;
 
@@ -130,6 +126,6 @@ const BESIDE: f64 = 1.0 / 64.0;
 fn beside<X: StateVector>(state: &X) -> X {
     state.filled(|axis| {
         let component = state.components()[axis];
-        component + BESIDE * (1.0 + component.abs()) * ((axis + 1) as f64 * GOLDEN_RATIO).fract()
+        component + BESIDE * (1.0 + component.abs()) * spread(axis)
     })
 }

@@ -7,7 +7,7 @@ use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
     Certainty, Crossing, EventKind, Found, NextEvent, Search, ZeroSearch, guard_rate,
-    guard_rounding, rounding_of_state, side_of_surface, sooner,
+    rounding_of_state, side_of_surface, sooner, stated_or_measured,
 };
 use crate::error::Error;
 use crate::guard::{Guard, Role, Touch};
@@ -200,11 +200,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             Some(side) if known.is_none() => ZeroSearch::on_side(direction, 0.0, side),
             _ => {
                 // An exact zero has no error of its own.
-                let error = match stated {
-                    _ if value == 0.0 => 0.0,
-                    Some(stated) => rounding_of_state(start, start, along) + stated,
-                    None => guard_rounding(start, start, along),
-                };
+                let error =
+                    if value == 0.0 { 0.0 } else { stated_or_measured(stated, start, along) };
                 let side = known.or_else(|| guard_rate(start, rate, error, along).map(f64::signum));
                 ZeroSearch::leaving(direction, (0.0, value), error, side)
             }

@@ -14,7 +14,7 @@
 use super::rates::guard_rates;
 use super::sliding_field::sliding_field;
 use super::sliding_point::Sliding;
-use crate::crossing::guard_rounding;
+use crate::crossing::stated_or_measured;
 use crate::guard::{Direction, Role};
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
@@ -151,9 +151,9 @@ fn is_on_surface<T: HybridSystem>(
 }
 
 /// The rounding error of a guard, from its state and from its own arithmetic.
-fn rounding<T: HybridSystem>(system: &T, surface: T::Surface, state: &T::State) -> f64 {
-    guard_rounding(state, state, |state| system.guard_value(surface, state))
-        + system.guard_error(surface, state).unwrap_or_default()
+pub(super) fn rounding<T: HybridSystem>(system: &T, surface: T::Surface, state: &T::State) -> f64 {
+    let guard = |state: &T::State| system.guard_value(surface, state);
+    stated_or_measured(system.guard_error(surface, state), state, guard)
 }
 
 /// The factor c of ∇g = c ∇h for the guards g of `surface` and h of `other`, if the two are the same surface near

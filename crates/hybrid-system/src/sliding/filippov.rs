@@ -1,5 +1,6 @@
 //! A system that slides along its surfaces, by Filippov's convention.
 
+use super::detection::rounding;
 use super::directional::slope_along;
 use super::filippov_modes::{FilippovMode, GuardTable};
 use super::projection::onto_surface;
@@ -165,9 +166,7 @@ impl<T: HybridSystem> Filippov<T> {
 
     /// The rounding error of a guard of the model at a state.
     pub(super) fn rounding(&self, surface: T::Surface, state: &T::State) -> f64 {
-        let guard = |state: &T::State| self.system.guard_value(surface, state);
-        guard_rounding(state, state, guard)
-            + self.system.guard_error(surface, state).unwrap_or_default()
+        rounding(&self.system, surface, state)
     }
 
     /// An error unless the state is on the surface, as far as the tolerances of the flow tell.

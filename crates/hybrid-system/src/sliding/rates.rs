@@ -1,7 +1,7 @@
 //! The rate ġ of a guard along the flow of a mode, from the best source that the model gives.
 
 use super::directional::{Estimate, slope_along};
-use crate::crossing::{QuasiPolynomial, guard_rounding};
+use crate::crossing::{QuasiPolynomial, guard_rounding, stated_or_measured};
 use crate::system::HybridSystem;
 
 /// The first two derivatives of a guard along a flow.
@@ -90,8 +90,7 @@ fn by_field<T: HybridSystem>(
 ) -> Option<GuardRates> {
     let field = system.vector_field(mode, state)?;
     let guard = |state: &T::State| system.guard_value(surface, state);
-    let rounding = guard_rounding(state, state, guard)
-        + system.guard_error(surface, state).unwrap_or_default();
+    let rounding = stated_or_measured(system.guard_error(surface, state), state, guard);
     // L_f g(x) = ∇g·f, at any state.
     let rate = |state: &T::State| {
         let field = system.vector_field(mode, state);
