@@ -94,7 +94,11 @@ impl HybridSystem for Planted<'_> {
         const { &[Guard::either(())] }
     }
     fn guard_value(&self, _: (), x: &State<1>) -> f64 {
-        self.roots.iter().map(|root| x[0] - root).product()
+        let factor = |root: &f64| match self.form {
+            Form::Polynomial | Form::Enclosed => x[0] - root,
+            Form::Trigonometric => (OMEGA * (x[0] - root)).sin(),
+        };
+        self.roots.iter().map(factor).product()
     }
     fn guard_quasi_polynomial(&self, _: (), _: (), x: &State<1>) -> Option<QuasiPolynomial> {
         let factor = |root: f64| match self.form {
