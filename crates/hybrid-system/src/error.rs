@@ -23,10 +23,7 @@ pub enum Error {
         at_right: f64,
     },
     /// A function, a bracket or a coefficient is infinite or NaN.
-    #[error(
-        "the function is {value} at {at}",
-        at = Number(*.at), value = Number(*.value)
-    )]
+    #[error("the function is {value} at {at}", at = Number(*.at), value = Number(*.value))]
     NotFinite {
         /// Argument of the function.
         at: f64,
@@ -35,8 +32,7 @@ pub enum Error {
     },
     /// The bounds that a model gives on a guard do not hold at the start of an arc: they are those of another function.
     #[error(
-        "the signal or the enclosure of guard {surface} says that it lies between {low} and {high} at the start, and its value \
-         is {value}: give the bounds of the guard's own function",
+        "the bounds of guard {surface} at the start are {low} to {high}, and its value is {value}: give those of its function",
         value = Number(*.value), low = Number(*.low), high = Number(*.high)
     )]
     WrongBounds {
@@ -51,8 +47,7 @@ pub enum Error {
     },
     /// A derivative of a quasi-polynomial overflows, and with it the bounds of the search.
     #[error(
-        "a derivative of the quasi-polynomial overflows up to time {horizon}: multiply the function by a small number, \
-         which leaves its zeros where they are",
+        "a derivative of the quasi-polynomial overflows up to time {horizon}: search a small multiple of the function",
         horizon = Number(*.horizon)
     )]
     DerivativeOverflows {
@@ -260,10 +255,7 @@ pub enum Error {
         reason: String,
     },
     /// A limit, horizon or time that is negative or NaN, or infinite where a search needs a finite one.
-    #[error(
-        "{what} cannot be {value}",
-        value = Number(*.value)
-    )]
+    #[error("{what} cannot be {value}", value = Number(*.value))]
     BadLimit {
         /// The quantity.
         what: &'static str,
@@ -271,19 +263,13 @@ pub enum Error {
         value: f64,
     },
     /// A tolerance that is not positive and finite.
-    #[error(
-        "a tolerance must be positive and finite, not {value}",
-        value = Number(*.value)
-    )]
+    #[error("a tolerance must be positive and finite, not {value}", value = Number(*.value))]
     BadTolerance {
         /// The tolerance.
         value: f64,
     },
     /// An integration failed.
-    #[error(
-        "the integration stopped at time {time}: {reason}",
-        time = Number(*.time)
-    )]
+    #[error("the integration stopped at time {time}: {reason}", time = Number(*.time))]
     Integration {
         /// The reason.
         reason: &'static str,
@@ -344,7 +330,7 @@ pub enum Error {
     },
     /// A list of preset times that does not rise.
     #[error(
-        "preset time number {index} is {time}, after {before}: the times must be finite and rise strictly"
+        "preset time number {index} is {time}, after {before}: the times must be finite and rise"
     )]
     BadClock {
         /// Position in the list, from 0.
@@ -388,7 +374,7 @@ pub enum Error {
     },
     /// A part of a model belongs to a surface that no guard has.
     #[error(
-        "{part} is given for surface {surface}, which is no guard of the model: give it the name of a guard"
+        "{part} is given for surface {surface}, which no guard has: give it the name of a guard"
     )]
     NoSuchGuard {
         /// The part.
