@@ -329,9 +329,7 @@ pub enum Error {
         state: Vec<f64>,
     },
     /// A list of preset times that does not rise.
-    #[error(
-        "preset time number {index} is {time}, after {before}: the times must be finite and rise"
-    )]
+    #[error("preset time {index} is {time}, after {before}: times must be finite and rise")]
     BadClock {
         /// Position in the list, from 0.
         index: usize,
@@ -373,9 +371,7 @@ pub enum Error {
         surface: String,
     },
     /// A part of a model belongs to a surface that no guard has.
-    #[error(
-        "{part} is given for surface {surface}, which no guard has: give it the name of a guard"
-    )]
+    #[error("{part} is given for surface {surface}, which no guard has: use a guard's name")]
     NoSuchGuard {
         /// The part.
         part: &'static str,
