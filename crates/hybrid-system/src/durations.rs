@@ -275,7 +275,7 @@ impl Durations {
             let recent = (0..=MOST_DROPPED).filter_map(|dropped| {
                 (FEWEST_PERIODS..=USUAL_PERIODS).find_map(|number| {
                     let periods = self.recent(period, period, dropped, number)?;
-                    let fit = geometric(&periods, HIDDEN_SPREAD)?;
+                    let fit = geometric(&periods, hidden_spread(&periods)?)?;
                     let later: f64 = (0..dropped).map(|back| self.stated_error(back)).sum();
                     let total = (self.error - later).max(0.0);
                     self.accepted(fit, &periods, period, total, LARGEST_REMAINDER)
@@ -284,7 +284,7 @@ impl Durations {
             let marked = (0..MARKS - FEWEST_PERIODS).filter_map(|dropped| {
                 let number = MARKS.min(self.marked).checked_sub(dropped)?.min(USUAL_PERIODS);
                 let periods = self.marked_periods(period, dropped, number)?;
-                let fit = geometric(&periods, HIDDEN_SPREAD)
+                let fit = geometric(&periods, hidden_spread(&periods)?)
                     .or_else(|| power_law(&periods).filter(|fit| fit.order <= LARGEST_ORDER))?;
                 let total = self.marks[(self.marked - 1 - dropped) % MARKS].total;
                 self.accepted(fit, &periods, period, total, LARGEST_REMAINDER)
@@ -325,10 +325,6 @@ impl Durations {
             let first = dropped + index * stride;
             let error = (first..first + period).map(|back| self.duration_error(back)).sum();
             let length = sum(first, first + period);
-            // A length that is smaller than its error is no length: any law could be fitted to such numbers.
-            if !(error < length) {
-                return None;
-            }
             periods.push(Period { end, length, error });
             end -= sum(first, first + stride);
         }
@@ -345,7 +341,7 @@ impl Durations {
         for back in dropped..dropped + number {
             let mark = &self.marks[(self.marked - 1 - back) % MARKS];
             let length: f64 = mark.durations[..period].iter().sum();
-            if !(mark.error < length) {
+            if !(length > 0.0) {
                 return None;
             }
             periods.push(Period { end: mark.time.since(self.now), length, error: mark.error });
@@ -387,6 +383,19 @@ impl Durations {
             length,
             order: fit.order,
         })
+    }
+}
+
+/// The largest spread of the slopes of these periods if rounding hides the next event; `None` if they do not suffice.
+///
+/// Lengths below their errors may be noise, and three of them often fall in proportion by chance. They count if as many as
+/// usual agree as well as usual: an error of a length may be stated far too large.
+fn hidden_spread(periods: &[Period]) -> Option<f64> {
+    let known = periods.iter().all(|period| period.error < period.length);
+    match periods.len() {
+        _ if known => Some(HIDDEN_SPREAD),
+        USUAL_PERIODS.. => Some(USUAL_SPREAD),
+        _ => None,
     }
 }
 
