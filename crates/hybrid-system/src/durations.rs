@@ -391,12 +391,10 @@ impl Durations {
 /// Lengths below their errors may be noise, and three of them often fall in proportion by chance. They count if as many as
 /// usual agree as well as usual: an error of a length may be stated far too large.
 fn hidden_spread(periods: &[Period]) -> Option<f64> {
-    let known = periods.iter().all(|period| period.error < period.length);
-    match periods.len() {
-        _ if known => Some(HIDDEN_SPREAD),
-        USUAL_PERIODS.. => Some(USUAL_SPREAD),
-        _ => None,
+    if periods.iter().all(|period| period.error < period.length) {
+        return Some(HIDDEN_SPREAD);
     }
+    (periods.len() >= USUAL_PERIODS).then_some(USUAL_SPREAD)
 }
 
 /// A list of periods.
