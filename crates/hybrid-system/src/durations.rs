@@ -388,8 +388,7 @@ impl Durations {
 
 /// The largest spread of the slopes of these periods if rounding hides the next event; `None` if they do not suffice.
 ///
-/// Lengths below their errors may be noise, and three of them often fall in proportion by chance. They count if as many as
-/// usual agree as well as usual: an error of a length may be stated far too large.
+/// Lengths below their errors may be noise, and three of them often fall in proportion by chance. As many as usual must agree.
 fn hidden_spread(periods: &[Period]) -> Option<f64> {
     if periods.iter().all(|period| period.error < period.length) {
         return Some(HIDDEN_SPREAD);
