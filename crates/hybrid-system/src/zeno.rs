@@ -14,7 +14,7 @@ use crate::time_sum::TimeSum;
 /// * **A geometric series**, possibly with a period of up to four events. Over six periods the lengths of the periods must fall
 ///   in proportion to the time that remains, within one per cent; the sum of all further durations must be below 10⁻¹² of
 ///   the time so far. If rounding hides the next event, or the errors of the events are a quarter of the durations, three
-///   periods, ten per cent and 10⁻⁵ suffice.
+///   periods, ten per cent and 10⁻⁵ suffice; with durations below their errors six periods and one per cent.
 /// * **A power law** k^(−p) of the number k of events, p > 1.14: the restitution tends to 1 as the speed tends to 0.
 ///   Predictions of the limit from durations that halve must converge. The remainder must be below 10⁻¹² of the time so
 ///   far, or, for p < 3.5, below 10⁻⁵ with an error below 10⁻¹⁰.
