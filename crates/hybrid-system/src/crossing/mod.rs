@@ -59,10 +59,8 @@ pub(crate) use found::Found;
 pub use golden_section::golden_section_minimum;
 pub(crate) use guard_rate::guard_rate;
 #[cfg(feature = "ode")]
-pub(crate) use guard_rounding::{change_by_components, side_of_surface};
-pub(crate) use guard_rounding::{
-    guard_rounding, is_far, rounding_of_state, spread, stated_or_measured,
-};
+pub(crate) use guard_rounding::{change_by_components, rounding_of_state, side_of_surface};
+pub(crate) use guard_rounding::{guard_rounding, is_far, spread, stated_or_measured};
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::QuasiPolynomial;
