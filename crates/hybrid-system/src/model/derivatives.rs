@@ -59,10 +59,15 @@ pub(super) fn reset_jacobian<T, const N: usize>(
 where
     T: HybridSystem<State = State<N>>,
 {
-    jacobian(before, |state| match system.reset(mode, surface, state) {
+    jacobian(before, |state| state_after(system.reset(mode, surface, state)))
+}
+
+/// The state after a reset, NaN in all components if the reset ends the execution.
+pub(super) fn state_after<M, const N: usize>(reset: Reset<M, State<N>>) -> State<N> {
+    match reset {
         Reset::Jump { state, .. } => state,
         Reset::Stop => State::repeat(f64::NAN),
-    })
+    }
 }
 
 /// Derivatives by central differences of the closures, with about ten digits. The field comes from [`Model::field`].

@@ -1,11 +1,12 @@
 //! A model and its neighbours: derivatives by parameters for models written with closures.
 
+use super::derivatives::state_after;
 use super::model::Model;
 use super::motion::{ClosedForm, Motion};
 use super::part::Part;
 use crate::parameter_sensitivity::Parametric;
 use crate::state::State;
-use crate::system::{HybridSystem, Reset};
+use crate::system::HybridSystem;
 use nalgebra::{RowSVector, SMatrix};
 use std::fmt::Debug;
 
@@ -83,10 +84,7 @@ impl<T, const P: usize> Family<T, P> {
     where
         T: HybridSystem<State = State<N>>,
     {
-        self.vector(|system| match system.reset(mode, surface, before) {
-            Reset::Jump { state, .. } => state,
-            Reset::Stop => State::repeat(f64::NAN),
-        })
+        self.vector(|system| state_after(system.reset(mode, surface, before)))
     }
 }
 

@@ -4,15 +4,15 @@
 //! the state on the surface of the changed model has δẋ = ∂f_s/∂x δx + ∂f_s/∂p δp, with the derivatives of the formula for f_s
 //! at a fixed state. No projection enters: it would keep the state on one surface.
 
+use super::derivatives::state_after;
 use super::family::Family;
 use super::integrated::Integrated;
 use super::model::Model;
 use super::part::Part;
-use crate::ode::integrated_parameter_jacobian;
 use crate::parameter_sensitivity::Parametric;
 use crate::sliding::{Filippov, FilippovMode, FilippovSurface};
 use crate::state::State;
-use crate::system::{HybridSystem, Reset};
+use crate::system::HybridSystem;
 use nalgebra::{RowSVector, SMatrix};
 use std::fmt::Debug;
 
@@ -34,24 +34,20 @@ where
         self.system()
     }
 
-    /// All entries are NaN if the integration fails.
     fn flow_by_parameters(
         &self,
         mode: Mode<M, S>,
         start: &State<N>,
         time: f64,
     ) -> SMatrix<f64, N, P> {
-        let by_parameters = |state: &State<N>| {
-            let none = || State::repeat(f64::NAN);
-            self.vector(|system| system.field_without_projection(mode, state).unwrap_or_else(none))
-        };
         let system = self.system();
         let tolerances = match mode {
             FilippovMode::Free(_) => system.system().motion.tolerances,
             FilippovMode::Sliding { .. } => system.tolerances(),
         };
-        integrated_parameter_jacobian(system, mode, start, time, by_parameters, tolerances)
-            .unwrap_or_else(|_| SMatrix::repeat(f64::NAN))
+        let field =
+            |system: &Self::System, state: &State<N>| system.field_without_projection(mode, state);
+        self.integrated_flow((mode, start, time), field, tolerances)
     }
 
     fn guard_by_parameters(&self, surface: Surface<M, S>, state: &State<N>) -> RowSVector<f64, P> {
@@ -74,9 +70,6 @@ where
                 if guards.iter().any(|guard| guard.surface == surface) { below } else { above }
             }
         };
-        self.vector(|system| match system.system().reset(mode, surface, before) {
-            Reset::Jump { state, .. } => state,
-            Reset::Stop => State::repeat(f64::NAN),
-        })
+        self.vector(|system| state_after(system.system().reset(mode, surface, before)))
     }
 }
