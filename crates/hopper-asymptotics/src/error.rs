@@ -23,4 +23,24 @@ pub enum Error {
         /// Upper end of the range.
         right: f64,
     },
+    /// An offset that is not a finite number, or has an exponent of ten beyond ±10 000.
+    #[error(
+        "the offset {text}: the mantissa must be a number and the exponent of ten between −10000 and 10000; give a deeper \
+         point by its phase"
+    )]
+    Offset {
+        /// The given offset.
+        text: String,
+    },
+    /// A drift of the slow side, a multiple of λ, at which the series of the Fatou coordinate has no bound.
+    #[error("the slow side of α*_{n} drifts with {drift:e}: the series of its Fatou coordinate has no bound there")]
+    Drift {
+        /// The index.
+        n: u64,
+        /// A of the leading term 1/(A x).
+        drift: f64,
+    },
+    /// A hop near the fixed point has no value.
+    #[error(transparent)]
+    Hop(#[from] passive_hopper::Error),
 }

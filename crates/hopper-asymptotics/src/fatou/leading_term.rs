@@ -1,0 +1,155 @@
+//! The leading term of a Fatou coordinate to any number of digits, in integers.
+//!
+//! With A = 10λ/3 on the left and λ/3 on the right, λ = ¾ β μ · 2α³/(1+α²), β³ = 12α²/(1+α²) and μ = M/(1+M)², α = α*_n
+//! (docs/theory.md, Section 16):
+//!
+//! ```text
+//!   1/(A |δ|^{1/3}) = [(1+α²)⁴ (1+M)⁶/(1500 α¹¹ M³ |δ|)]^{1/3}       on the left; ten times as much on the right
+//! ```
+//!
+//! M and δ are rational numbers. Only α*_n is not, and comes from tan α = α as α = q − arctan(1/α), q = (n+½)π.
+
+use crate::fatou::offset::Offset;
+use num_bigint::BigUint;
+
+/// The integer and the fraction of a number, the fraction in units 2⁻⁶⁴.
+pub(crate) struct Digits {
+    pub(crate) whole: BigUint,
+    pub(crate) fraction: u64,
+}
+
+/// Bits of the result after the point. 64 are kept; the others hold the errors of α*_n and of the truncated quotient and root.
+const FRACTION_BITS: u64 = 96;
+
+/// Bits of α*_n beyond those that the result has, for the errors of its series: one unit for each of up to 10⁵ terms.
+const GUARD_BITS: u64 = 32;
+
+/// 1/(A |δ|^{1/3}) on the left of α*_n, `times` as much with `times`³ = `cube`. `delta` is not zero, and the result is about
+/// 2^`size`. The error is below 2⁻⁶³.
+pub(crate) fn leading_term(n: u64, mass_ratio: f64, delta: Offset, cube: u32, size: f64) -> Digits {
+    // A relative error of α*_n is at most its own size in the result: 11/3 − 8/3 = 1.
+    let bits = size.max(0.0) as u64 + FRACTION_BITS + GUARD_BITS;
+    let alpha = fixed_point(n, bits);
+    let unit = BigUint::from(1u32) << bits;
+    // (1+α²)⁴/α¹¹ = (u² + a²)⁴ u³/a¹¹ with α = a/u.
+    let squares = &unit * &unit + &alpha * &alpha;
+    let mut numerator = squares.pow(4) * unit.pow(3);
+    let mut denominator = alpha.pow(11) * 1500u32;
+    // (1+M)⁶/M³ = (p + q)⁶/(p q)³ with M = p/q.
+    let (p, q) = rational(mass_ratio);
+    numerator *= (&p + &q).pow(6);
+    denominator *= (p * q).pow(3);
+    let (p, q) = rational(delta.mantissa().abs());
+    numerator *= q;
+    denominator *= p;
+    let power = BigUint::from(10u32).pow(delta.exponent().unsigned_abs() as u32);
+    if delta.exponent() < 0 {
+        numerator *= power;
+    } else {
+        denominator *= power;
+    }
+    let scaled = (numerator * cube << (3 * FRACTION_BITS)) / denominator;
+    let root = scaled.cbrt();
+    let whole = &root >> FRACTION_BITS;
+    let rest = &root - (&whole << FRACTION_BITS);
+    let fraction = (rest >> (FRACTION_BITS - 64)).iter_u64_digits().next().unwrap_or(0);
+    Digits { whole, fraction }
+}
+
+/// A positive `f64` as a quotient of integers.
+fn rational(value: f64) -> (BigUint, BigUint) {
+    let bits = value.to_bits();
+    let field = bits >> 52 & 0x7ff;
+    let fraction = bits & ((1 << 52) - 1);
+    let mantissa = if field == 0 { fraction } else { fraction | 1 << 52 };
+    let exponent = field.max(1) as i64 - 1075;
+    let (one, mantissa) = (BigUint::from(1u32), BigUint::from(mantissa));
+    if exponent < 0 {
+        (mantissa, one << exponent.unsigned_abs())
+    } else {
+        (mantissa << exponent.unsigned_abs(), one)
+    }
+}
+
+/// α*_n 2^`bits`, n ≥ 1.
+fn fixed_point(n: u64, bits: u64) -> BigUint {
+    let unit = BigUint::from(1u32) << bits;
+    // (n + ½) π, π = 16 arctan ⅕ − 4 arctan 1/239.
+    let arc = |divisor: u32| arc_tangent(&(&unit / divisor), bits);
+    let pi = arc(5) * 16u32 - arc(239) * 4u32;
+    let q: BigUint = (pi * (2 * u128::from(n) + 1)) >> 1;
+    let mut alpha = q.clone();
+    // Newton's method on α − q + arctan(1/α), whose slope is α²/(1+α²). The start errs by 1/q < 0.22, and a step squares
+    // the error.
+    let mut right = 4;
+    loop {
+        let above = &alpha + arc_tangent(&((&unit << bits) / &alpha), bits);
+        // The function is concave, so that α stays at or above the root after the first step.
+        let scale = |step: BigUint| {
+            let square = (&alpha * &alpha) >> bits;
+            (step * (&unit + &square)) / square
+        };
+        let next = if above >= q { &alpha - scale(&above - &q) } else { &alpha + scale(&q - &above) };
+        alpha = next;
+        right *= 2;
+        if right > bits + 4 {
+            return alpha;
+        }
+    }
+}
+
+/// arctan x for 0 < x < ½, in units 2^−`bits`.
+fn arc_tangent(x: &BigUint, bits: u64) -> BigUint {
+    let square = (x * x) >> bits;
+    let (mut power, mut odd) = (x.clone(), 1u64);
+    let (mut plus, mut minus) = (BigUint::ZERO, BigUint::ZERO);
+    while power != BigUint::ZERO {
+        let term = &power / odd;
+        if odd % 4 == 1 {
+            plus += term;
+        } else {
+            minus += term;
+        }
+        power = (power * &square) >> bits;
+        odd += 2;
+    }
+    plus - minus
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use passive_hopper::{FixedPointSpeed, alpha_star};
+
+    #[test]
+    fn fixed_points_agree_with_their_first_hundred_bits() {
+        for n in [1u64, 2, 10, 1000, 1 << 40] {
+            let star = FixedPointSpeed::new(n);
+            let long = fixed_point(n, 300);
+            let (p, q) = rational(star.value());
+            let high = (p << 300u32) / q;
+            let (p, q) = rational(star.rest().abs());
+            let low = (p << 300u32) / q;
+            let stored = if star.rest() < 0.0 { high - low } else { high + low };
+            let apart = if stored > long { stored - &long } else { &long - stored };
+            // 2⁻⁹⁹ of the value.
+            assert!(apart < long >> 99u32, "{n}");
+        }
+    }
+
+    /// The same digits at a higher precision, and in `f64`.
+    #[test]
+    fn leading_terms_agree_with_f64() {
+        for (n, m, delta) in [(1, 1.0, 1e-12), (3, 0.2, 3e-9), (10, 50.0, 1e-5)] {
+            let found = leading_term(n, m, Offset::from(delta), 1, 30.0);
+            let whole: f64 = found.whole.iter_u64_digits().next().unwrap_or(0) as f64;
+            let value = whole + found.fraction as f64 / 2f64.powi(64);
+            let a = alpha_star(n);
+            let mu = m / (1.0 + m).powi(2);
+            let beta = (12.0 * a * a / (1.0 + a * a)).cbrt();
+            let lambda = 1.5 * beta * mu * a * a * a / (1.0 + a * a);
+            let exact = 0.3 / (lambda * delta.cbrt());
+            assert!((value / exact - 1.0).abs() < 1e-14, "{n} {m} {delta}: {value} {exact}");
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! How many hops does an orbit take along the slow side of a fixed point?
+//!
+//! ```text
+//!   fatou_coordinate.rs   Ψ: the number of hops, counted continuously; its inverse; jumps over many hops
+//!   escape.rs             the law of the escape to the left
+//!   phase.rs, offset.rs   an integer of any size with a fraction; an offset below the smallest f64
+//!   abel_series.rs        the series of Ψ in x = |δ|^{1/3}, with a bound on its error
+//!   leading_term.rs       the leading term of Ψ to any number of digits
+//!   slow_hops.rs          single hops, where the series has no value
+//!   local_hop_model.rs    a hop as Taylor models
+//!   taylor_model.rs       polynomials with bounds
+//! ```
+
+pub(crate) mod abel_series;
+pub(crate) mod escape;
+pub(crate) mod fatou_coordinate;
+pub(crate) mod leading_term;
+pub(crate) mod local_hop_model;
+pub(crate) mod offset;
+pub(crate) mod phase;
+pub(crate) mod slow_hops;
+pub(crate) mod taylor_model;

@@ -1,0 +1,148 @@
+//! Offsets from a fixed point that are smaller than any `f64`.
+
+use crate::error::Error;
+use crate::fatou::phase::split;
+use std::fmt;
+use std::str::FromStr;
+
+/// An offset δ from a fixed point: exactly `mantissa` · 10^`exponent`.
+///
+/// ```
+/// use hopper_asymptotics::Offset;
+/// let deep: Offset = "-3.7e-1000".parse()?;
+/// assert_eq!(deep, Offset::new(-3.7, -1000)?);
+/// assert_eq!(deep.to_string(), "-3.7e-1000");
+/// assert_eq!(Offset::from(-1e-12).nearest(), -1e-12);
+/// # Ok::<(), hopper_asymptotics::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Offset {
+    mantissa: f64,
+    exponent: i64,
+}
+
+impl Offset {
+    /// The largest |`exponent`|. The digits of a phase need a time that grows with the square of the exponent: some tenths of
+    /// a second here. A deeper point is given by its [`Phase`](crate::Phase).
+    pub const LARGEST_EXPONENT: i64 = 10_000;
+
+    /// `mantissa` · 10^`exponent`.
+    ///
+    /// # Errors
+    /// [`Error::Offset`] for a mantissa that is not finite, and for |`exponent`| above
+    /// [`LARGEST_EXPONENT`](Self::LARGEST_EXPONENT).
+    pub fn new(mantissa: f64, exponent: i64) -> Result<Self, Error> {
+        if mantissa.is_finite() && exponent.unsigned_abs() <= Self::LARGEST_EXPONENT as u64 {
+            Ok(Offset { mantissa, exponent })
+        } else {
+            Err(Error::Offset { text: format!("{mantissa:e} · 10^{exponent}") })
+        }
+    }
+
+    /// The factor before the power of ten.
+    pub fn mantissa(self) -> f64 {
+        self.mantissa
+    }
+
+    /// The exponent of ten.
+    pub fn exponent(self) -> i64 {
+        self.exponent
+    }
+
+    /// The nearest `f64`, or one next to it; 0 below the smallest one.
+    pub fn nearest(self) -> f64 {
+        // The shortest text of the mantissa has all its digits, and the reader of numbers rounds once.
+        self.to_string().parse().unwrap_or(0.0)
+    }
+
+    /// For exponents beyond [`LARGEST_EXPONENT`](Self::LARGEST_EXPONENT), which a phase may have.
+    pub(crate) fn deep(mantissa: f64, exponent: i64) -> Self {
+        Offset { mantissa, exponent }
+    }
+
+    /// With the sign of `sign`.
+    pub(crate) fn with_sign(self, sign: f64) -> Self {
+        Offset { mantissa: self.mantissa.copysign(sign), ..self }
+    }
+
+    /// ln |δ| in two parts, with an error of some 10⁻¹⁶ in all; −∞ for 0.
+    pub(crate) fn logarithm_in_two_parts(self) -> (f64, f64) {
+        const LN_2: (f64, f64) = (std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17);
+        const LN_10: (f64, f64) = (std::f64::consts::LN_10, -2.170_756_223_382_249_4e-16);
+        let (digits, power) = split(self.mantissa.abs());
+        // The products of an integer and the first part in two parts each, and their exact sum.
+        let product = |k: f64, (high, low): (f64, f64)| {
+            let first = k * high;
+            (first, k.mul_add(high, -first) + k * low)
+        };
+        let (a, a_low) = product(power as f64, LN_2);
+        let (b, b_low) = product(self.exponent as f64, LN_10);
+        let sum = a + b;
+        let part = sum - a;
+        let low = (a - (sum - part)) + (b - part) + a_low + b_low;
+        let logarithm = pxfm::f_log(digits);
+        let high = sum + (logarithm + low);
+        (high, (sum - high) + (logarithm + low))
+    }
+}
+
+/// Exact; an offset that is not finite becomes 0, which no expansion accepts.
+impl From<f64> for Offset {
+    fn from(delta: f64) -> Self {
+        Offset { mantissa: if delta.is_finite() { delta } else { 0.0 }, exponent: 0 }
+    }
+}
+
+impl fmt::Display for Offset {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = format!("{:e}", self.mantissa);
+        let (digits, power) = text.split_once('e').unwrap_or((&text, "0"));
+        let power: i64 = power.parse().unwrap_or(0);
+        match power + self.exponent {
+            0 => write!(out, "{digits}"),
+            power => write!(out, "{digits}e{power}"),
+        }
+    }
+}
+
+impl FromStr for Offset {
+    type Err = Error;
+
+    /// A decimal number. Its digits are rounded to the nearest `f64`; its exponent is kept.
+    fn from_str(text: &str) -> Result<Self, Error> {
+        let wrong = || Error::Offset { text: text.to_owned() };
+        let (digits, power) = match text.split_once(['e', 'E']) {
+            Some((digits, power)) => (digits, power.parse().map_err(|_| wrong())?),
+            None => (text, 0),
+        };
+        Offset::new(digits.parse().map_err(|_| wrong())?, power).map_err(|_| wrong())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_read_back_and_wrong_ones_refused() {
+        for text in ["-1e-12", "2.5", "-7.25e-9999", "1e10000"] {
+            let offset: Offset = text.parse().unwrap();
+            assert_eq!(offset.to_string().parse::<Offset>().unwrap().nearest(), offset.nearest());
+        }
+        for text in ["", "e-3", "1e", "1e-10001", "nan", "inf", "1e9999999999999999999", "1e2.5"] {
+            let error = text.parse::<Offset>().unwrap_err();
+            assert!(error.to_string().contains(text), "{error}");
+        }
+    }
+
+    #[test]
+    fn logarithms_have_two_parts() {
+        // ln 2 − 1000 ln 10 = −2301.89194581348573870857…, which is −1.7558707…·10⁻¹³ below the nearest `f64`.
+        let (high, low) = Offset::new(-2.0, -1000).unwrap().logarithm_in_two_parts();
+        assert_eq!(high, -2301.8919458134856);
+        assert!((low + 1.755_870_710_035_544_6e-13).abs() < 4e-16, "{low:e}");
+        assert_eq!(Offset::from(1.0).logarithm_in_two_parts(), (0.0, 0.0));
+        assert_eq!(Offset::new(-2.0, -1000).unwrap().nearest(), 0.0);
+        assert_eq!(Offset::new(3e-300, 295).unwrap().nearest(), 3e-5);
+    }
+}
