@@ -183,7 +183,7 @@ impl AbelSeries {
     }
 
     /// dΨ/dx of the series.
-    fn slope(&self, x: f64) -> f64 {
+    pub(crate) fn slope(&self, x: f64) -> f64 {
         let v = x / self.width;
         let terms = self.scaled.iter().enumerate().rev();
         let tail = terms.fold(0.0, |sum, (k, d)| sum * v + (k + 1) as f64 * d);

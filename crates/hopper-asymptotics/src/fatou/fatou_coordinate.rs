@@ -70,7 +70,7 @@ pub struct SlowJump {
     pub error: f64,
 }
 
-/// The largest number of hops of one [`SlowJump`]: an `f64` up to it has its unit digit.
+/// The largest number of hops of one [`SlowJump`]: an `f64` up to it has its digit of one half.
 const LARGEST_JUMP: f64 = 4.5e15;
 
 impl FatouCoordinate {
@@ -199,7 +199,36 @@ impl FatouCoordinate {
     /// The point with the same fraction that an orbit on the left reaches after as many hops as the series has a value for;
     /// `None` if the error of Ψ exceeds `largest`, or the offset is outside [`range`](Self::range).
     pub fn jump(&self, delta: f64, error: f64, largest: f64) -> Option<SlowJump> {
-        let count = self.count_within(delta, error).ok()?;
+        self.jump_from(self.count_within(delta, error).ok()?, largest)
+    }
+
+    /// As [`jump`](Self::jump), from `delta` + `rest`, at most half an ulp apart, with the longer [`phase`](Self::phase).
+    pub fn long_jump(
+        &self,
+        (delta, rest): (f64, f64),
+        error: f64,
+        largest: f64,
+    ) -> Option<SlowJump> {
+        self.check(delta * self.side.sign() > 0.0 && delta.abs() <= self.range(), delta).ok()?;
+        let phase = self.phase(Offset::from(delta)).ok()?;
+        let whole = i64::try_from(phase.whole()).ok().filter(|&whole| whole < LARGEST_JUMP as i64)?;
+        let root = pxfm::f_cbrt(delta.abs());
+        let slope = self.series.slope(root) * self.side.sign() / (3.0 * root * root); // dΨ/dδ
+        // The exact slope lies within half of this one (docs/theory.md, Section 16). An error as large as δ has no
+        // meaning; `largest` refuses it.
+        let error = phase.error() + 1.5 * error * slope.abs() + 0.5 * (rest * slope).abs();
+        let fraction = phase.fraction() + rest * slope;
+        let nearest = self.series.value(self.series.range());
+        let last = (nearest.hops + nearest.error + error - fraction).ceil();
+        let hops = whole.checked_sub(last as i64).filter(|&hops| hops >= 0)?;
+        if !(error <= largest) {
+            return None;
+        }
+        let (delta, error) = self.at_count(HopCount { hops: last + fraction, error });
+        Some(SlowJump { hops: hops as u64, delta, error })
+    }
+
+    fn jump_from(&self, count: HopCount, largest: f64) -> Option<SlowJump> {
         let nearest = self.series.value(self.series.range());
         let hops = (count.hops - count.error - nearest.hops - nearest.error).floor();
         if !(count.error <= largest && hops >= 0.0 && hops <= LARGEST_JUMP) {

@@ -14,9 +14,11 @@
 //! docs/theory.md, Theorem 79.
 
 use crate::error::Error;
+use crate::fates::slow_sides::SlowSides;
 use crate::traps::trap::{Trap, TrapSide};
 use passive_hopper::{
-    Arithmetic, ExtendedOrbit, ExtendedStep, HopWithin, LiftOffMap, alpha_star, index_below,
+    Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, HopWithin, LiftOffMap, alpha_star,
+    index_below,
 };
 
 /// The end of a followed orbit, with the number of hops.
@@ -34,18 +36,16 @@ pub(crate) enum Verdict {
     },
 }
 
-/// Largest number of hops of a fate in each of [`Arithmetic::ALL`]. On a quiet machine each of them takes at most some tenths
-/// of a second. A larger value decides more of the orbits that leave a fixed point slowly; past it the fate is undecided, for
-/// the reason [`UndecidedReason::Precision`](basin_of_attraction::UndecidedReason::Precision).
+/// Largest number of hops of a fate in each of [`Arithmetic::ALL`], a jump counted as one. On a quiet machine each of them takes
+/// at most some tenths of a second. Past it the fate is undecided, for the reason
+/// [`UndecidedReason::Precision`](basin_of_attraction::UndecidedReason::Precision).
 const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
-
-/// Largest |δ| left of a fixed point for which the number of hops to leave it is estimated. Beyond it the number is small.
-const SLOW: f64 = 1e-3;
 
 /// The map at one mass ratio, and its traps by their index.
 pub(crate) struct CertainFates<'a, T> {
     pub(crate) map: &'a LiftOffMap,
     pub(crate) trap: T,
+    pub(crate) slow: &'a SlowSides,
 }
 
 impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
@@ -77,12 +77,24 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         hop: impl Fn(&LiftOffMap, f64, f64) -> HopWithin,
     ) -> Result<(Verdict, usize), Error> {
         let (mut speed, mut error) = (alpha, 0.0);
-        for hops in 0..=budget {
-            if let Some(n) = self.trap_within(speed, error)? {
+        let mut hops = 0;
+        for followed in 0..=budget {
+            let n = index_below(speed)?;
+            if let Some(n) = self.trap_within(n, speed, error)? {
                 return Ok((Verdict::Trapped(n), hops));
             }
-            if hops == budget {
+            if followed == budget {
                 break;
+            }
+            if let Some(offset) = SlowSides::offset_if_near(speed, n + 1)
+                && let Some(jump) = self.slow.jump(n + 1, offset, error + f64::EPSILON * -offset)
+                && jump.hops > 0
+            {
+                speed = alpha_star(n + 1) + jump.delta;
+                // Half an ulp each for α*, and for the sum.
+                error = jump.error + f64::EPSILON * speed;
+                hops = hops.saturating_add(jump.hops as usize);
+                continue;
             }
             match hop(self.map, speed, error) {
                 HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
@@ -91,13 +103,14 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
                     return Ok((Verdict::Inconclusive { at: speed }, hops));
                 }
             }
+            hops += 1;
         }
-        Ok((Verdict::Budget, budget))
+        Ok((Verdict::Budget, hops))
     }
 
-    /// The index of the trap that contains all speeds within `error` of `speed`.
-    fn trap_within(&self, speed: f64, error: f64) -> Result<Option<u64>, Error> {
-        let trap = (self.trap)(index_below(speed)?)?;
+    /// The index of the trap that contains all speeds within `error` of `speed`, which lies above α*_n.
+    fn trap_within(&self, n: u64, speed: f64, error: f64) -> Result<Option<u64>, Error> {
+        let trap = (self.trap)(n)?;
         let side = if error == 0.0 {
             trap.side(speed)
         } else {
@@ -115,7 +128,8 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         arithmetic: Arithmetic,
     ) -> Result<(Option<Verdict>, usize), Error> {
         let mut orbit = ExtendedOrbit::new(self.map, alpha, arithmetic)?;
-        for hops in 0..=budget {
+        let mut hops = 0;
+        for followed in 0..=budget {
             let speed = orbit.speed();
             let mut n = index_below(speed)?;
             let (mut offset, mut error) = orbit.offset_from(n);
@@ -127,37 +141,43 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
             if (self.trap)(n)?.side_of_offset(offset, error) == TrapSide::Inside {
                 return Ok((Some(Verdict::Trapped(n)), hops));
             }
-            if hops == budget {
+            if followed == budget {
                 break;
             }
-            if hops >= most || self.hops_to_leave(n + 1, &orbit) > (most - hops) as f64 {
+            if followed >= most {
                 return Ok((None, hops));
             }
+            if let Some(jumped) = self.jump_in_extended(n + 1, &mut orbit)? {
+                hops = hops.saturating_add(jumped);
+                continue;
+            }
             match orbit.hop() {
-                Ok(ExtendedStep::LiftsOff) => {}
+                Ok(ExtendedStep::LiftsOff) => hops += 1,
                 Ok(ExtendedStep::Grounded) => return Ok((Some(Verdict::Grounded), hops + 1)),
                 Ok(ExtendedStep::Inconclusive) | Err(_) => {
                     return Ok((Some(Verdict::Inconclusive { at: speed }), hops));
                 }
             }
         }
-        Ok((Some(Verdict::Budget), budget))
+        Ok((Some(Verdict::Budget), hops))
     }
 
-    /// Five sixths of the number of hops that the orbit takes to leave α*_n to the left: at offset δ it needs about
-    /// 3/(10λ|δ|^{1/3}) (docs/theory.md, Theorem 38). 0 if it is not near.
-    ///
-    /// The estimate only avoids work that would end in an undecided fate. It decides no fate.
-    fn hops_to_leave(&self, n: u64, orbit: &ExtendedOrbit) -> f64 {
-        // α*_n − speed in `f64` is accurate enough unless it is small.
-        if alpha_star(n) - orbit.speed() > SLOW {
-            return 0.0;
+    /// Moves the orbit to the end of its slow hops left of α*_n, and gives their number; `None` if it is not near.
+    fn jump_in_extended(&self, n: u64, orbit: &mut ExtendedOrbit) -> Result<Option<usize>, Error> {
+        if SlowSides::offset_if_near(orbit.speed().min(below(n)), n).is_none() {
+            return Ok(None);
         }
-        let (offset, _) = orbit.offset_from(n);
-        let a = alpha_star(n);
-        // β³ = 12a²/(1+a²), λ = μaβ⁴/8 (docs/theory.md, Section 7).
-        let beta = pxfm::f_cbrt(12.0 / (1.0 + 1.0 / (a * a)));
-        let lambda = self.map.mass_ratio().mu() * a * beta * beta * beta * beta / 8.0;
-        0.25 / (lambda * pxfm::f_cbrt(offset.abs()))
+        let (offset, rest, error) = orbit.long_offset_from(n);
+        let Some(jump) = self.slow.long_jump(n, (offset, rest), error) else { return Ok(None) };
+        if jump.hops == 0 {
+            return Ok(None);
+        }
+        orbit.move_to(n, jump.delta, jump.error)?;
+        Ok(Some(jump.hops as usize))
     }
+}
+
+/// The largest `f64` below α*_n: a speed with more bits may round to a number above.
+fn below(n: u64) -> f64 {
+    FixedPointSpeed::new(n).largest_below()
 }

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::fates::certain_fate::{CertainFates, Verdict};
 use crate::fates::hopper_fate::HopperFate;
+use crate::fates::slow_sides::SlowSides;
 use crate::traps::trap::Trap;
 use basin_of_attraction::{Image, ScalarMap, Traps, UndecidedReason};
 use passive_hopper::{LiftOffMap, MassRatio, index_below};
@@ -44,6 +45,7 @@ pub struct Fates {
     map: LiftOffMap,
     /// The traps of the first fixed points, each computed at its first use.
     first: [OnceLock<Trap>; KEPT_TRAPS],
+    slow: SlowSides,
 }
 
 impl Fates {
@@ -53,7 +55,8 @@ impl Fates {
     /// As [`Trap::new`].
     pub fn new(mass_ratio: MassRatio) -> Result<Self, Error> {
         let map = LiftOffMap::new(mass_ratio);
-        let fates = Fates { map, first: [const { OnceLock::new() }; KEPT_TRAPS] };
+        let first = [const { OnceLock::new() }; KEPT_TRAPS];
+        let fates = Fates { map, first, slow: SlowSides::new(mass_ratio) };
         // Nearly every orbit needs this trap. Computing it here returns an error now rather than later.
         fates.trap(0)?;
         Ok(fates)
@@ -77,6 +80,11 @@ impl Fates {
         Ok(slot.map_or(trap, |slot| *slot.get_or_init(|| trap)))
     }
 
+    /// The slow sides of the fixed points.
+    pub(crate) fn slow_sides(&self) -> &SlowSides {
+        &self.slow
+    }
+
     /// The fate of the hopper that lifts off with speed `alpha`.
     ///
     /// # Errors
@@ -91,7 +99,7 @@ impl Fates {
     /// As [`fate`](Self::fate).
     pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
         self.map.check_speed(alpha)?;
-        let fates = CertainFates { map: &self.map, trap: |n| self.trap(n) };
+        let fates = CertainFates { map: &self.map, trap: |n| self.trap(n), slow: &self.slow };
         let (verdict, hops) = fates.verdict(alpha, budget)?;
         let fate = match verdict {
             Verdict::Trapped(0) => HopperFate::Decaying,

@@ -10,7 +10,7 @@ use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::map::extended_hop::{ExtendedMasses, StartIn};
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::speed_error::change_of_square;
-use crate::model::fixed_points::{fixed_point_in, n_pi};
+use crate::model::fixed_points::{alpha_star, fixed_point_in, n_pi};
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
 use crate::precision::real::Extended;
@@ -101,6 +101,22 @@ impl ExtendedOrbit {
     pub fn offset_from(&self, n: u64) -> (f64, f64) {
         self.0.offset_from(n)
     }
+
+    /// The speed minus α*_n as the sum of two `f64`, and a bound on the error of this sum. The first is the nearest `f64`.
+    pub fn long_offset_from(&self, n: u64) -> (f64, f64, f64) {
+        self.0.long_offset_from(n)
+    }
+
+    /// Moves the orbit to α*_n + `delta`, which is known to within `error`: the end of hops that were not followed one by
+    /// one. Nothing of the speed before is kept.
+    ///
+    /// # Errors
+    /// The errors of [`LiftOffMap::hop`] for the new speed; a wrong `error` makes the next hop inconclusive.
+    pub fn move_to(&mut self, n: u64, delta: f64, error: f64) -> Result<(), Error> {
+        check_speed(alpha_star(n) + delta)?;
+        self.0.move_to(n, delta, error);
+        Ok(())
+    }
 }
 
 /// An orbit in one of the arithmetics.
@@ -110,6 +126,8 @@ trait Orbit: Debug + Send {
     fn error(&self) -> f64;
     fn minus(&self, other: f64) -> f64;
     fn offset_from(&self, n: u64) -> (f64, f64);
+    fn long_offset_from(&self, n: u64) -> (f64, f64, f64);
+    fn move_to(&mut self, n: u64, delta: f64, error: f64);
 }
 
 #[derive(Debug)]
@@ -177,11 +195,23 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
     }
 
     fn offset_from(&self, n: u64) -> (f64, f64) {
+        let (offset, rest, error) = self.long_offset_from(n);
+        (offset, error + rest.abs())
+    }
+
+    fn long_offset_from(&self, n: u64) -> (f64, f64, f64) {
         let star = if n == 0 { R::from(0.0) } else { fixed_point_in::<R>(n) };
-        let offset = (self.speed - star).nearest();
-        // The roundings of α*_n, of the difference, and of its conversion to `f64`.
-        let rounding = 2.0 * R::EPSILON * self.speed.nearest() + f64::EPSILON * offset.abs();
-        (offset, self.error + rounding)
+        let offset = self.speed - star;
+        let nearest = offset.nearest();
+        let rest = (offset - R::from(nearest)).nearest();
+        // The roundings of α*_n, of the differences, and of the rest.
+        let rounding = 2.0 * R::EPSILON * self.speed.nearest() + f64::EPSILON * rest.abs();
+        (nearest, rest, self.error + rounding)
+    }
+
+    fn move_to(&mut self, n: u64, delta: f64, error: f64) {
+        self.speed = fixed_point_in::<R>(n) + delta;
+        self.error = error + 2.0 * R::EPSILON * self.speed.nearest();
     }
 }
 

@@ -1,0 +1,64 @@
+//! The slow sides of the fixed points at one mass ratio: where an orbit need not be followed hop by hop.
+//!
+//! Left of α*_n an orbit at distance |δ| takes some |δ|^{−1/3} hops to leave. The Fatou coordinate gives the point that it
+//! reaches, with an error (docs/theory.md, Section 16).
+
+use hopper_asymptotics::{FatouCoordinate, Side, SlowJump};
+use passive_hopper::{FixedPointSpeed, MassRatio};
+use std::sync::OnceLock;
+
+/// The number of fixed points whose coordinates are stored. Those of larger n are computed at each use.
+const KEPT: usize = 64;
+
+/// No series of a Fatou coordinate begins farther from its fixed point: |δ| = (|t|/β)³ up to terms of relative size |t|, with
+/// |t| ≤ 0.08 and β ≥ 2.25, is below 4.6·10⁻⁵.
+const FARTHEST: f64 = 5e-5;
+
+/// Largest error of a phase with which an orbit jumps. Where it decides too little, longer arithmetic has a smaller one. The
+/// fates are right with any value below 1/2; a smaller one sends more orbits to longer arithmetic at once.
+const LARGEST_ERROR: f64 = 0.01;
+
+/// The left sides of the fixed points.
+#[derive(Debug, Clone)]
+pub(crate) struct SlowSides {
+    mass_ratio: MassRatio,
+    /// The coordinates of α*_1, α*_2, …, each computed at its first use; `None` inside where there is none.
+    first: Box<[OnceLock<Option<FatouCoordinate>>; KEPT]>,
+}
+
+impl SlowSides {
+    pub(crate) fn new(mass_ratio: MassRatio) -> Self {
+        SlowSides { mass_ratio, first: Box::new([const { OnceLock::new() }; KEPT]) }
+    }
+
+    /// Whether an orbit at `speed` may be on the slow side of α*_n, n ≥ 1, and its offset.
+    #[inline]
+    pub(crate) fn offset_if_near(speed: f64, n: u64) -> Option<f64> {
+        let offset = FixedPointSpeed::new(n).offset_of(speed);
+        (offset < 0.0 && offset > -FARTHEST).then_some(offset)
+    }
+
+    /// The end of the slow hops of the orbit within `error` of α*_n + `offset`.
+    pub(crate) fn jump(&self, n: u64, offset: f64, error: f64) -> Option<SlowJump> {
+        self.with(n, |psi| psi.jump(offset, error, LARGEST_ERROR))
+    }
+
+    /// As [`jump`](Self::jump), from an offset in two parts.
+    pub(crate) fn long_jump(&self, n: u64, offset: (f64, f64), error: f64) -> Option<SlowJump> {
+        self.with(n, |psi| psi.long_jump(offset, error, LARGEST_ERROR))
+    }
+
+    /// The result of `use_it` with the coordinate of α*_n.
+    pub(crate) fn with<T>(
+        &self,
+        n: u64,
+        use_it: impl FnOnce(&FatouCoordinate) -> Option<T>,
+    ) -> Option<T> {
+        let make = || FatouCoordinate::new(n, self.mass_ratio, Side::Left).ok();
+        let slot = n.checked_sub(1).and_then(|index| self.first.get(usize::try_from(index).ok()?));
+        match slot {
+            Some(slot) => use_it(slot.get_or_init(make).as_ref()?),
+            None => use_it(&make()?),
+        }
+    }
+}
