@@ -5,7 +5,9 @@ from pathlib import Path
 from typing import Callable, NamedTuple
 
 import basins
+import edge_fates
 import hops
+import phases
 import scenes
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -56,7 +58,11 @@ TABLES = (
     _table("orbits.jsonl", hops.orbit, 2),
     _table("fixed_points.json", hops.fixed_point, 33),
     _table("fates.jsonl", basins.fate, 60),
+    _table("edges.jsonl", edge_fates.edge_record, 4),
+    _table("edge_fates.jsonl", edge_fates.fate, 24),
     _table("critical.json", basins.crisis, 10),
     _table("local_basin.json", basins.local_basin, 20),
+    _table("phases.jsonl", phases.phase, 16),
+    _table("slow_orbits.jsonl", phases.slow_orbit, 8),
     _table("events.jsonl", scenes.scene, 5),
 )
