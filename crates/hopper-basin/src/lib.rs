@@ -64,5 +64,3 @@ pub use traps::immediate_basin::{
     ImmediateBasin, ImmediateBasinEdge, immediate_basin, upper_crisis_bracket,
 };
 pub use traps::trap::{Trap, TrapEdge, TrapSide};
-
-pub use raster::slow_orbits::COUNTS;

@@ -19,6 +19,9 @@ const LARGEST_ERROR: f64 = 1e-4;
 const FIRST_PHASES: u32 = 16;
 const BEYOND: f64 = 0.011;
 
+/// Most searches for edges of a column that find none. Then its orbits are labelled alone. It affects the time only.
+const MOST_MISSED_EDGES: usize = 4;
+
 /// Most hops of a followed phase: an orbit leaves the turn of jumps after some 15 hops. Beyond it the phase stays open.
 const MOST_HOPS: usize = 2048;
 
@@ -59,7 +62,7 @@ impl Strip<'_> {
                 if !(self.end_beside_edge(at) || self.find_edge(at, n) && self.end_beside_edge(at)) {
                     match jump {
                         Some(jump) => self.end_on_circle(at, n, jump),
-                        None => { COUNTS[4].fetch_add(1, std::sync::atomic::Ordering::Relaxed); self.end_alone(at) },
+                        None => self.end_alone(at),
                     }
                 }
             }
@@ -78,12 +81,12 @@ impl Strip<'_> {
                 itinerary.end_in(&known.itinerary);
                 self.columns[column].labels[followed.at as usize] = known.label;
             }
-            None => { if std::env::var("SHOW").is_ok() { println!("alone {:e} phase {} error {:e} edges {:?}", self.speeds[followed.at as usize], jump.count.hops, jump.count.error, self.columns[column].edges); } COUNTS[1].fetch_add(1, std::sync::atomic::Ordering::Relaxed); self.end_alone(at) },
+            None => self.end_alone(at),
         }
     }
 
     /// Ends an orbit that starts beside a known edge; false if it does not.
-    pub(crate) fn end_beside_edge(&mut self, at: u32) -> bool {
+    fn end_beside_edge(&mut self, at: u32) -> bool {
         let followed = self.orbits.all[at as usize];
         let column = &self.columns[followed.column as usize];
         let start = self.speeds[followed.at as usize];
@@ -104,18 +107,18 @@ impl Strip<'_> {
         let column = &mut self.columns[followed.column as usize];
         let Some(laps) = &column.laps else { return false };
         let start = self.speeds[followed.at as usize];
-        if column.edges.iter().any(|(known, _)| known.is_near(n, start)) {
+        let searched = column.edges.iter().any(|(known, _)| known.is_near(n, start));
+        if searched || column.missed_edges >= MOST_MISSED_EDGES {
             return false;
         }
         let mut itinerary = Itinerary::START;
         let see = |speed: f64, reach: f64| itinerary.hop((speed, reach), laps);
-        let Some(edge) = BesideEdge::new(column.fates.map(), start, (n, hops), see) else {
-            COUNTS[3].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-            return false;
-        };
-        COUNTS[0].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        column.edges.push((edge, itinerary));
-        true
+        let edge = BesideEdge::new(column.fates.map(), start, (n, hops), see);
+        match edge {
+            Some(edge) => column.edges.push((edge, itinerary)),
+            None => column.missed_edges += 1,
+        }
+        edge.is_some()
     }
 
     /// The fate of the phases of `count` left of α*_n, from the known arcs, and from as many more orbits as it needs.
@@ -141,14 +144,12 @@ impl Strip<'_> {
 
     /// Follows the orbit of a phase and adds it to the arcs.
     fn add_phase(&mut self, column: usize, n: u64, phase: f64) {
-        COUNTS[2].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         let known = self.columns[column]
             .fates
             .slow_sides()
             .offset(n, phase)
             .and_then(|offset| self.follow_from(column, n, offset))
             .unwrap_or_else(|| {
-                COUNTS[5].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
                 let mut itinerary = Itinerary::START;
                 itinerary.give_up();
                 KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
@@ -216,14 +217,10 @@ impl Strip<'_> {
             {
                 let offset = FixedPointSpeed::new(n).offset_of(speed);
                 if offset < 0.0 && !sides.is_beyond_jumps(n, offset) {
-                    let jump = sides.jump(n, offset, error + f64::EPSILON * -offset);
-                    if jump.is_none() && std::env::var("SHOW").is_ok() { println!("follow no jump {speed} {offset:e} {error:e} hops {hops}"); }
-                    let jump = jump?;
+                    let jump = sides.jump(n, offset, error + f64::EPSILON * -offset)?;
                     if jump.hops > 0 {
                         // A circle inside the circle.
-                        let known = self.arc(column, n, jump.count);
-                        if known.is_none() && std::env::var("SHOW").is_ok() { println!("follow no arc {speed} {offset:e} {error:e} hops {hops}"); }
-                        let known = known?;
+                        let known = self.arc(column, n, jump.count)?;
                         itinerary.jump(n, jump.hops);
                         itinerary.end_in(&known.itinerary);
                         return Some(KnownFate { itinerary, label: known.label });
@@ -240,7 +237,6 @@ impl Strip<'_> {
                     return Some(KnownFate { itinerary, label: HopperFate::GROUNDED });
                 }
                 HopWithin::Inconclusive => {
-                    if std::env::var("SHOW").is_ok() { println!("follow inconclusive {speed} {error:e} hops {hops}"); }
                     return None;
                 }
             }
@@ -248,5 +244,3 @@ impl Strip<'_> {
         None
     }
 }
-
-pub static COUNTS: [std::sync::atomic::AtomicUsize; 8] = [const { std::sync::atomic::AtomicUsize::new(0) }; 8];

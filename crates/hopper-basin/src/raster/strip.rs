@@ -270,8 +270,6 @@ impl Strip<'_> {
                 return true;
             }
             HopWithin::Inconclusive => {
-                crate::raster::slow_orbits::COUNTS[6].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-                if std::env::var("SHOW").is_ok() { let f = &self.orbits.all[at as usize]; println!("inconclusive after {} hops: {} {}", self.orbits.count - f.since, self.speeds[f.at as usize], before); }
                 self.end_alone(at);
                 return true;
             }
@@ -299,7 +297,6 @@ impl Strip<'_> {
             }
         }
         // The orbit repeats its speed or has used up its budget of hops.
-        crate::raster::slow_orbits::COUNTS[7].fetch_add(1, std::sync::atomic::Ordering::Relaxed);
         self.end_alone(at);
         true
     }
