@@ -3,8 +3,6 @@
 //! In `f64` an orbit that comes within 10⁻⁹ of α*_n has lost the digits of its offset. Here one reference orbit has them, and the
 //! orbits beside it follow from its tangent: the offset of each keeps its digits, however near it is.
 
-use hopper_asymptotics::SlowJump;
-use crate::fates::slow_sides::SlowSides;
 use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, OrbitTangent,
 };
@@ -75,9 +73,8 @@ impl BesideEdge {
         self.n == n && (self.start - start).abs() <= SAME_EDGE
     }
 
-    /// The end of the slow hops from the orbit of `alpha`; `None` if it is too far away, does not fall to the left of α*_n, or
-    /// its phase is not known.
-    pub(crate) fn jump(&self, sides: &SlowSides, alpha: f64) -> Option<SlowJump> {
+    /// The offset from α*_n to which the orbit of `alpha` comes, and a bound on its error; `None` for a start too far away.
+    pub(crate) fn offset(&self, alpha: f64) -> Option<(f64, f64)> {
         let beside = alpha - self.start; // exact: both are near
         if !(beside.abs() <= self.tangent.radius) {
             return None;
@@ -88,7 +85,7 @@ impl BesideEdge {
         let error = self.offset.1
             + (rounding + self.third * size * size) * size
             + 2.0 * f64::EPSILON * (offset.abs() + (slope * beside).abs());
-        (offset < 0.0).then(|| sides.jump(self.n, offset, error))?
+        Some((offset, error))
     }
 }
 

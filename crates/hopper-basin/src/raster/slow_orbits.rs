@@ -7,6 +7,7 @@ use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
 use crate::raster::strip::{Strip, is_inside};
+use crate::traps::trap::TrapSide;
 use hopper_asymptotics::{HopCount, SlowJump};
 use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star};
 
@@ -38,63 +39,71 @@ impl Strip<'_> {
         let HopWithin::Next { speed, error } = hop else { return Some(hop) };
         let column = self.orbits.all[at as usize].column as usize;
         let offset = FixedPointSpeed::new(n).offset_of(speed);
-        let sides = self.columns[column].fates.slow_sides();
-        if !(offset < 0.0) {
+        let error = error + f64::EPSILON * offset.abs();
+        if offset >= error {
             return Some(hop);
         }
-        let known = (offset, error + f64::EPSILON * -offset);
-        if sides.is_beyond_jumps(n, offset) {
-            let mut itinerary = self.orbits.all[at as usize].itinerary;
-            let (speed, error) = self.walk(column, n, known, &mut itinerary);
-            self.orbits.all[at as usize].itinerary = itinerary;
+        let sides = self.columns[column].fates.slow_sides();
+        if self.columns[column].laps.is_none() {
+            // Without laps no two orbits agree: each is followed alone.
+            let Some((_, offset, error)) = sides.leave(n, offset, error) else { return Some(hop) };
+            let (speed, error) = speed_at(n, (offset, error));
             return Some(HopWithin::Next { speed, error });
         }
-        let jump = sides.jump(n, offset, known.1);
+        if sides.is_beyond_jumps(n, offset) {
+            let known = self.follow_from(column, n, (offset, error));
+            self.end_with(at, known, 0, n);
+            return None;
+        }
+        let jump = sides.jump(n, offset, error);
+        let near = jump.is_none_or(|jump| jump.count.error > LARGEST_ERROR);
+        if near && (self.end_beside_edge(at) || self.find_edge(at, n) && self.end_beside_edge(at)) {
+            return None;
+        }
         match jump {
-            Some(jump) if self.columns[column].laps.is_none() => {
-                // Without laps no two orbits agree.
-                let speed = alpha_star(n) + jump.delta;
-                // Half an ulp each for α*_n and for the sum.
-                return Some(HopWithin::Next { speed, error: jump.error + f64::EPSILON * speed });
-            }
-            Some(jump) if jump.count.error <= LARGEST_ERROR => self.end_on_circle(at, n, jump),
-            _ => {
-                if !(self.end_beside_edge(at) || self.find_edge(at, n) && self.end_beside_edge(at)) {
-                    match jump {
-                        Some(jump) => self.end_on_circle(at, n, jump),
-                        None => self.end_alone(at),
-                    }
-                }
-            }
+            Some(jump) => self.end_on_circle(at, n, jump),
+            None => self.end_alone(at),
         }
         None
     }
 
-    /// Ends the orbit by its phase after a jump.
-    fn end_on_circle(&mut self, at: u32, n: u64, jump: SlowJump) {
-        let followed = self.orbits.all[at as usize];
-        let column = followed.column as usize;
-        match self.arc(column, n, jump.count) {
-            Some(known) => {
-                let itinerary = &mut self.orbits.all[at as usize].itinerary;
-                itinerary.jump(n, jump.hops);
-                itinerary.end_in(&known.itinerary);
-                self.columns[column].labels[followed.at as usize] = known.label;
-            }
-            None => self.end_alone(at),
+    /// Ends the orbit in a known fate, after `hops` hops left of α*_n that were jumped over; alone if the fate is not known.
+    fn end_with(&mut self, at: u32, known: Option<KnownFate>, hops: u64, n: u64) {
+        let Some(known) = known else { return self.end_alone(at) };
+        let followed = &mut self.orbits.all[at as usize];
+        if hops > 0 {
+            followed.itinerary.jump(n, hops);
         }
+        followed.itinerary.end_in(&known.itinerary);
+        self.columns[followed.column as usize].labels[followed.at as usize] = known.label;
     }
 
-    /// Ends an orbit that starts beside a known edge; false if it does not.
+    /// Ends the orbit by its phase after a jump.
+    fn end_on_circle(&mut self, at: u32, n: u64, jump: SlowJump) {
+        let column = self.orbits.all[at as usize].column as usize;
+        let known = self.arc(column, n, jump.count);
+        self.end_with(at, known, jump.hops, n);
+    }
+
+    /// Ends an orbit that starts beside a known edge; false if it does not, or `f64` does not decide it.
     fn end_beside_edge(&mut self, at: u32) -> bool {
         let followed = self.orbits.all[at as usize];
         let column = &self.columns[followed.column as usize];
         let start = self.speeds[followed.at as usize];
-        let sides = column.fates.slow_sides();
         let found = column.edges.iter().find_map(|(edge, itinerary)| {
-            edge.jump(sides, start).map(|jump| (edge.n, jump, *itinerary))
+            edge.offset(start).map(|offset| (edge.n, offset, *itinerary))
         });
-        let Some((n, jump, itinerary)) = found else { return false };
+        let Some((n, (offset, error), itinerary)) = found else { return false };
+        let in_trap = column.fates.trap(n).is_ok_and(|trap| {
+            trap.side_of_offset(offset, error) == TrapSide::Inside
+        });
+        if in_trap {
+            self.orbits.all[at as usize].itinerary = itinerary;
+            let known = KnownFate { itinerary: Itinerary::in_trap(n as u32), label: n as u16 };
+            self.end_with(at, Some(known), 0, n);
+            return true;
+        }
+        let Some(jump) = column.fates.slow_sides().jump(n, offset, error) else { return false };
         self.orbits.all[at as usize].itinerary = itinerary;
         self.end_on_circle(at, n, jump);
         true
@@ -157,34 +166,16 @@ impl Strip<'_> {
         self.columns[column].arcs(n).add(phase, known.itinerary, known.label);
     }
 
-    /// The speed and its error after the hops left of α*_n that a walk has a value for.
-    fn walk(
-        &self,
-        column: usize,
-        n: u64,
-        mut offset: (f64, f64),
-        itinerary: &mut Itinerary,
-    ) -> (f64, f64) {
-        let Column { fates, laps, .. } = &self.columns[column];
-        let speed_of = |(offset, error): (f64, f64)| {
-            let speed = alpha_star(n) + offset;
-            // Half an ulp each for α*_n and for the sum.
-            (speed, error + f64::EPSILON * speed)
-        };
-        while let Some(next) = fates.slow_sides().walk(n, offset) {
-            match laps {
-                Some(laps) => itinerary.hop(speed_of(offset), laps),
-                None => itinerary.give_up(),
-            }
-            offset = next;
-        }
-        speed_of(offset)
-    }
-
     /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
     fn follow_from(&mut self, column: usize, n: u64, offset: (f64, f64)) -> Option<KnownFate> {
-        let mut itinerary = Itinerary::START;
-        let start = self.walk(column, n, offset, &mut itinerary);
+        let Column { fates, laps, .. } = &self.columns[column];
+        let laps = laps.as_ref()?;
+        let (mut itinerary, mut offset) = (Itinerary::START, offset);
+        while let Some(next) = fates.slow_sides().walk(n, offset) {
+            itinerary.hop(speed_at(n, offset), laps);
+            offset = next;
+        }
+        let start = speed_at(n, offset);
         // The second bound takes ten times as long, and decides nearly all of the rest.
         self.follow(column, start, itinerary, LiftOffMap::hop_within)
             .or_else(|| self.follow(column, start, itinerary, LiftOffMap::signed_hop_within))
@@ -243,4 +234,10 @@ impl Strip<'_> {
         }
         None
     }
+}
+
+/// α*_n plus an offset, and the bound on the error of the sum: half an ulp each for α*_n and for the sum.
+fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
+    let speed = alpha_star(n) + offset;
+    (speed, error + f64::EPSILON * speed)
 }
