@@ -115,6 +115,9 @@ impl SlowSides {
     }
 }
 
+/// A zone ends this much above α*_n: more than the error of an orbit that comes there in `f64`, which may lie below α*_n.
+const BEYOND: f64 = 1.0 + 1e-11;
+
 /// The ends of the slow sides at one mass ratio, for a fast look-up.
 #[derive(Debug, Clone)]
 pub(crate) struct SlowZones {
@@ -127,7 +130,7 @@ impl SlowZones {
     pub(crate) fn new(mass_ratio: MassRatio, last: u64) -> Self {
         let zone = |n| {
             let star = alpha_star(n);
-            (star - farthest(n, mass_ratio), star)
+            (star - farthest(n, mass_ratio), star * BEYOND)
         };
         let empty = (f64::INFINITY, f64::NEG_INFINITY);
         SlowZones { zones: std::iter::once(empty).chain((1..=last).map(zone)).collect() }

@@ -76,6 +76,11 @@ impl<'a> Column<'a> {
         self.traps.ends().map(|(n, ends)| (fate_in_trap(n), ends))
     }
 
+    /// Whether the speeds next to α*_n, on its left, have a lap.
+    pub(crate) fn has_lap_below(&self, n: u64) -> bool {
+        self.laps.as_ref().is_some_and(|laps| laps.has_lap_below(n))
+    }
+
     /// The known arcs of the circle of α*_n, n ≥ 1.
     pub(crate) fn arcs(&mut self, n: u64) -> &mut Arcs {
         let n = n as usize;

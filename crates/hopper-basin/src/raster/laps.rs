@@ -65,6 +65,12 @@ impl Laps {
         Ok(Some(Laps { humps: humps.collect::<Result<_, Error>>()? }))
     }
 
+    /// Whether a lap ends at α*_n, n ≥ 1.
+    pub(crate) fn has_lap_below(&self, n: u64) -> bool {
+        let hump = usize::try_from(n).ok().and_then(|n| self.humps.get(n.checked_sub(1)?));
+        hump.is_some_and(|hump| hump.end == alpha_star(n))
+    }
+
     /// The number of the lap that contains all speeds within `error` of `alpha`, different for all laps and less than
     /// 2^[`ID_BITS`]; `None` if the interval of these speeds reaches an
     /// end of a lap, or lies outside all laps.

@@ -27,24 +27,26 @@ const MOST_MISSED_EDGES: usize = 4;
 const MOST_HOPS: usize = 2048;
 
 impl Strip<'_> {
-    /// The n on whose slow side the orbit may be.
+    /// Where the orbit is on the slow side of a fixed point, if it may be: n, its offset, and the error of the offset.
     #[inline]
-    pub(crate) fn slow_side(&self, at: u32, hop: HopWithin) -> Option<u64> {
-        let HopWithin::Next { speed, .. } = hop else { return None };
-        self.columns[self.orbits.all[at as usize].column as usize].zones.find(speed)
+    pub(crate) fn slow_side(&self, at: u32, hop: HopWithin) -> Option<(u64, f64, f64)> {
+        let HopWithin::Next { speed, error } = hop else { return None };
+        let n = self.columns[self.orbits.all[at as usize].column as usize].zones.find(speed)?;
+        let offset = FixedPointSpeed::new(n).offset_of(speed);
+        let error = error + f64::EPSILON * offset.abs();
+        (offset < error).then_some((n, offset, error))
     }
 
     /// The orbit after its hops along the slow side of α*_n; as it is if it leaves with the next hop. `None` if it has ended.
-    pub(crate) fn jump(&mut self, at: u32, n: u64, hop: HopWithin) -> Option<HopWithin> {
-        let HopWithin::Next { speed, error } = hop else { return Some(hop) };
+    pub(crate) fn jump(
+        &mut self,
+        at: u32,
+        (n, offset, error): (u64, f64, f64),
+        hop: HopWithin,
+    ) -> Option<HopWithin> {
         let column = self.orbits.all[at as usize].column as usize;
-        let offset = FixedPointSpeed::new(n).offset_of(speed);
-        let error = error + f64::EPSILON * offset.abs();
-        if offset >= error {
-            return Some(hop);
-        }
         let sides = self.columns[column].fates.slow_sides();
-        if self.columns[column].laps.is_none() {
+        if !self.columns[column].has_lap_below(n) {
             // Without laps no two orbits agree: each is followed alone.
             let Some((_, offset, error)) = sides.leave(n, offset, error) else { return Some(hop) };
             let (speed, error) = speed_at(n, (offset, error));

@@ -227,7 +227,7 @@ impl Strip<'_> {
             let at = self.orbits.index[from];
             let mut hop = self.orbits.hops[from];
             let ended = match self.slow_side(at, hop.1) {
-                Some(n) => match self.jump(at, n, hop.1) {
+                Some(slow) => match self.jump(at, slow, hop.1) {
                     Some(next) => {
                         hop.1 = next;
                         false
