@@ -93,7 +93,10 @@ impl Itinerary {
     /// Completes the itinerary of an orbit that has reached an interval whose orbits all have the itinerary `known`.
     #[inline]
     pub(crate) fn end_in(&mut self, known: &Itinerary) {
-        // The bits of the known laps, without their leading one. Known intervals have laps.
+        if !known.is_known() {
+            return self.give_up();
+        }
+        // The bits of the known laps, without their leading one.
         let bits = 63 - known.laps.leading_zeros();
         // The laps of both must fit below bit 63.
         let one_jump = (self.slow == 0) | (known.slow == 0);
