@@ -33,7 +33,9 @@ pub enum Error {
         text: String,
     },
     /// A drift of the slow side, a multiple of λ, at which the series of the Fatou coordinate has no bound.
-    #[error("the slow side of α*_{n} drifts with {drift:e}: the series of its Fatou coordinate has no bound there")]
+    #[error(
+        "the slow side of α*_{n} drifts with {drift:e}: the series of its Fatou coordinate has no bound there"
+    )]
     Drift {
         /// The index.
         n: u64,

@@ -68,7 +68,7 @@ pub use fatou::phase::Phase;
 pub use fixed_point_series::{FIXED_POINT_REMAINDER, fixed_point_series};
 pub use left_expansion::{LEFT_RANGE, LeftExpansion};
 pub use local_map::LEFT_FACTOR;
+pub use num_bigint::BigInt;
 pub use right_expansion::{RIGHT_RANGE, RightExpansion};
 pub use small_alpha::{SMALL_ALPHA_RANGE, SMALL_HOP_REMAINDER, small_hop_loss};
 pub use trap_length_series::{SMALLEST_LAMBDA, TRAP_LENGTH_REMAINDER, trap_length_series};
-pub use num_bigint::BigInt;

@@ -109,17 +109,17 @@ impl AbelSeries {
 
     /// Finds the d_k, and the bound.
     fn solve(&mut self, hop: &LocalHopModel, side: Side) {
-        let powers = hop.growth.powers();
-        let size = hop.growth.size();
+        let growth = hop.growth.shifted();
+        let (powers, size) = (growth.powers(), growth.size());
         let relative = (DRIFT_ULPS + 2.0) * f64::EPSILON;
-        // [(1+g)^{−1/3} − 1]/(A x): the constant term of the bracket is exactly 0.
-        let bracket = without_constant(Model::binomial(&powers, -1.0 / 3.0, size));
-        let leading = (&bracket.lowered() * &hop.root.reciprocal())
-            .scaled(1.0 / (self.drift * self.width), relative);
+        // [(1+g)^{−1/3} − 1]/(A x) is g/u times a series in g, divided by A x/u.
+        let bracket = &hop.growth * &Model::binomial_quotient(&powers, -1.0 / 3.0, size);
+        let leading =
+            (&bracket * &hop.root.reciprocal()).scaled(1.0 / (self.drift * self.width), relative);
         // The rest of c is known as well as A, and its whole is exact.
         let logarithms = Model::logarithm(&powers, size).scaled(self.logarithm() / 3.0, relative);
         let mut residual = &leading + &logarithms;
-        // These two vanish by the choice of A and c.
+        // The first two coefficients are exactly 0 by the choice of A and c.
         residual.terms[..2].fill(0.0);
         residual.radii[..2].fill(0.0);
         let (root, fast) = (hop.root.shifted(), Model::binomial(&powers, 1.0 / 3.0, size));

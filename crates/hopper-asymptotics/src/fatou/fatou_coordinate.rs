@@ -232,7 +232,8 @@ impl FatouCoordinate {
     ) -> Option<SlowJump> {
         self.check(delta * self.side.sign() > 0.0 && delta.abs() <= self.range(), delta).ok()?;
         let phase = self.phase(Offset::from(delta)).ok()?;
-        let whole = i64::try_from(phase.whole()).ok().filter(|&whole| whole < LARGEST_JUMP as i64)?;
+        let whole =
+            i64::try_from(phase.whole()).ok().filter(|&whole| whole < LARGEST_JUMP as i64)?;
         let root = pxfm::f_cbrt(delta.abs());
         let slope = self.series.slope(root) * self.side.sign() / (3.0 * root * root); // dΨ/dδ
         // The exact slope lies within half of this one (docs/theory.md, Section 16). An error as large as δ has no

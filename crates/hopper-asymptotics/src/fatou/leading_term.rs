@@ -89,7 +89,8 @@ fn fixed_point(n: u64, bits: u64) -> BigUint {
             let square = (&alpha * &alpha) >> bits;
             (step * (&unit + &square)) / square
         };
-        let next = if above >= q { &alpha - scale(&above - &q) } else { &alpha + scale(&q - &above) };
+        let next =
+            if above >= q { &alpha - scale(&above - &q) } else { &alpha + scale(&q - &above) };
         alpha = next;
         right *= 2;
         if right > bits + 4 {

@@ -8,7 +8,9 @@
 //!   leading_term.rs       the leading term of Ψ to any number of digits
 //!   slow_hops.rs          single hops, where the series has no value
 //!   local_hop_model.rs    a hop as Taylor models
+//!   second_flight.rs      its second flight, on the left
 //!   taylor_model.rs       polynomials with bounds
+//!   polynomial.rs         polynomials without bounds
 //! ```
 
 pub(crate) mod abel_series;
@@ -18,5 +20,7 @@ pub(crate) mod leading_term;
 pub(crate) mod local_hop_model;
 pub(crate) mod offset;
 pub(crate) mod phase;
+pub(crate) mod polynomial;
+pub(crate) mod second_flight;
 pub(crate) mod slow_hops;
 pub(crate) mod taylor_model;
