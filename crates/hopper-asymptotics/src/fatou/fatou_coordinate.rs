@@ -4,12 +4,12 @@
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
-use crate::fatou::abel_series::AbelSeries;
-use crate::fatou::leading_term::leading_term;
+use crate::fatou::abel_series::{AbelSeries, cube_error};
+use crate::fatou::leading_term::exact_terms;
 use crate::fatou::local_hop_model::Side;
 use crate::fatou::offset::Offset;
 use crate::fatou::phase::Phase;
-use crate::fatou::slow_hops::{inward, outward};
+use crate::fatou::slow_hops::{MOST_HOPS, inward, outward};
 use passive_hopper::{LiftOffMap, MassRatio};
 
 /// The Fatou coordinate Ψ of α*_n on one side: the number of hops to leave it, or since the approach began.
@@ -75,8 +75,19 @@ pub struct SlowJump {
 /// The largest number of hops of one [`SlowJump`]: an `f64` up to it has its digit of one half.
 const LARGEST_JUMP: f64 = 4.5e15;
 
+/// Beyond A Ψ = 2^`DEEP_BITS` an offset is found from the leading term alone. The other terms are smaller by a factor of at
+/// least 2²⁰⁰, and x³ is a normal number up to there.
+const DEEP_BITS: f64 = 300.0;
+
+/// The largest relative error of the x of a phase.
+const LARGEST_ERROR: f64 = 0.5;
+
+/// The largest relative error of an offset that is followed by hops. The slope of the map changes by less than a twentieth over
+/// it.
+const SMALL_ERROR: f64 = 0.05;
+
 impl FatouCoordinate {
-    /// The coordinate at α*_n. It takes about a tenth of a millisecond.
+    /// The coordinate at α*_n. It takes some 50 microseconds.
     ///
     /// # Errors
     /// [`Error::Index`] for n = 0; [`Error::Drift`] where the mass ratio is so extreme, or n so large, that the series has no
@@ -113,41 +124,44 @@ impl FatouCoordinate {
         root * root * root
     }
 
-    /// The largest |δ| that has a phase: 10⁻³/(1 + λ³) on the left, 10⁻³/λ³ on the right, and at most 10⁻³.
+    /// The largest |δ| that has a phase.
     ///
-    /// On the left the loss of a hop is at most |δ| there. On the right it is about a thousandth of the length of the trap.
+    /// ```text
+    ///   left    10⁻³/λ³, where the loss of a hop is |δ|;      at most 0.0109, for M ≤ 1 at most 0.0586
+    ///   right   8·10⁻³/λ³, where the loss is a fifth of δ;    at most 0.02
+    /// ```
+    ///
+    /// Up to there f rises and a hop has one sudden lift-off on the left (docs/theory.md, Theorem 81), none on the right.
     pub fn reach(&self) -> f64 {
         let cube = self.local.lambda * self.local.lambda * self.local.lambda;
-        let reach = match self.side {
-            Side::Left => 1e-3 / (1.0 + cube),
-            Side::Right => (1e-3 / cube).min(1e-3),
+        let (reach, most) = match self.side {
+            Side::Left if self.map.mass_ratio().value() <= 1.0 => (1e-3 / cube, 0.0586),
+            Side::Left => (1e-3 / cube, 0.0109),
+            Side::Right => (8e-3 / cube, 0.02),
         };
-        reach.max(self.range())
+        reach.min(most).max(self.range())
     }
 
     /// Ψ at `delta`, to as many digits as the fraction needs.
     ///
     /// # Errors
-    /// [`Error::OutsideRange`] for an offset that is zero, on the other side, or beyond [`reach`](Self::reach);
-    /// [`Error::Hop`] if a hop towards α*_n has no value.
+    /// [`Error::OutsideRange`] for an offset that is zero, on the other side, or beyond [`reach`](Self::reach), and for one that
+    /// is more than 10 000 hops beyond [`range`](Self::range), which happens for M below some 10⁻⁴; [`Error::Offset`] for an
+    /// exponent beyond [`Offset::LARGEST_EXPONENT`]; [`Error::Hop`] if a hop towards α*_n has no value.
     pub fn phase(&self, delta: Offset) -> Result<Phase, Error> {
+        let delta = Offset::new(delta.mantissa(), delta.exponent())?;
         let near = delta.nearest();
-        self.check(delta.mantissa() * self.side.sign() > 0.0, near)?;
+        self.check(delta.mantissa() * self.side.sign() > 0.0 && near.abs() <= self.reach(), near)?;
         if near.abs() > self.range() {
-            let (inner, hops, error) = inward(&self.map, self.n, near, self.range(), self.drift())?;
+            let (inner, hops, error) = inward(&self.map, self.n, near, self.range())?;
             let count = self.count_within(inner, 0.0)?;
-            return Ok(Phase::new(-hops, count.hops, count.error + error));
+            return Ok(Phase::new(-hops as i64, count.hops, count.error + error));
         }
-        let (logarithm, _) = delta.logarithm_in_two_parts();
-        let size = -logarithm / (3.0 * std::f64::consts::LN_2) - pxfm::f_log2(self.drift());
-        let cube = if self.side == Side::Left { 1 } else { 1000 };
+        let size = -delta.logarithm() / (3.0 * std::f64::consts::LN_2) - pxfm::f_log2(self.drift());
         let ratio = self.map.mass_ratio().value();
-        let digits = leading_term(self.n, ratio, delta, cube, size);
-        let (whole, rest, error) = self.series.beyond_leading(delta);
-        // The fraction has 64 bits, of which an `f64` keeps 53.
-        let fraction = digits.fraction as f64 * 0.5_f64.powi(64);
-        let sum = Phase::new(digits.whole, fraction + rest, error + f64::EPSILON);
-        Ok(sum.plus(whole as i64))
+        let exact = exact_terms(self.n, ratio, self.side, delta, size);
+        let (rest, error) = self.series.beyond_exact(delta);
+        Ok(Phase::new(exact.whole, exact.fraction + rest, error))
     }
 
     /// Ψ for all offsets within `error` of `delta`, in `f64`: faster than [`phase`](Self::phase), with an error of some ulps of
@@ -174,30 +188,47 @@ impl FatouCoordinate {
         Ok(HopCount { hops: value.hops, error })
     }
 
-    /// The offset with the given phase, as near as `f64` digits give it, and the relative error of the offset.
+    /// The offset with the given phase, as near as `f64` digits give it, and a bound on its relative error.
     ///
     /// # Errors
-    /// [`Error::OutsideRange`] for a phase whose offset is beyond [`reach`](Self::reach).
+    /// [`Error::OutsideRange`] for a phase whose offset is beyond [`reach`](Self::reach), or more than 10 000 hops beyond
+    /// [`range`](Self::range); [`Error::Phase`] for a phase that is known so badly that its offset has no bound.
     pub fn offset(&self, phase: &Phase) -> Result<(Offset, f64), Error> {
         let (mantissa, exponent) = phase.scaled();
-        let nearest = self.series.nearest();
-        // Far beyond `f64` only the leading term and the logarithm count.
-        if exponent > 900 {
-            let (delta, error) = self.series.deep_offset(mantissa, exponent);
+        let unknown = |hops| Error::Phase { hops, error: phase.error() };
+        // 1/x is about A Ψ, and only the leading term counts.
+        if mantissa > 0.0 && exponent as f64 + pxfm::f_log2(self.drift()) > DEEP_BITS {
+            // In two steps, since an error may be as large as an `f64`. One below 2⁻⁹⁰⁰ does not count.
+            let half = 0.5f64.powi(exponent.min(2000) as i32 / 2);
+            let error = 2.0 * phase.error() * half * half / mantissa;
+            if !(error <= LARGEST_ERROR) {
+                return Err(unknown(mantissa * 2f64.powi(exponent.min(1024) as i32)));
+            }
+            let (delta, error) = self.series.deep_offset(mantissa, exponent, error);
             return Ok((delta.with_sign(self.side.sign()), error));
         }
-        let hops = mantissa * 2f64.powi(exponent as i32);
-        let beyond = nearest.hops + nearest.error - hops;
-        if beyond <= 0.0 {
-            let (delta, error) = self.at_count(HopCount { hops, error: phase.error() });
-            return Ok((Offset::from(delta), error / delta.abs()));
+        let nearest = self.series.nearest();
+        let hops = mantissa * 2f64.powi(exponent.min(1024) as i32);
+        let least = nearest.hops + nearest.error + phase.error().min(MOST_HOPS);
+        let whole = (least - hops).ceil().max(0.0);
+        if !(whole <= MOST_HOPS && hops.is_finite()) {
+            let left = nearest.hops - MOST_HOPS;
+            return Err(Error::OutsideRange { value: hops, left, right: f64::MAX });
         }
-        // Whole hops from inside the range; on the right the hops lead inwards, and the offset is a preimage.
-        let whole = beyond.ceil();
-        let start = HopCount { hops: hops + whole, error: phase.error() };
-        let (delta, error) = self.at_count(start);
-        let (delta, error) = outward(&self.map, self.n, (delta, error), whole, self.reach())?;
-        Ok((Offset::from(delta), error / delta.abs()))
+        // From inside the range whole hops lead out; on the right they are inverted.
+        let rounding = 2.0 * f64::EPSILON * hops.abs();
+        let start = HopCount { hops: hops + whole, error: phase.error() + rounding };
+        let (root, error) = self.series.root_at(start);
+        let start = (self.side.sign() * root * root * root, cube_error(error));
+        if !(error <= LARGEST_ERROR) {
+            return Err(unknown(hops));
+        }
+        let (delta, error) = outward(&self.map, self.n, start, whole, self.reach())?;
+        // The hops carry a small error only.
+        if whole > 0.0 && !(error <= SMALL_ERROR) {
+            return Err(unknown(hops));
+        }
+        Ok((Offset::from(delta), error))
     }
 
     /// The point with the same fraction that an orbit on the left reaches later: the one of the last turn on which the series
@@ -249,12 +280,11 @@ impl FatouCoordinate {
         Some(self.land(hops as u64, HopCount { hops: last + fraction, error }))
     }
 
-    /// The offset at which Ψ has this value, and a bound on its error.
-    pub(crate) fn at_count(&self, count: HopCount) -> (f64, f64) {
+    /// The offset at which Ψ has this value, and a bound on its error, which is infinite if the value has a large one.
+    fn at_count(&self, count: HopCount) -> (f64, f64) {
         let (root, error) = self.series.root_at(count);
-        // d(x³) = 3x² dx; the factor covers the roundings of the cube and the second order.
         let cube = root * root * root;
-        (self.side.sign() * cube, 3.1 * root * root * error + 2.0 * f64::EPSILON * cube)
+        (self.side.sign() * cube, cube_error(error) * cube)
     }
 
     fn whole_range(&self) -> f64 {
@@ -263,10 +293,10 @@ impl FatouCoordinate {
     }
 
     fn check(&self, inside: bool, delta: f64) -> Result<(), Error> {
-        let reach = self.reach();
-        if inside && delta.abs() <= reach.max(self.whole_range()) {
+        if inside {
             return Ok(());
         }
+        let reach = self.reach();
         let (left, right) = match self.side {
             Side::Left => (-reach, 0.0),
             Side::Right => (0.0, reach),

@@ -71,29 +71,21 @@ impl LocalHopModel {
     /// The hop on one side of a fixed point. For the left side |δ| must not exceed 10⁻³ up to `width`.
     pub(crate) fn new(local: &Coefficients, mass_ratio: MassRatio, side: Side, width: f64) -> Self {
         let first = FirstFlight::new(local, side, width);
-        let kappa = mass_ratio.kappa();
-        let closing = match side {
-            Side::Right => first.closing,
-            Side::Left => return Self::with_second(&first, mass_ratio, kappa),
-        };
-        Self::from_losses(&first, &(&closing * &closing), mass_ratio)
-    }
-
-    fn with_second(first: &FirstFlight, mass_ratio: MassRatio, kappa: f64) -> Self {
-        let width = first.width;
-        let by_time = |model: &Model| model.shifted().scaled(width, 0.0); // |t| · model
-        let mut half_time = Model::constant(first.a, f64::EPSILON * first.a); // h = a + t/2
-        half_time.terms[1] = 0.5 * first.side.sign() * width;
-        let excess = (&half_time * &first.beyond).scaled(2.0, 0.0);
-        let rebound = by_time(&by_time(&first.closing)).scaled(kappa, COEFFICIENT);
-        let velocity = &(&by_time(&first.beyond) - &half_time) + &rebound;
-        let second = SecondFlight::new(first.a, excess, velocity, width);
-        let squares = &(&first.closing * &first.closing) + &(&second.closing * &second.closing);
-        Self::from_losses(first, &squares, mass_ratio)
+        let mut squares = &first.closing * &first.closing;
+        if side == Side::Left {
+            let second = first.next(mass_ratio.kappa());
+            squares = &squares + &(&second.closing * &second.closing);
+        }
+        Self::from_losses(&first, &squares, mass_ratio, local.lambda)
     }
 
     /// From Σ Γ²/t⁴.
-    fn from_losses(first: &FirstFlight, squares: &Model, mass_ratio: MassRatio) -> Self {
+    fn from_losses(
+        first: &FirstFlight,
+        squares: &Model,
+        mass_ratio: MassRatio,
+        lambda: f64,
+    ) -> Self {
         let width = first.width;
         // T = μ Σ Γ²/t⁴ and ℓ = α (1 − √(1 − z)) with z = t⁴ T/α², so that ℓ/t⁴ = (T/α) (½ + z/8 + z²/16 + …).
         let taken = squares.scaled(mass_ratio.mu(), COEFFICIENT);
@@ -116,9 +108,18 @@ impl LocalHopModel {
         sum.rest += power.rest * later;
         let ratio = &(&(&over * &sum) * &first.q) * &first.inverse_numerator;
         let growth = ratio.scaled(-first.side.sign() * width, f64::EPSILON);
+        // x is |t|/β, and g is −λx on the right and 10λx on the left, to leading order.
+        let leading = match first.side {
+            Side::Left => 10.0 * lambda,
+            Side::Right => -lambda,
+        } * width / first.beta;
+        let growth = growth.with_constant(leading, GROWTH_ULPS * f64::EPSILON * leading.abs());
         LocalHopModel { root: first.root(), growth }
     }
 }
+
+/// Bound on the relative error of λ/β with three more operations, in units of ε (docs/theory.md, Lemma 72).
+const GROWTH_ULPS: f64 = 10.0;
 
 /// Terms of the series of a loss: z^k is O(u^{4k}).
 const LOSS_TERMS: usize = ORDER / 4;
@@ -162,13 +163,29 @@ impl FirstFlight {
         let b = sine_like(half, 0, r2, b_factor);
         let turn = sine_like(half, 0, a, by_parity(a, 1.0)); // a cos η + sin η
         let over = q.scaled(r2, COEFFICIENT).reciprocal(); // 1/(R²Q)
-        let closing = &(&b * &b) * &over;
-        let beyond = (&(&turn * &b) * &over).scaled(-sign, 0.0);
+        // b = a², Q = 2a³/R² and a cos η + sin η = a at t = 0.
+        let error = 0.5 * f64::EPSILON * a;
+        let closing = (&(&b * &b) * &over).with_constant(0.5 * a, error);
+        let beyond = (&(&turn * &b) * &over).scaled(-sign, 0.0).with_constant(-sign * 0.5, 0.0);
         let cube = &numerator * &over.scaled(r2, COEFFICIENT); // N/Q = |δ|/|t|³
         let offset = (0..3).fold(cube, |m, _| m.shifted().scaled(width, f64::EPSILON));
         let speed = &Model::constant(a, f64::EPSILON * a) + &offset.scaled(sign, 0.0);
         let (beta, inverse_numerator) = (local.beta, numerator.reciprocal());
         FirstFlight { side, a, beta, width, cube, q, inverse_numerator, speed, closing, beyond }
+    }
+
+    /// The second flight, on the left.
+    fn next(&self, kappa: f64) -> SecondFlight {
+        let (a, width) = (self.a, self.width);
+        let by_time = |model: &Model| model.shifted().scaled(width, 0.0); // |t| · model
+        let error = 0.5 * f64::EPSILON * a;
+        let mut half_time = Model::constant(a, error); // h = a + t/2
+        half_time.terms[1] = 0.5 * self.side.sign() * width;
+        // X̂ = 2h (α − h)/|t|, which is a at t = 0.
+        let excess = (&half_time * &self.beyond).scaled(2.0, 0.0).with_constant(a, error);
+        let rebound = by_time(&by_time(&self.closing)).scaled(kappa, COEFFICIENT);
+        let velocity = &(&by_time(&self.beyond) - &half_time) + &rebound;
+        SecondFlight::new(a, excess, velocity, width)
     }
 
     /// (N/Q)^{1/3}.

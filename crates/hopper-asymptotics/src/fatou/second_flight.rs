@@ -121,7 +121,9 @@ impl SecondFlight {
         let (w, slope) = approximate(&Start { excess: x, velocity: v, width }, a);
         let start = Start { excess, velocity, width };
         let middle = Model::exact(w);
-        let residual = start.equation(&Flight::new(middle, width));
+        // w = 3 at t = 0, where X̂ = a and V = −a.
+        let middle = middle.with_constant(3.0, 0.0);
+        let residual = start.equation(&Flight::new(middle, width)).with_constant(0.0, 0.0);
         let trial = middle.with_errors(&residual, &Model::exact(slope)).widened(TRIAL);
         // With e = w − middle, e = −residual/S, where S is the mean slope between the two. For every e within the trial
         // bounds S is one of the functions `slope`, and the right side is again within them. So the iteration from e = 0
@@ -133,6 +135,7 @@ impl SecondFlight {
         let bracket = start.velocity.times(&f.w).times(&f.entire(2));
         let bracket = bracket.minus(&f.third.times(&f.entire(3)));
         let bracket = bracket.plus(&start.excess.times(&f.entire(1)));
-        SecondFlight { closing: f.w.times(&bracket).negative() }
+        let closing = f.w.times(&bracket).negative();
+        SecondFlight { closing: closing.with_constant(1.5 * a, f64::EPSILON * a) }
     }
 }

@@ -60,6 +60,12 @@ impl Model {
         model
     }
 
+    /// The model with a constant term that is known to within `radius`.
+    pub(crate) fn with_constant(mut self, value: f64, radius: f64) -> Self {
+        (self.terms[0], self.radii[0]) = (value, radius);
+        self
+    }
+
     /// u · self.
     pub(crate) fn shifted(&self) -> Self {
         let mut model = Model::ZERO;
