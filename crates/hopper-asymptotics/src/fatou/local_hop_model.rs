@@ -112,7 +112,8 @@ impl LocalHopModel {
         let leading = match first.side {
             Side::Left => 10.0 * lambda,
             Side::Right => -lambda,
-        } * width / first.beta;
+        } * width
+            / first.beta;
         let growth = growth.with_constant(leading, GROWTH_ULPS * f64::EPSILON * leading.abs());
         LocalHopModel { root: first.root(), growth }
     }

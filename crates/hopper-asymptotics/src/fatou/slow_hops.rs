@@ -5,11 +5,14 @@ use passive_hopper::LiftOffMap;
 
 /// Most hops from the reach of a phase to the range of the series. There are some ten to thirty, and more only if the drift is
 /// so small (M below 10⁻⁴) that the range is limited by the series of the flights.
-pub(crate) const MOST_HOPS: f64 = 10_000.0;
+pub(crate) const MOST_HOPS: i64 = 10_000;
 
-/// Relative error of δ′ in units of ε: 8 for the hop (`LiftOffMap::hop_near_fixed_point`). Of a preimage 8 as well, because f
-/// moves it by a larger part of itself than its image, and 2 for the end of its search.
-const HOP_ULPS: f64 = 10.0;
+/// Relative error of δ′ in units of ε (`LiftOffMap::hop_near_fixed_point`).
+const HOP_ULPS: f64 = 8.0;
+
+/// Relative error of a preimage in units of ε: that of the hop, because f moves the preimage by a larger part of itself than its
+/// image, and 2 for the end of the search.
+const PREIMAGE_ULPS: f64 = 10.0;
 
 /// Most steps of the search for a preimage.
 const SEARCH_STEPS: usize = 60;
@@ -19,31 +22,32 @@ const SEARCH_STEPS: usize = 60;
 ///
 /// A hop of length L changes Ψ by 1, and |dΨ/dδ| grows towards α*_n, by the factor f′ or 1/f′ from one end to the other. So it
 /// is at most 1/L at the outer end, and at most f′/L or 1/(f′L) at the inner one. To leading order |f′ − 1| is
-/// (4/3) L/|δ|. With 2 L/|δ|, where δ is the start of the exact hop, and L ≤ |δ|/4 on the right,
+/// (4/3) L/|δ|. With 1.5 L/|δ|, where δ is the start of the hop, and L ≤ |δ|/4 on the right,
 ///
 /// ```text
-///   |δ_inner| |dΨ/dδ| ≤ |δ|/L + 2
+///   |δ_inner| |dΨ/dδ| ≤ |δ|/L + 1.5
 /// ```
 pub(crate) fn inward(
     map: &LiftOffMap,
     n: u64,
     delta: f64,
     range: f64,
-) -> Result<(f64, f64, f64), Error> {
-    let (mut inner, mut hops, mut error) = (delta, 0.0, 0.0);
+) -> Result<(f64, i64, f64), Error> {
+    let (mut inner, mut hops, mut error) = (delta, 0, 0.0);
+    let ulps = if delta < 0.0 { PREIMAGE_ULPS } else { HOP_ULPS };
     while inner.abs() > range {
         let before = inner;
         inner = if delta < 0.0 { preimage(map, n, inner)? } else { next(map, n, inner)? };
-        hops += 1.0;
+        hops += 1;
         let length = before.abs() - inner.abs();
         if hops > MOST_HOPS || !(length > 0.0 && inner * delta > 0.0) {
             return Err(Error::OutsideRange { value: delta, left: -range, right: range });
         }
         let start = if delta < 0.0 { inner } else { before };
-        if hops == 1.0 {
+        if hops == 1 {
             error += f64::EPSILON * delta.abs() / length;
         }
-        error += HOP_ULPS * f64::EPSILON * (start.abs() / length + 2.0);
+        error += ulps * f64::EPSILON * (start.abs() / length + 1.5);
     }
     Ok((inner, hops, error))
 }
@@ -54,14 +58,13 @@ pub(crate) fn outward(
     map: &LiftOffMap,
     n: u64,
     (delta, error): (f64, f64),
-    hops: f64,
+    hops: i64,
     reach: f64,
 ) -> Result<(f64, f64), Error> {
-    let (mut outer, mut left, mut relative) = (delta, hops, error);
-    while left > 0.0 {
+    let (mut outer, mut relative) = (delta, error);
+    for _ in 0..hops {
         let before = outer;
         outer = if delta < 0.0 { next(map, n, outer)? } else { preimage(map, n, outer)? };
-        left -= 1.0;
         // f or its inverse multiplies a small error by f′ or 1/f′, where |f′ − 1| is (4/3) L/|δ| to leading order, and less
         // than 1.5 L/|δ| over the error.
         let length = outer.abs() - before.abs();
@@ -70,7 +73,7 @@ pub(crate) fn outward(
         } else {
             before.abs() / (outer.abs() - 1.5 * length)
         };
-        relative = relative * factor + HOP_ULPS * f64::EPSILON;
+        relative = relative * factor + PREIMAGE_ULPS * f64::EPSILON;
         // Within its error the offset may be as far as the reach.
         if !(outer.abs() * (1.0 - relative) <= reach) {
             let (left, right) = if delta < 0.0 { (-reach, 0.0) } else { (0.0, reach) };

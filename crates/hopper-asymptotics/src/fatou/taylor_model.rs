@@ -287,3 +287,63 @@ impl Mul for &Model {
         product
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The members g = 1 + (½ ± r) u have the reciprocals Σ (−½ ∓ r)^k u^k, whose coefficients err by about k r/2^{k−1}.
+    #[test]
+    fn reciprocals_bound_each_coefficient() {
+        let radius = 1e-3;
+        let model = Model::series(
+            |k| match k {
+                0 => (1.0, 0.0),
+                1 => (0.5, radius),
+                _ => (0.0, 0.0),
+            },
+            0.0,
+        );
+        let inverse = model.reciprocal();
+        for slope in [0.5 - radius, 0.5 + radius] {
+            let mut exact: f64 = 1.0;
+            for k in 0..ORDER {
+                let off = (inverse.terms[k] - exact).abs();
+                assert!(off <= inverse.radii[k] + 1e-16, "{k}: {off:e} {:e}", inverse.radii[k]);
+                exact *= -slope;
+            }
+            // What the polynomial leaves out, divided by u^ORDER.
+            for u in [0.1, 0.5, 1.0] {
+                assert!((exact / (1.0 + slope * u)).abs() <= inverse.rest);
+            }
+        }
+        // The bounds are of the size of the errors.
+        assert!(inverse.radii[1] < 1.01 * radius && inverse.radii[2] < 2.1 * radius);
+        assert!(Model::constant(1.0, 2.0).reciprocal().rest.is_infinite());
+    }
+
+    #[test]
+    fn series_of_a_function_agree_with_its_values() {
+        // z = u/4 − u²/8.
+        let z = Model::series(|k| ([0.0, 0.25, -0.125].get(k).copied().unwrap_or(0.0), 0.0), 0.0);
+        let (powers, size) = (z.powers(), z.size());
+        let value =
+            |model: &Model, u: f64| model.terms.iter().rev().fold(0.0, |sum, t| sum * u + t);
+        for u in [0.1, 0.5, 1.0f64] {
+            let at = 0.25 * u - 0.125 * u * u;
+            let cases = [
+                (Model::binomial(&powers, -1.0 / 3.0, size), 1.0 / pxfm::f_cbrt(1.0 + at)),
+                (
+                    Model::binomial_quotient(&powers, -1.0 / 3.0, size),
+                    (1.0 / pxfm::f_cbrt(1.0 + at) - 1.0) / at,
+                ),
+                (Model::logarithm(&powers, size), pxfm::f_log1p(at)),
+            ];
+            for (model, exact) in cases {
+                let bound = model.rest * u.powi(ORDER as i32) + model.radii.iter().sum::<f64>();
+                assert!((value(&model, u) - exact).abs() <= bound + 4e-15, "{u}");
+                assert!(model.rest < 1e-6);
+            }
+        }
+    }
+}
