@@ -279,14 +279,13 @@ fn every_fate_has_a_label_of_its_own() {
         assert!(labels.iter().skip(k + 1).all(|other| *other != label));
         assert!(!HopperFate::label_name(label).is_empty());
     }
-    // An ulp left of a fixed point an orbit repeats its speed in f64; from a little farther left it needs many hops to
-    // leave.
+    // An ulp left of a fixed point an orbit repeats its speed in f64. It needs thousands of hops to leave, which are jumped over.
     let fates = fates(0.2);
     let alpha = alpha_star(2).next_down();
-    let (fate, _) = fates.fate_within(alpha, 5).unwrap();
-    assert_eq!(fate, HopperFate::Undecided(UndecidedReason::Precision { at: alpha }));
-    let (fate, hops) = fates.fate_within(alpha - 1e-9, 5).unwrap();
-    assert_eq!((fate, hops), (HopperFate::Undecided(UndecidedReason::Budget), 5));
+    let (fate, hops) = fates.fate_within(alpha, 500).unwrap();
+    assert!(!HopperFate::is_undecided(fate.label()) && hops > 5000, "{fate:?} {hops}");
+    let (fate, hops) = fates.fate_within(alpha - 1e-3, 2).unwrap();
+    assert_eq!((fate, hops), (HopperFate::Undecided(UndecidedReason::Budget), 2));
 }
 
 #[test]

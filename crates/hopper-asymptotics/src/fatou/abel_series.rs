@@ -122,11 +122,10 @@ impl AbelSeries {
 
     /// Finds the d_k, and the bound.
     fn solve(&mut self, hop: &LocalHopModel, side: Side) {
-        let growth = hop.growth.shifted();
-        let (powers, size) = (growth.powers(), growth.size());
+        let (powers, size) = (hop.growth.powers(), hop.growth.size());
         let relative = (DRIFT_ULPS + 2.0) * f64::EPSILON;
         // [(1+g)^{−1/3} − 1]/(A x) is g/u times a series in g, divided by A x/u.
-        let bracket = &hop.growth * &Model::binomial_quotient(&powers, -1.0 / 3.0, size);
+        let bracket = &hop.rate * &Model::binomial_quotient(&powers, -1.0 / 3.0, size);
         let leading =
             (&bracket * &hop.root.reciprocal()).scaled(1.0 / (self.drift * self.width), relative);
         // c is known as well as A, and 2 is exact.

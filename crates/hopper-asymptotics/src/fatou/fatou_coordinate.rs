@@ -31,14 +31,14 @@ use passive_hopper::{LiftOffMap, MassRatio};
 /// use hopper_asymptotics::{FatouCoordinate, Offset, Side};
 /// use passive_hopper::MassRatio;
 /// let psi = FatouCoordinate::new(2, MassRatio::new(0.2)?, Side::Left)?;
-/// // The orbit from 10⁻¹² below α*_2 leaves after some 850 hops.
+/// // The orbit from 10⁻¹² below α*_2 leaves after 851 hops.
 /// let phase = psi.phase(Offset::from(-1e-12))?;
-/// assert_eq!(phase.whole().to_string(), "850");
-/// assert!(phase.error() < 1e-12);
+/// assert_eq!(phase.whole().to_string(), "851");
+/// assert!(phase.error() < 1e-14);
 /// // From 10⁻³⁰⁰ it takes 8·10⁹⁸ hops, and the fraction is known all the same.
 /// let phase = psi.phase("-1e-300".parse()?)?;
 /// assert_eq!(phase.whole().to_string().len(), 99);
-/// assert!(phase.error() < 1e-12);
+/// assert!(phase.error() < 1e-14);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -242,7 +242,7 @@ impl FatouCoordinate {
         let count = self.count_within(delta, error).ok()?;
         let first = self.series.end_of_jump();
         let hops = (count.hops - first).floor();
-        if !(count.error <= largest && hops >= 0.0 && hops <= LARGEST_JUMP) {
+        if !(count.error <= largest && (0.0..=LARGEST_JUMP).contains(&hops)) {
             return None;
         }
         Some(self.land(hops as u64, HopCount { hops: count.hops - hops, ..count }))
@@ -255,7 +255,7 @@ impl FatouCoordinate {
     }
 
     fn land(&self, hops: u64, count: HopCount) -> SlowJump {
-        let (delta, error) = self.at_count(count);
+        let (delta, error) = self.offset_at(count);
         SlowJump { hops, delta, error, count }
     }
 
@@ -285,8 +285,14 @@ impl FatouCoordinate {
         Some(self.land(hops as u64, HopCount { hops: last + fraction, error }))
     }
 
-    /// The offset at which Ψ has this value, and a bound on its error, which is infinite if the value has a large one.
-    fn at_count(&self, count: HopCount) -> (f64, f64) {
+    /// The smallest Ψ of the turn on which a [`jump`](Self::jump) ends.
+    pub fn turn_of_jumps(&self) -> f64 {
+        self.series.end_of_jump()
+    }
+
+    /// The offset at which Ψ has this value, from [`turn_of_jumps`](Self::turn_of_jumps) up, and a bound on its error, which is
+    /// infinite if the value is not among those of the series.
+    pub fn offset_at(&self, count: HopCount) -> (f64, f64) {
         let (root, error) = self.series.root_at(count);
         let cube = root * root * root;
         (self.side.sign() * cube, cube_error(error) * cube)
@@ -346,7 +352,7 @@ mod tests {
                 let phase = psi.phase(delta).unwrap();
                 assert!(phase.error() < 3e-15, "{} {delta}: {phase}", psi.n);
                 let (back, error) = psi.offset(&phase).unwrap();
-                let off = 10f64.powi((back.exponent() - i64::from(exponent)) as i32);
+                let off = 10f64.powi((back.exponent() - exponent) as i32);
                 let off = (back.mantissa() * off / delta.mantissa() - 1.0).abs();
                 assert!(off <= error && error < 1e-10, "{} {delta}: {off:e} {error:e}", psi.n);
             }

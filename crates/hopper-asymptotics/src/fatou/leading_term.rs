@@ -66,7 +66,7 @@ pub(crate) fn exact_terms(
     } else {
         denominator *= power;
     }
-    let scaled = (numerator * cube << (3 * FRACTION_BITS)) / denominator;
+    let scaled = ((numerator * cube) << (3 * FRACTION_BITS)) / denominator;
     let root = scaled.cbrt();
     let (whole, fraction) = parts(&root.into(), FRACTION_BITS);
     let (other, rest) = parts(&logarithms, LOGARITHM_BITS + Offset::LOGARITHM_BITS);
@@ -167,7 +167,7 @@ mod tests {
         for (n, m, delta) in [(1, 1.0f64, 1e-12f64), (3, 0.2, 3e-9), (10, 50.0, 1e-5)] {
             let a = alpha_star(n);
             let mu = m / (1.0 + m).powi(2);
-            let beta = (12.0 * a * a / (1.0 + a * a)).cbrt();
+            let beta = pxfm::f_cbrt(12.0 * a * a / (1.0 + a * a));
             let lambda = 1.5 * beta * mu * a * a * a / (1.0 + a * a);
             let share = 3.0 * beta / (lambda * a);
             for (side, part, c) in
@@ -175,7 +175,8 @@ mod tests {
             {
                 let found = exact_terms(n, m, side, Offset::from(delta), 30.0);
                 let value = i64::try_from(found.whole).unwrap() as f64 + found.fraction;
-                let exact = 3.0 / (part * lambda * delta.cbrt()) + c * delta.ln() / 3.0;
+                let exact =
+                    3.0 / (part * lambda * pxfm::f_cbrt(delta)) + c * pxfm::f_log(delta) / 3.0;
                 assert!((value / exact - 1.0).abs() < 2e-14, "{n} {m} {delta}: {value} {exact}");
             }
         }

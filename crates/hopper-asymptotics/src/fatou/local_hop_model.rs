@@ -43,8 +43,10 @@ const COEFFICIENT: f64 = 4.0 * f64::EPSILON;
 pub(crate) struct LocalHopModel {
     /// |δ|^{1/3}/|t|.
     pub(crate) root: Model,
-    /// g/u, where g = (x′/x)³ − 1 with x = |δ|^{1/3}, x′ = |δ′|^{1/3}.
+    /// g = (x′/x)³ − 1 for x = |δ|^{1/3}, x′ = |δ′|^{1/3}.
     pub(crate) growth: Model,
+    /// g/u.
+    pub(crate) rate: Model,
 }
 
 /// Σ c_k u^k with c_k = `factor(k)` · `width`^k/(k + `shift`)! and the signs + + − − of cos t + sin t; `largest` bounds
@@ -107,15 +109,15 @@ impl LocalHopModel {
         let later = if size < 1.0 { size / (1.0 - size) } else { f64::INFINITY };
         sum.rest += power.rest * later;
         let ratio = &(&(&over * &sum) * &first.q) * &first.inverse_numerator;
-        let growth = ratio.scaled(-first.side.sign() * width, f64::EPSILON);
+        let rate = ratio.scaled(-first.side.sign() * width, f64::EPSILON);
         // x is |t|/β, and g is −λx on the right and 10λx on the left, to leading order.
         let leading = match first.side {
             Side::Left => 10.0 * lambda,
             Side::Right => -lambda,
         } * width
             / first.beta;
-        let growth = growth.with_constant(leading, GROWTH_ULPS * f64::EPSILON * leading.abs());
-        LocalHopModel { root: first.root(), growth }
+        let rate = rate.with_constant(leading, GROWTH_ULPS * f64::EPSILON * leading.abs());
+        LocalHopModel { root: first.root(), growth: rate.shifted(), rate }
     }
 }
 
@@ -148,8 +150,9 @@ impl FirstFlight {
     fn new(local: &Coefficients, side: Side, width: f64) -> Self {
         let (a, sign) = (local.alpha_star, side.sign());
         let r2 = 1.0 + a * a;
-        let by_parity =
-            |even: f64, odd: f64| move |k: usize| if k % 2 == 0 { even } else { sign * odd };
+        let by_parity = |even: f64, odd: f64| {
+            move |k: usize| if k.is_multiple_of(2) { even } else { sign * odd }
+        };
         let numerator = sine_like(width, 3, a, by_parity(a, 1.0));
         // From u² on Q has the terms of −sin(2a + t); its first two terms are 2a³/R² and 2a²t/R².
         let (even, odd) = (-2.0 * a / r2, (a * a - 1.0) / r2);
@@ -159,7 +162,7 @@ impl FirstFlight {
         (q.radii[0], q.radii[1]) = (COEFFICIENT * a * linear, COEFFICIENT * width * linear);
         let half = 0.5 * width;
         let b_factor = |k: usize| {
-            if k % 2 == 0 { r2 / (k + 1) as f64 - 1.0 } else { sign * a }
+            if k.is_multiple_of(2) { r2 / (k + 1) as f64 - 1.0 } else { sign * a }
         };
         let b = sine_like(half, 0, r2, b_factor);
         let turn = sine_like(half, 0, a, by_parity(a, 1.0)); // a cos η + sin η

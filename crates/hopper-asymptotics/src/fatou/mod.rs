@@ -5,7 +5,8 @@
 //!   escape.rs             the law of the escape to the left
 //!   phase.rs, offset.rs   an integer of any size with a fraction; an offset below the smallest f64
 //!   abel_series.rs        the series of Ψ in x = |δ|^{1/3}, with a bound on its error
-//!   leading_term.rs       the leading term of Ψ to any number of digits
+//!   leading_term.rs       1/(A x) + c ln x to any number of digits
+//!   outward_walk.rs       fast single hops, from where a jump ends
 //!   slow_hops.rs          single hops, where the series has no value
 //!   local_hop_model.rs    a hop as Taylor models
 //!   second_flight.rs      its second flight, on the left
@@ -19,6 +20,7 @@ pub(crate) mod fatou_coordinate;
 pub(crate) mod leading_term;
 pub(crate) mod local_hop_model;
 pub(crate) mod offset;
+pub(crate) mod outward_walk;
 pub(crate) mod phase;
 pub(crate) mod polynomial;
 pub(crate) mod second_flight;

@@ -57,7 +57,7 @@ impl<T: Truncated> Flight<T> {
         let mut factorial = (1..=2 * from + shift).map(|k| k as f64).product::<f64>();
         let coefficients = std::array::from_fn(|i| {
             let j = i + from;
-            let sign = if j % 2 == 0 { 1.0 } else { -1.0 };
+            let sign = if j.is_multiple_of(2) { 1.0 } else { -1.0 };
             let coefficient = sign * factor(j) / factorial;
             factorial *= ((2 * j + shift + 1) * (2 * j + shift + 2)) as f64;
             coefficient

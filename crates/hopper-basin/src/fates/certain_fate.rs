@@ -57,13 +57,17 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         let Verdict::Inconclusive { .. } = signed.0 else { return Ok(signed) };
         let mut verdict = signed;
         for (arithmetic, most) in Arithmetic::ALL.into_iter().zip(EXTENDED_BUDGETS) {
-            match self.in_extended(alpha, (budget, most), arithmetic)? {
-                (Some(inconclusive @ Verdict::Inconclusive { .. }), hops) => {
-                    verdict = (inconclusive, hops);
+            // The error of a phase is the same in all arithmetics. Where it leaves the fate open, hops one by one may decide it.
+            for jumps in [true, false] {
+                match self.in_extended(alpha, (budget, most), arithmetic, jumps)? {
+                    (Some(inconclusive @ Verdict::Inconclusive { .. }), hops) => {
+                        verdict = (inconclusive, hops);
+                    }
+                    (Some(decided), hops) => return Ok((decided, hops)),
+                    // A longer arithmetic would use up its budget as well.
+                    (None, _) if jumps => return Ok(verdict),
+                    (None, _) => {}
                 }
-                (Some(decided), hops) => return Ok((decided, hops)),
-                // A longer arithmetic would use up its budget as well.
-                (None, _) => break,
             }
         }
         Ok(verdict)
@@ -120,12 +124,13 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
     }
 
     /// The verdict in longer arithmetic, within a budget of hops of the caller and one of this arithmetic; `None` if the
-    /// second is used up, or would be by an estimate.
+    /// second is used up. Without `jumps` every hop is followed.
     fn in_extended(
         &self,
         alpha: f64,
         (budget, most): (usize, usize),
         arithmetic: Arithmetic,
+        jumps: bool,
     ) -> Result<(Option<Verdict>, usize), Error> {
         let mut orbit = ExtendedOrbit::new(self.map, alpha, arithmetic)?;
         let mut hops = 0;
@@ -133,10 +138,13 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
             let speed = orbit.speed();
             let mut n = index_below(speed)?;
             let (mut offset, mut error) = orbit.offset_from(n);
+            // The rounded speed may lie on the other side of a fixed point than the orbit.
             if offset < 0.0 && n > 0 {
-                // The rounded speed lies above α*_n, and the orbit below it.
                 n -= 1;
                 (offset, error) = orbit.offset_from(n);
+            } else if let above @ (0.0.., _) = orbit.offset_from(n + 1) {
+                n += 1;
+                (offset, error) = above;
             }
             if (self.trap)(n)?.side_of_offset(offset, error) == TrapSide::Inside {
                 return Ok((Some(Verdict::Trapped(n)), hops));
@@ -147,7 +155,7 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
             if followed >= most {
                 return Ok((None, hops));
             }
-            if let Some(jumped) = self.jump_in_extended(n + 1, &mut orbit)? {
+            if jumps && let Some(jumped) = self.jump_in_extended(n + 1, &mut orbit)? {
                 hops = hops.saturating_add(jumped);
                 continue;
             }

@@ -13,13 +13,12 @@ use std::sync::OnceLock;
 /// take longer to classify, with the same result.
 const KEPT_TRAPS: usize = 64;
 
-/// The number of hops after which a fate is reported as [undecided](HopperFate::Undecided).
+/// The number of hops after which a fate is reported as [undecided](HopperFate::Undecided). A jump along the slow side of a fixed
+/// point counts as one.
 ///
-/// A million hops take some tenths of a second in `f64`. The slowest orbits start just below a fixed point. From a distance δ
-/// they need about 3/(10 λ δ^{1/3}) hops to leave (docs/theory.md, Theorem 38), with λ proportional to μ. `f64` decides them
-/// down to some 10⁻⁹. Below, the orbit is followed in longer arithmetic, for some thousand hops, which suffice down to some
-/// 10⁻¹³. Nearer starts are undecided for the reason `Precision`, unless a [trap](crate::TrapEdge::NextFixedPoint) covers the
-/// whole interval between the fixed points.
+/// A million hops take some tenths of a second in `f64`. From a distance δ left of a fixed point an orbit takes about 3/(10 λ
+/// |δ|^{1/3}) hops to leave (docs/theory.md, Theorem 38), which are jumped over. From the right no orbit leaves. So an orbit
+/// is followed for some dozen hops as a rule, and this number only bounds the work.
 pub const HOP_BUDGET: usize = 1_000_000;
 
 /// The fates at one mass ratio.
@@ -93,7 +92,8 @@ impl Fates {
         self.fate_within(alpha, HOP_BUDGET).map(|(fate, _)| fate)
     }
 
-    /// The fate, and the number of hops until it was known, with a given budget of hops.
+    /// The fate, and the number of hops until it was known, with a given budget of hops. The number contains the hops that were
+    /// jumped over along the slow side of a fixed point; in the budget a jump counts as one hop.
     ///
     /// # Errors
     /// As [`fate`](Self::fate).
