@@ -11,7 +11,7 @@
 
 use crate::coefficients::Coefficients;
 use crate::error::Error;
-use crate::fatou::fatou_coordinate::HopCount;
+use crate::fatou::hop_count::HopCount;
 use crate::fatou::local_hop_model::{LocalHopModel, Side};
 use crate::fatou::offset::Offset;
 use crate::fatou::taylor_model::{Model, ORDER};

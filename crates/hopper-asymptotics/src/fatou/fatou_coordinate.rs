@@ -5,6 +5,7 @@
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
 use crate::fatou::abel_series::{AbelSeries, cube_error};
+use crate::fatou::hop_count::HopCount;
 use crate::fatou::leading_term::exact_terms;
 use crate::fatou::local_hop_model::Side;
 use crate::fatou::offset::Offset;
@@ -48,15 +49,6 @@ pub struct FatouCoordinate {
     map: LiftOffMap,
     local: Coefficients,
     series: AbelSeries,
-}
-
-/// A value of Ψ as one `f64`, for points that are not too near.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HopCount {
-    /// The number of hops, not an integer as a rule.
-    pub hops: f64,
-    /// Bound on its error.
-    pub error: f64,
 }
 
 /// A point that an orbit reaches along the slow side.

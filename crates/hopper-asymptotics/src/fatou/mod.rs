@@ -4,6 +4,7 @@
 //!   fatou_coordinate.rs   Ψ: the number of hops, counted continuously; its inverse; jumps over many hops
 //!   escape.rs             the law of the escape to the left
 //!   phase.rs, offset.rs   an integer of any size with a fraction; an offset below the smallest f64
+//!   hop_count.rs          a number of hops in f64
 //!   abel_series.rs        the series of Ψ in x = |δ|^{1/3}, with a bound on its error
 //!   leading_term.rs       1/(A x) + c ln x to any number of digits
 //!   outward_walk.rs       fast single hops, from where a jump ends
@@ -17,6 +18,7 @@
 pub(crate) mod abel_series;
 pub(crate) mod escape;
 pub(crate) mod fatou_coordinate;
+pub(crate) mod hop_count;
 pub(crate) mod leading_term;
 pub(crate) mod local_hop_model;
 pub(crate) mod offset;
