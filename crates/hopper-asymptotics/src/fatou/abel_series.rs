@@ -14,7 +14,8 @@ use crate::error::Error;
 use crate::fatou::hop_count::HopCount;
 use crate::fatou::local_hop_model::{LocalHopModel, Side};
 use crate::fatou::offset::Offset;
-use crate::fatou::taylor_model::{Model, ORDER};
+use crate::fatou::polynomial::ORDER;
+use crate::fatou::taylor_model::Model;
 use passive_hopper::MassRatio;
 
 /// Number of terms d_k: the equation has coefficients up to `ORDER` − 2, and the first two vanish by A and c.

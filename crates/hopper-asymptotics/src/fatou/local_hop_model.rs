@@ -12,8 +12,9 @@
 //! ℓ (2α − ℓ) = μ (Γ₁² + Γ₂²). Proof: docs/theory.md, Lemma 34 and Theorem 36.
 
 use crate::coefficients::Coefficients;
+use crate::fatou::polynomial::ORDER;
 use crate::fatou::second_flight::SecondFlight;
-use crate::fatou::taylor_model::{Model, ORDER};
+use crate::fatou::taylor_model::Model;
 use passive_hopper::MassRatio;
 
 /// A side of a fixed point.

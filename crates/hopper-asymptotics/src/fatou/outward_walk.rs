@@ -6,7 +6,8 @@
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
 use crate::fatou::local_hop_model::{LocalHopModel, Side};
-use crate::fatou::taylor_model::{Model, ORDER};
+use crate::fatou::polynomial::ORDER;
+use crate::fatou::taylor_model::Model;
 use passive_hopper::MassRatio;
 
 /// The largest |t|. At 0.2 |δ| is below 7.5·10⁻⁴, where Theorem 68 holds. A larger value would need more terms.

@@ -1,6 +1,8 @@
 //! Truncated polynomials without bounds, for the first solution of an equation; and what they share with Taylor models.
 
-use crate::fatou::taylor_model::{Model, ORDER, UP};
+/// The number of terms. More terms cost time with their square; fewer leave more hops to be followed one by one. With sixteen
+/// the series of a Fatou coordinate has an error of 3·10⁻¹³ at A x ≈ 0.035, and 10⁻⁶ at 0.12.
+pub(crate) const ORDER: usize = 16;
 
 /// Σ t_k u^k, k < ORDER. Higher terms are dropped.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -78,40 +80,5 @@ impl Truncated for Polynomial {
             terms.for_each(|(sum, term)| *sum += factor * term);
         }
         Polynomial(sum)
-    }
-}
-
-impl Truncated for Model {
-    fn number(value: f64) -> Self {
-        Model::constant(value, 0.0)
-    }
-
-    fn plus(&self, other: &Self) -> Self {
-        self + other
-    }
-
-    fn minus(&self, other: &Self) -> Self {
-        self - other
-    }
-
-    fn times(&self, other: &Self) -> Self {
-        self * other
-    }
-
-    fn negative(&self) -> Self {
-        -self
-    }
-
-    fn shifted_by(&self, factor: f64) -> Self {
-        self.shifted().scaled(factor, 0.0)
-    }
-
-    fn combination(powers: &[Self; EVEN_POWERS], coefficients: [f64; EVEN_POWERS]) -> Self {
-        let mut sum = Model::ZERO;
-        for (j, (power, factor)) in powers.iter().zip(coefficients).enumerate() {
-            sum.add_multiple(2 * j, power, factor, 4.0 * f64::EPSILON);
-        }
-        sum.rest += coefficients[EVEN_POWERS - 1].abs() * powers[EVEN_POWERS - 1].rest;
-        sum.widened(UP)
     }
 }

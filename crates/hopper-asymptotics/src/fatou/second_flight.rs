@@ -9,8 +9,8 @@
 //!
 //! Proof: docs/theory.md, Theorem 68.
 
-use crate::fatou::polynomial::{EVEN_POWERS, Polynomial, Truncated};
-use crate::fatou::taylor_model::{Model, ORDER};
+use crate::fatou::polynomial::{EVEN_POWERS, ORDER, Polynomial, Truncated};
+use crate::fatou::taylor_model::Model;
 
 /// The second flight.
 pub(crate) struct SecondFlight {
