@@ -11,7 +11,7 @@ use passive_hopper::{
 
 /// The largest distance of a start from the reference, and the next one that is tried. At 10⁻⁸ the second order of the tangent
 /// moves a phase by some 10⁻³; the error of an orbit in `f64` is about as large there. Larger values gain nothing.
-const RADII: [f64; 2] = [2e-8, 1e-9];
+const RADII: [f64; 3] = [1e-6, 3e-8, 1e-9];
 
 /// The starts near one that falls onto α*_n.
 #[derive(Debug, Clone, Copy)]

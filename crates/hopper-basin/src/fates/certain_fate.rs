@@ -91,13 +91,13 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
                 break;
             }
             if let Some(offset) = SlowSides::offset_if_near(speed, n + 1)
-                && let Some(jump) = self.slow.jump(n + 1, offset, error + f64::EPSILON * -offset)
-                && jump.hops > 0
+                && let Some((slow, offset, bound)) =
+                    self.slow.leave(n + 1, offset, error + f64::EPSILON * -offset)
             {
-                speed = alpha_star(n + 1) + jump.delta;
+                speed = alpha_star(n + 1) + offset;
                 // Half an ulp each for α*, and for the sum.
-                error = jump.error + f64::EPSILON * speed;
-                hops = hops.saturating_add(jump.hops as usize);
+                error = bound + f64::EPSILON * speed;
+                hops = hops.saturating_add(usize::try_from(slow).unwrap_or(usize::MAX));
                 continue;
             }
             match hop(self.map, speed, error) {

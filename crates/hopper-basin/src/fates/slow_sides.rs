@@ -85,6 +85,16 @@ impl SlowSides {
         self.with(n, |side| (-offset > side.psi.jump_range()).then_some(())).is_some()
     }
 
+    /// The number of hops, the offset and its error where the orbit within `error` of α*_n + `offset` leaves: after a jump, or after
+    /// one hop; `None` where it has left, and for an error too large.
+    pub(crate) fn leave(&self, n: u64, offset: f64, error: f64) -> Option<(u64, f64, f64)> {
+        let jump = self.jump(n, offset, error).filter(|jump| jump.hops > 0);
+        match jump {
+            Some(jump) => Some((jump.hops, jump.delta, jump.error)),
+            None => self.walk(n, (offset, error)).map(|(offset, error)| (1, offset, error)),
+        }
+    }
+
     /// As [`jump`](Self::jump), from an offset in two parts.
     pub(crate) fn long_jump(&self, n: u64, offset: (f64, f64), error: f64) -> Option<SlowJump> {
         self.with(n, |side| side.psi.long_jump(offset, error, LARGEST_ERROR))
