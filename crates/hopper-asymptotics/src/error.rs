@@ -32,8 +32,20 @@ pub enum Error {
         /// The given offset.
         text: String,
     },
+    /// A phase whose error is not small compared with it: its offset has no bound.
+    #[error(
+        "the phase {hops} is known to within {error} hops only: its offset has no bound; give the phase a smaller error"
+    )]
+    Phase {
+        /// The phase, a number of hops; infinite beyond the largest `f64`.
+        hops: f64,
+        /// Bound on its error.
+        error: f64,
+    },
     /// A drift of the slow side, a multiple of λ, at which the series of the Fatou coordinate has no bound.
-    #[error("the slow side of α*_{n} drifts with {drift:e}: the series of its Fatou coordinate has no bound there")]
+    #[error(
+        "the slow side of α*_{n} drifts with {drift:e}: the series of its Fatou coordinate has no bound there"
+    )]
     Drift {
         /// The index.
         n: u64,

@@ -11,10 +11,11 @@
 
 use crate::coefficients::Coefficients;
 use crate::error::Error;
-use crate::fatou::fatou_coordinate::HopCount;
+use crate::fatou::hop_count::HopCount;
 use crate::fatou::local_hop_model::{LocalHopModel, Side};
 use crate::fatou::offset::Offset;
-use crate::fatou::taylor_model::{Model, ORDER};
+use crate::fatou::polynomial::ORDER;
+use crate::fatou::taylor_model::Model;
 use passive_hopper::MassRatio;
 
 /// Number of terms d_k: the equation has coefficients up to `ORDER` − 2, and the first two vanish by A and c.
@@ -24,11 +25,16 @@ const TERMS: usize = ORDER - 3;
 /// need more terms.
 const NEAREST_TURN: f64 = 0.12;
 
-/// The errors of the series up to which a phase and a jump use it. Smaller values leave more hops to be followed one by one.
-const ERRORS: [f64; 2] = [1e-12, 1e-8];
+/// The errors of the series up to which a phase uses it, on the left and on the right. Smaller values leave more hops to be
+/// followed one by one, and each of them adds to the error. With these, a phase errs by at most 10⁻¹² for n ≤ 10 and M from
+/// 0.02 to 50.
+const PHASE_ERRORS: [f64; 2] = [4e-13, 5e-13];
 
-/// The range for an error is searched among this many parts of the whole range, so that it is a few per cent too small.
-const PARTS: u32 = 32;
+/// The error up to which a jump uses the series.
+const JUMP_ERROR: f64 = 1e-8;
+
+/// The range for an error is bisected so often: it is at most 0.1 % too small.
+const BISECTIONS: u32 = 10;
 
 /// No range is smaller than this part of the whole, where the rounding of the coefficients exceeds the wanted error.
 const LEAST_PART: f64 = 0.25;
@@ -45,8 +51,8 @@ const DRIFT_ULPS: f64 = 8.0;
 pub(crate) struct AbelSeries {
     /// A.
     drift: f64,
-    /// c as −2 or 2, exactly, and the rest.
-    logarithm: (f64, f64),
+    /// c.
+    logarithm: f64,
     /// d_k W^k, k = 1, 2, …
     scaled: [f64; TERMS],
     /// W, the largest |t| of the Taylor models.
@@ -72,9 +78,10 @@ impl AbelSeries {
         let (a, beta, lambda) = (local.alpha_star, local.beta, local.lambda);
         let share = beta / (lambda * a);
         let [left, right] = LARGEST_WIDTHS;
-        let (drift, logarithm, largest) = match side {
-            Side::Left => (10.0 * lambda / 3.0, (-2.0, -0.3 * share), left),
-            Side::Right => (lambda / 3.0, (2.0, 3.0 * share), right),
+        let [left_error, right_error] = PHASE_ERRORS;
+        let (drift, logarithm, largest, phase_error) = match side {
+            Side::Left => (10.0 * lambda / 3.0, -2.0 - 0.3 * share, left, left_error),
+            Side::Right => (lambda / 3.0, 2.0 + 3.0 * share, right, right_error),
         };
         let width = (beta * NEAREST_TURN / drift).min(largest);
         let hop = LocalHopModel::new(local, mass_ratio, side, width);
@@ -90,10 +97,17 @@ impl AbelSeries {
             tail: 0.0,
         };
         series.solve(&hop, side);
-        let [range, jump] = ERRORS.map(|largest| {
-            let fits = |part: &f64| series.series_error(part * series.whole) <= largest;
-            let parts = (1..=PARTS).rev().map(|k| f64::from(k) / f64::from(PARTS));
-            parts.into_iter().find(fits).unwrap_or(0.0).max(LEAST_PART) * series.whole
+        let [range, jump] = [phase_error, JUMP_ERROR].map(|largest| {
+            // The bound on the error grows with x.
+            let fits = |part: f64| series.series_error(part * series.whole) <= largest;
+            let (mut part, mut step) = (0.0, 1.0);
+            for _ in 0..=BISECTIONS {
+                if part + step <= 1.0 && fits(part + step) {
+                    part += step;
+                }
+                step *= 0.5;
+            }
+            part.max(LEAST_PART) * series.whole
         });
         series.range = (range, series.value(range));
         // One more than the next integer leaves room for the error of a phase.
@@ -109,23 +123,22 @@ impl AbelSeries {
 
     /// Finds the d_k, and the bound.
     fn solve(&mut self, hop: &LocalHopModel, side: Side) {
-        let powers = hop.growth.powers();
-        let size = hop.growth.size();
+        let (powers, size) = (hop.growth.powers(), hop.growth.size());
         let relative = (DRIFT_ULPS + 2.0) * f64::EPSILON;
-        // [(1+g)^{−1/3} − 1]/(A x): the constant term of the bracket is exactly 0.
-        let bracket = without_constant(Model::binomial(&powers, -1.0 / 3.0, size));
-        let leading = (&bracket.lowered() * &hop.root.reciprocal())
-            .scaled(1.0 / (self.drift * self.width), relative);
-        // The rest of c is known as well as A, and its whole is exact.
+        // [(1+g)^{−1/3} − 1]/(A x) is g/u times a series in g, divided by A x/u.
+        let bracket = &hop.rate * &Model::binomial_quotient(&powers, -1.0 / 3.0, size);
+        let leading =
+            (&bracket * &hop.root.reciprocal()).scaled(1.0 / (self.drift * self.width), relative);
+        // c is known as well as A, and 2 is exact.
         let logarithms = Model::logarithm(&powers, size).scaled(self.logarithm() / 3.0, relative);
         let mut residual = &leading + &logarithms;
-        // These two vanish by the choice of A and c.
+        // The first two coefficients are exactly 0 by the choice of A and c.
         residual.terms[..2].fill(0.0);
         residual.radii[..2].fill(0.0);
         let (root, fast) = (hop.root.shifted(), Model::binomial(&powers, 1.0 / 3.0, size));
         let (mut root_power, mut fast_power) = (root, fast);
         for k in 0..TERMS {
-            let term = &root_power * &without_constant(fast_power);
+            let term = &root_power * &fast_power.with_constant(0.0, 0.0);
             let order = k + 2;
             self.scaled[k] = -residual.terms[order] / term.terms[order];
             residual = &residual + &term.scaled(self.scaled[k], 0.0);
@@ -153,7 +166,7 @@ impl AbelSeries {
     }
 
     pub(crate) fn logarithm(&self) -> f64 {
-        self.logarithm.0 + self.logarithm.1
+        self.logarithm
     }
 
     /// d_k.
@@ -197,23 +210,17 @@ impl AbelSeries {
     fn series_error(&self, x: f64) -> f64 {
         let y = x / self.whole;
         let series = self.errors.iter().rev().fold(0.0, |sum, error| sum * y + error);
-        // The tail has fewer than 40 roundings.
-        series + 20.0 * f64::EPSILON * y * self.tail
+        // The tail has fewer than 40 roundings, and x errs by an ulp, which moves x^k by k ulps.
+        (1.0 + 40.0 * f64::EPSILON) * series + 40.0 * f64::EPSILON * y * self.tail
     }
 
-    /// c ln x + Σ d_k x^k at x = |`delta`|^{1/3}, as an integer and a rest, and a bound on the error.
-    pub(crate) fn beyond_leading(&self, delta: Offset) -> (f64, f64, f64) {
-        let x = pxfm::f_cbrt(delta.nearest().abs());
-        let (high, low) = delta.logarithm_in_two_parts(); // ln |δ|
-        let (two, rest) = self.logarithm;
-        // Thirds of the sum in two parts: the remainder of the first quotient is exact.
-        let third = two * high / 3.0;
-        let remainder = 3.0f64.mul_add(-third, two * high) + two * low;
-        let whole = third.floor();
-        let varying = rest * high / 3.0;
-        let sum = (third - whole) + remainder / 3.0 + varying + self.tail(x);
-        let rounding = f64::EPSILON * ((DRIFT_ULPS + 6.0) * varying.abs() + sum.abs() + 6.0);
-        (whole, sum, self.series_error(x) + rounding)
+    /// Σ d_k x^k at x = |δ|^{1/3}, and a bound on the error of the sum with the exact terms of `leading_term.rs`.
+    pub(crate) fn beyond_exact(&self, delta: f64) -> (f64, f64) {
+        let x = pxfm::f_cbrt(delta.abs());
+        let tail = self.tail(x);
+        // ln |δ| errs by ε/4; the sums of the fractions, each below 2 + |tail|, by some halves of ε.
+        let rounding = self.logarithm().abs() / 12.0 + 4.0 + tail.abs();
+        (tail, self.series_error(x) + f64::EPSILON * rounding)
     }
 
     /// Ψ at 0 < x ≤ `whole`.
@@ -234,49 +241,84 @@ impl AbelSeries {
         (self.logarithm() - 1.0 / (self.drift * x)) / x + tail / self.width
     }
 
-    /// The x at which Ψ has the value, and a bound on its error.
+    /// The x at which Ψ has the value, and a bound on its relative error. The bound is infinite if the value with its error is
+    /// not well within those of the series.
     pub(crate) fn root_at(&self, count: HopCount) -> (f64, f64) {
-        let mut x = (1.0 / (self.drift * count.hops)).min(self.whole);
-        // Newton's method on 1/Ψ, which is nearly linear in x.
+        // Newton's method for p = 1/(A x): Ψ = p − c ln(A p) + …, whose slope by p is 1 − c A x + …, near 1.
+        let smallest = 1.0 / (self.drift * self.whole);
+        let mut p = smallest.max(count.hops);
         for _ in 0..NEWTON_STEPS {
-            let found = self.value(x).hops;
-            let step = (found - count.hops) * found / (count.hops * self.slope(x));
-            let next = (x - step).clamp(0.25 * x, 4.0 * x);
-            let small = (next - x).abs() <= 2.0 * f64::EPSILON * x;
-            x = next;
+            let x = 1.0 / (self.drift * p);
+            let slope = -self.drift * x * x * self.slope(x);
+            let next = smallest.max(p - (self.value(x).hops - count.hops) / slope);
+            let small = (next - p).abs() <= 2.0 * f64::EPSILON * p;
+            p = next;
             if small {
                 break;
             }
         }
+        let x = (1.0 / (self.drift * p)).min(self.whole);
         let found = self.value(x);
         let error = found.error + count.error + (found.hops - count.hops).abs();
-        // The slope of Ψ over one error: at least half of the leading one (docs/theory.md, Section 16).
-        (x, 2.0 * error * self.drift * x * x + f64::EPSILON * x)
+        // The slope by p is at least one half (docs/theory.md, Section 16): p errs by at most twice as much, and x by r/(1 − r).
+        let relative = 2.0 * error / p;
+        let inside = relative <= LARGEST_ERROR && p * (1.0 - relative) >= SHORTEST * smallest;
+        (x, if inside { relative / (1.0 - relative) + f64::EPSILON } else { f64::INFINITY })
     }
 
-    /// The offset of a phase mantissa · 2^exponent beyond the range of `f64`, and its relative error. The terms d_k x^k are
-    /// below 10⁻²⁰⁰ there.
-    pub(crate) fn deep_offset(&self, mantissa: f64, exponent: i64) -> (Offset, f64) {
-        let c = self.logarithm();
-        let two = std::f64::consts::LN_2;
-        // ln Ψ; x = 1/(A (Ψ − c ln x)), and the correction is far below the digits of Ψ.
-        let logarithm = pxfm::f_log(mantissa) + exponent as f64 * two;
+    /// The offset of a phase mantissa · 2^exponent at x below 2⁻³⁰⁰, where the other terms are below the last digit of 1/(A x),
+    /// and its relative error. `error` is that of the phase, relative to the phase, and at most ½.
+    pub(crate) fn deep_offset(&self, mantissa: f64, exponent: i64, error: f64) -> (Offset, f64) {
+        // ln Ψ, and x = 1/(A Ψ).
+        let logarithm = pxfm::f_log(mantissa) + exponent as f64 * std::f64::consts::LN_2;
         let root = -(logarithm + pxfm::f_log(self.drift));
-        let correction = c * root * pxfm::f_exp(-logarithm); // relative to Ψ
-        let log10 = 3.0 * (root + correction) / std::f64::consts::LN_10;
+        let log10 = 3.0 * root / std::f64::consts::LN_10;
         let power = log10.floor();
         let digits = pxfm::f_exp10(log10 - power);
         // An error of the logarithm is a relative error of the offset.
-        let relative = 8.0 * f64::EPSILON * (logarithm.abs() + root.abs()) * 3.0;
-        (Offset::deep(digits, power as i64), relative)
+        let rounding = 8.0 * f64::EPSILON * (logarithm.abs() + root.abs()) * 3.0;
+        (Offset::deep(digits, power as i64), rounding + cube_error(error / (1.0 - error)))
     }
 }
 
-/// Most Newton steps of [`AbelSeries::root_at`]: from three digits four suffice.
-const NEWTON_STEPS: usize = 12;
+/// The relative error of x³ for the relative error `relative` of x: (1 + r)³ − 1, and the rounding of the cube.
+pub(crate) fn cube_error(relative: f64) -> f64 {
+    3.0 * relative * (1.0 + relative) * (1.0 + relative) + 2.0 * f64::EPSILON
+}
 
-/// The model without its constant term, which is exactly 1 and cancels.
-fn without_constant(mut model: Model) -> Model {
-    (model.terms[0], model.radii[0]) = (0.0, 0.0);
-    model
+/// Most Newton steps of [`AbelSeries::root_at`]: five suffice, as the slope is between one half and two.
+const NEWTON_STEPS: usize = 20;
+
+/// The largest error of 1/(A x), relative to it, of an inverse: beyond it the inverse says little.
+const LARGEST_ERROR: f64 = 0.5;
+
+/// The largest x of the series is itself an inverse, up to this part of it for the roundings.
+const SHORTEST: f64 = 1.0 - 1e-6;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::coefficients::Form;
+
+    /// On the right Ψ is negative at the end of the series for large n, and vanishes inside.
+    #[test]
+    fn roots_are_inverses_where_the_phase_vanishes() {
+        for (n, m) in [(216, 0.3), (1_000_000, 1.0), (1, 0.02), (3, 50.0)] {
+            for side in [Side::Left, Side::Right] {
+                let ratio = MassRatio::new(m).unwrap();
+                let local = Coefficients::new(n, ratio, Form::Corrected).unwrap();
+                let series = AbelSeries::new(&local, ratio, side).unwrap();
+                for part in [0.9, 0.5, 0.1, 1e-3, 1e-9, 1e-60] {
+                    let x = part * series.whole();
+                    let (found, error) = series.root_at(series.value(x));
+                    assert!((found / x - 1.0).abs() <= error, "{n} {m} {part}: {found:e} {x:e}");
+                    assert!(error < 1e-5, "{n} {m} {part}: {error:e}");
+                }
+                let first = series.value(series.whole()).hops;
+                for (hops, error) in [(first - 5.0, 0.0), (first + 20.0, 15.0), (f64::NAN, 0.0)] {
+                    assert!(series.root_at(HopCount { hops, error }).1.is_infinite());
+                }
+            }
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! The leading term of a Fatou coordinate to any number of digits, in integers.
+//! The terms 1/(A x) and c ln x of a Fatou coordinate to any number of digits, in integers.
 //!
 //! With A = 10λ/3 on the left and λ/3 on the right, λ = ¾ β μ · 2α³/(1+α²), β³ = 12α²/(1+α²) and μ = M/(1+M)², α = α*_n
 //! (docs/theory.md, Section 16):
@@ -7,15 +7,17 @@
 //!   1/(A |δ|^{1/3}) = [(1+α²)⁴ (1+M)⁶/(1500 α¹¹ M³ |δ|)]^{1/3}       on the left; ten times as much on the right
 //! ```
 //!
-//! M and δ are rational numbers. Only α*_n is not, and comes from tan α = α as α = q − arctan(1/α), q = (n+½)π.
+//! and c = ∓(2 + v), where v = (1+α²) (1+M)²/(5 M α⁴) on the left, and ten times as much on the right. M and δ are rational numbers. Only α*_n is not, and comes from tan α = α as α = q − arctan(1/α), q = (n+½)π.
 
+use crate::fatou::local_hop_model::Side;
 use crate::fatou::offset::Offset;
-use num_bigint::BigUint;
+use num_bigint::{BigInt, BigUint};
 
-/// The integer and the fraction of a number, the fraction in units 2⁻⁶⁴.
-pub(crate) struct Digits {
-    pub(crate) whole: BigUint,
-    pub(crate) fraction: u64,
+/// The two terms: integers of any size, and fractions.
+pub(crate) struct ExactTerms {
+    pub(crate) whole: BigInt,
+    /// The sum of the two fractions.
+    pub(crate) fraction: f64,
 }
 
 /// Bits of the result after the point. 64 are kept; the others hold the errors of α*_n and of the truncated quotient and root.
@@ -24,9 +26,18 @@ const FRACTION_BITS: u64 = 96;
 /// Bits of α*_n beyond those that the result has, for the errors of its series: one unit for each of up to 10⁵ terms.
 const GUARD_BITS: u64 = 32;
 
-/// 1/(A |δ|^{1/3}) on the left of α*_n, `times` as much with `times`³ = `cube`. `delta` is not zero, and the result is about
-/// 2^`size`. The error is below 2⁻⁶³.
-pub(crate) fn leading_term(n: u64, mass_ratio: f64, delta: Offset, cube: u32, size: f64) -> Digits {
+/// Bits of c after the point: ln |δ| has 15 bits before the point at most, and a fraction keeps 64.
+const LOGARITHM_BITS: u64 = 128;
+
+/// 1/(A x) + c ln x at |`delta`| = x³, not zero, where 1/(A x) is about 2^`size`. The error is that of the rounded sum of the
+/// fractions, below 2ε, and |c|/3 times that of [`Offset::logarithm_in_units`].
+pub(crate) fn exact_terms(
+    n: u64,
+    mass_ratio: f64,
+    side: Side,
+    delta: Offset,
+    size: f64,
+) -> ExactTerms {
     // A relative error of α*_n is at most its own size in the result: 11/3 − 8/3 = 1.
     let bits = size.max(0.0) as u64 + FRACTION_BITS + GUARD_BITS;
     let alpha = fixed_point(n, bits);
@@ -37,8 +48,15 @@ pub(crate) fn leading_term(n: u64, mass_ratio: f64, delta: Offset, cube: u32, si
     let mut denominator = alpha.pow(11) * 1500u32;
     // (1+M)⁶/M³ = (p + q)⁶/(p q)³ with M = p/q.
     let (p, q) = rational(mass_ratio);
-    numerator *= (&p + &q).pow(6);
-    denominator *= (p * q).pow(3);
+    let (sum, product) = (&p + &q, p * q);
+    numerator *= sum.pow(6);
+    denominator *= product.pow(3);
+    // c = ∓(2 + v), in units 2^−LOGARITHM_BITS.
+    let varying = (&squares * &unit * &unit * sum.pow(2)) << LOGARITHM_BITS;
+    let varying = varying / (alpha.pow(4) * product * 5u32);
+    let (tenfold, cube) = if side == Side::Left { (1u32, 1u32) } else { (10, 1000) };
+    let c = BigInt::from((BigUint::from(2u32) << LOGARITHM_BITS) + varying * tenfold);
+    let logarithms = if side == Side::Left { -c } else { c } * delta.logarithm_in_units() / 3;
     let (p, q) = rational(delta.mantissa().abs());
     numerator *= q;
     denominator *= p;
@@ -48,12 +66,18 @@ pub(crate) fn leading_term(n: u64, mass_ratio: f64, delta: Offset, cube: u32, si
     } else {
         denominator *= power;
     }
-    let scaled = (numerator * cube << (3 * FRACTION_BITS)) / denominator;
+    let scaled = ((numerator * cube) << (3 * FRACTION_BITS)) / denominator;
     let root = scaled.cbrt();
-    let whole = &root >> FRACTION_BITS;
-    let rest = &root - (&whole << FRACTION_BITS);
-    let fraction = (rest >> (FRACTION_BITS - 64)).iter_u64_digits().next().unwrap_or(0);
-    Digits { whole, fraction }
+    let (whole, fraction) = parts(&root.into(), FRACTION_BITS);
+    let (other, rest) = parts(&logarithms, LOGARITHM_BITS + Offset::LOGARITHM_BITS);
+    ExactTerms { whole: whole + other, fraction: fraction + rest }
+}
+
+/// The integer below `units` · 2^−`bits` and the fraction, for at least 64 bits.
+fn parts(units: &BigInt, bits: u64) -> (BigInt, f64) {
+    let whole = units >> bits;
+    let rest = (units - (&whole << bits)) >> (bits - 64);
+    (whole, u64::try_from(rest).unwrap_or(0) as f64 * 0.5f64.powi(64))
 }
 
 /// A positive `f64` as a quotient of integers.
@@ -89,7 +113,8 @@ fn fixed_point(n: u64, bits: u64) -> BigUint {
             let square = (&alpha * &alpha) >> bits;
             (step * (&unit + &square)) / square
         };
-        let next = if above >= q { &alpha - scale(&above - &q) } else { &alpha + scale(&q - &above) };
+        let next =
+            if above >= q { &alpha - scale(&above - &q) } else { &alpha + scale(&q - &above) };
         alpha = next;
         right *= 2;
         if right > bits + 4 {
@@ -137,19 +162,23 @@ mod tests {
         }
     }
 
-    /// The same digits at a higher precision, and in `f64`.
     #[test]
-    fn leading_terms_agree_with_f64() {
-        for (n, m, delta) in [(1, 1.0, 1e-12), (3, 0.2, 3e-9), (10, 50.0, 1e-5)] {
-            let found = leading_term(n, m, Offset::from(delta), 1, 30.0);
-            let whole: f64 = found.whole.iter_u64_digits().next().unwrap_or(0) as f64;
-            let value = whole + found.fraction as f64 / 2f64.powi(64);
+    fn terms_agree_with_f64() {
+        for (n, m, delta) in [(1, 1.0f64, 1e-12f64), (3, 0.2, 3e-9), (10, 50.0, 1e-5)] {
             let a = alpha_star(n);
             let mu = m / (1.0 + m).powi(2);
-            let beta = (12.0 * a * a / (1.0 + a * a)).cbrt();
+            let beta = pxfm::f_cbrt(12.0 * a * a / (1.0 + a * a));
             let lambda = 1.5 * beta * mu * a * a * a / (1.0 + a * a);
-            let exact = 0.3 / (lambda * delta.cbrt());
-            assert!((value / exact - 1.0).abs() < 1e-14, "{n} {m} {delta}: {value} {exact}");
+            let share = 3.0 * beta / (lambda * a);
+            for (side, part, c) in
+                [(Side::Left, 10.0, -2.0 - 0.1 * share), (Side::Right, 1.0, 2.0 + share)]
+            {
+                let found = exact_terms(n, m, side, Offset::from(delta), 30.0);
+                let value = i64::try_from(found.whole).unwrap() as f64 + found.fraction;
+                let exact =
+                    3.0 / (part * lambda * pxfm::f_cbrt(delta)) + c * pxfm::f_log(delta) / 3.0;
+                assert!((value / exact - 1.0).abs() < 2e-14, "{n} {m} {delta}: {value} {exact}");
+            }
         }
     }
 }

@@ -65,24 +65,22 @@ impl Offset {
         Offset { mantissa: self.mantissa.copysign(sign), ..self }
     }
 
-    /// ln |δ| in two parts, with an error of some 10⁻¹⁶ in all; −∞ for 0.
-    pub(crate) fn logarithm_in_two_parts(self) -> (f64, f64) {
-        const LN_2: (f64, f64) = (std::f64::consts::LN_2, 2.319_046_813_846_299_6e-17);
-        const LN_10: (f64, f64) = (std::f64::consts::LN_10, -2.170_756_223_382_249_4e-16);
+    /// Bits of [`logarithm_in_units`](Self::logarithm_in_units) after the point.
+    pub(crate) const LOGARITHM_BITS: u64 = 96;
+
+    /// ln |δ| in units 2⁻⁹⁶, for an offset other than 0. The error is that of one logarithm between ln ½ and 0: 2⁻⁵⁴.
+    pub(crate) fn logarithm_in_units(self) -> i128 {
+        // ln 2 and ln 10 in these units, to the nearest integer. The products err by 2⁻⁸² at most.
+        const LN_2: i128 = 54_916_777_467_707_473_351_141_471_128;
+        const LN_10: i128 = 182_429_585_950_654_714_090_129_938_606;
         let (digits, power) = split(self.mantissa.abs());
-        // The products of an integer and the first part in two parts each, and their exact sum.
-        let product = |k: f64, (high, low): (f64, f64)| {
-            let first = k * high;
-            (first, k.mul_add(high, -first) + k * low)
-        };
-        let (a, a_low) = product(power as f64, LN_2);
-        let (b, b_low) = product(self.exponent as f64, LN_10);
-        let sum = a + b;
-        let part = sum - a;
-        let low = (a - (sum - part)) + (b - part) + a_low + b_low;
-        let logarithm = pxfm::f_log(digits);
-        let high = sum + (logarithm + low);
-        (high, (sum - high) + (logarithm + low))
+        let logarithm = (pxfm::f_log(digits) * 2f64.powi(96)) as i128;
+        logarithm + i128::from(power) * LN_2 + i128::from(self.exponent) * LN_10
+    }
+
+    /// ln |δ|.
+    pub(crate) fn logarithm(self) -> f64 {
+        self.logarithm_in_units() as f64 * 0.5f64.powi(96)
     }
 }
 
@@ -136,12 +134,14 @@ mod tests {
     }
 
     #[test]
-    fn logarithms_have_two_parts() {
-        // ln 2 − 1000 ln 10 = −2301.89194581348573870857…, which is −1.7558707…·10⁻¹³ below the nearest `f64`.
-        let (high, low) = Offset::new(-2.0, -1000).unwrap().logarithm_in_two_parts();
-        assert_eq!(high, -2301.8919458134856);
-        assert!((low + 1.755_870_710_035_544_6e-13).abs() < 4e-16, "{low:e}");
-        assert_eq!(Offset::from(1.0).logarithm_in_two_parts(), (0.0, 0.0));
+    fn logarithms_have_all_their_digits() {
+        // ln 2 − 1000 ln 10 = −2301.89194581348573870857072…
+        let units = Offset::new(-2.0, -1000).unwrap().logarithm_in_units();
+        let whole = units >> 96;
+        let rest = (units - (whole << 96)) as f64 * 0.5f64.powi(96);
+        assert_eq!(whole, -2302);
+        assert!((rest - 0.108_054_186_514_261_3).abs() < 6e-17, "{rest:e}");
+        assert!(Offset::from(1.0).logarithm().abs() < 6e-17);
         assert_eq!(Offset::new(-2.0, -1000).unwrap().nearest(), 0.0);
         assert_eq!(Offset::new(3e-300, 295).unwrap().nearest(), 3e-5);
     }
