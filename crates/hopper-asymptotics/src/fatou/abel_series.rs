@@ -20,13 +20,22 @@ use passive_hopper::MassRatio;
 /// Number of terms d_k: the equation has coefficients up to `ORDER` − 2, and the first two vanish by A and c.
 const TERMS: usize = ORDER - 3;
 
-/// The largest A x. The terms of the series fall until about k = 2π/(A x). At 0.04 the bound is some 10⁻¹². A larger value
-/// would leave fewer hops to be followed one by one, and a larger error.
-const NEAREST_TURN: f64 = 0.04;
+/// The largest A x. The bound on the error is about 10⁻⁶ there, and falls fast towards the fixed point. A larger value would
+/// need more terms.
+const NEAREST_TURN: f64 = 0.12;
+
+/// The errors of the series up to which a phase and a jump use it. Smaller values leave more hops to be followed one by one.
+const ERRORS: [f64; 2] = [1e-12, 1e-8];
+
+/// The range for an error is searched among this many parts of the whole range, so that it is a few per cent too small.
+const PARTS: u32 = 32;
+
+/// No range is smaller than this part of the whole, where the rounding of the coefficients exceeds the wanted error.
+const LEAST_PART: f64 = 0.25;
 
 /// The largest |t| of the Taylor models on the left and on the right, where the drift is small. Beyond it the series of the
 /// flights determine the error; on the left those of the second flight.
-const LARGEST_WIDTHS: [f64; 2] = [0.08, 0.2];
+const LARGEST_WIDTHS: [f64; 2] = [0.2, 0.4];
 
 /// Bound on the relative error of A in units of ε (docs/theory.md, Lemma 72: seven for λ, and the factor).
 const DRIFT_ULPS: f64 = 8.0;
@@ -42,9 +51,13 @@ pub(crate) struct AbelSeries {
     scaled: [f64; TERMS],
     /// W, the largest |t| of the Taylor models.
     width: f64,
-    /// The largest x.
-    range: f64,
-    /// The bound on the error of the series: coefficients of y^k, y = x/`range`.
+    /// The largest x of all.
+    whole: f64,
+    /// The largest x of a phase, and Ψ there.
+    range: (f64, HopCount),
+    /// The turn on which a jump ends: its smallest Ψ, an integer, and an x at or beyond its end, where Ψ is one more.
+    jump: (f64, f64),
+    /// The bound on the error of the series: coefficients of y^k, y = x/`whole`.
     errors: [f64; ORDER + 1],
     /// Σ |d_k| x^k at the largest x.
     tail: f64,
@@ -70,13 +83,24 @@ impl AbelSeries {
             logarithm,
             scaled: [0.0; TERMS],
             width,
-            range: width * hop.root.least(),
+            whole: width * hop.root.least(),
+            range: (0.0, HopCount { hops: 0.0, error: 0.0 }),
+            jump: (0.0, 0.0),
             errors: [0.0; ORDER + 1],
             tail: 0.0,
         };
         series.solve(&hop, side);
-        let found = [series.drift, series.range, series.errors.iter().sum(), series.tail];
-        if found.iter().all(|number| number.is_finite() && *number >= 0.0) && series.range > 0.0 {
+        let [range, jump] = ERRORS.map(|largest| {
+            let fits = |part: &f64| series.series_error(part * series.whole) <= largest;
+            let parts = (1..=PARTS).rev().map(|k| f64::from(k) / f64::from(PARTS));
+            parts.into_iter().find(fits).unwrap_or(0.0).max(LEAST_PART) * series.whole
+        });
+        series.range = (range, series.value(range));
+        // One more than the next integer leaves room for the error of a phase.
+        let first = series.value(jump).hops.ceil() + 1.0;
+        series.jump = (first, series.root_at(HopCount { hops: first + 1.0, error: 0.0 }).0);
+        let found = [series.drift, series.whole, series.errors.iter().sum(), series.tail];
+        if found.iter().all(|number| number.is_finite() && *number >= 0.0) && series.range.0 > 0.0 {
             Ok(series)
         } else {
             Err(Error::Drift { n: local.n, drift })
@@ -115,12 +139,12 @@ impl AbelSeries {
                 None => residual.rest,
             };
             // The sum over the orbit, an integral of y^k; on the right with the first point itself.
-            self.errors[k - 1] += size / ((k - 1) as f64 * rate * self.range);
+            self.errors[k - 1] += size / ((k - 1) as f64 * rate * self.whole);
             if side == Side::Right {
                 self.errors[k] += size;
             }
         }
-        let largest = self.range / self.width;
+        let largest = self.whole / self.width;
         self.tail = self.scaled.iter().rev().fold(0.0, |sum, d| (sum + d.abs()) * largest);
     }
 
@@ -138,9 +162,29 @@ impl AbelSeries {
         self.scaled.get(index).map(|d| d / self.width.powi(k as i32))
     }
 
-    /// The largest x.
+    /// The largest x of a phase.
     pub(crate) fn range(&self) -> f64 {
-        self.range
+        self.range.0
+    }
+
+    /// The largest x of all, with an error of some 10⁻⁶.
+    pub(crate) fn whole(&self) -> f64 {
+        self.whole
+    }
+
+    /// Ψ at the largest x of a phase.
+    pub(crate) fn nearest(&self) -> HopCount {
+        self.range.1
+    }
+
+    /// The smallest Ψ of the turn on which a jump ends.
+    pub(crate) fn end_of_jump(&self) -> f64 {
+        self.jump.0
+    }
+
+    /// The x at which this turn begins.
+    pub(crate) fn first_of_jump(&self) -> f64 {
+        self.jump.1
     }
 
     /// Σ d_k x^k.
@@ -151,7 +195,7 @@ impl AbelSeries {
 
     /// Bound on the error of Σ d_k x^k with that of the series.
     fn series_error(&self, x: f64) -> f64 {
-        let y = x / self.range;
+        let y = x / self.whole;
         let series = self.errors.iter().rev().fold(0.0, |sum, error| sum * y + error);
         // The tail has fewer than 40 roundings.
         series + 20.0 * f64::EPSILON * y * self.tail
@@ -172,7 +216,7 @@ impl AbelSeries {
         (whole, sum, self.series_error(x) + rounding)
     }
 
-    /// Ψ at 0 < x ≤ `range`.
+    /// Ψ at 0 < x ≤ `whole`.
     pub(crate) fn value(&self, x: f64) -> HopCount {
         let leading = 1.0 / (self.drift * x);
         let logarithms = self.logarithm() * pxfm::f_log(x);
@@ -192,7 +236,7 @@ impl AbelSeries {
 
     /// The x at which Ψ has the value, and a bound on its error.
     pub(crate) fn root_at(&self, count: HopCount) -> (f64, f64) {
-        let mut x = (1.0 / (self.drift * count.hops)).min(self.range);
+        let mut x = (1.0 / (self.drift * count.hops)).min(self.whole);
         // Newton's method on 1/Ψ, which is nearly linear in x.
         for _ in 0..NEWTON_STEPS {
             let found = self.value(x).hops;

@@ -68,6 +68,8 @@ pub struct SlowJump {
     pub delta: f64,
     /// Bound on its error.
     pub error: f64,
+    /// Ψ after them. All jumps at one mass ratio end on the same turn: the number is the same for the same fraction.
+    pub count: HopCount,
 }
 
 /// The largest number of hops of one [`SlowJump`]: an `f64` up to it has its digit of one half.
@@ -149,14 +151,16 @@ impl FatouCoordinate {
     }
 
     /// Ψ for all offsets within `error` of `delta`, in `f64`: faster than [`phase`](Self::phase), with an error of some ulps of
-    /// the number of hops.
+    /// the number of hops, and up to 10⁻⁶ at the largest offsets.
     ///
     /// # Errors
-    /// [`Error::OutsideRange`] unless all these offsets are on this side and within [`range`](Self::range).
+    /// [`Error::OutsideRange`] unless all these offsets are on this side and near enough: up to some 30 times
+    /// [`range`](Self::range).
     pub fn count_within(&self, delta: f64, error: f64) -> Result<HopCount, Error> {
         let size = delta.abs();
         let (least, most) = (size - error, size + error);
-        self.check(delta * self.side.sign() > 0.0 && least > 0.0 && most <= self.range(), delta)?;
+        let inside = least > 0.0 && most <= self.whole_range();
+        self.check(delta * self.side.sign() > 0.0 && inside, delta)?;
         let value = self.series.value(pxfm::f_cbrt(size));
         if error == 0.0 {
             return Ok(value);
@@ -176,7 +180,7 @@ impl FatouCoordinate {
     /// [`Error::OutsideRange`] for a phase whose offset is beyond [`reach`](Self::reach).
     pub fn offset(&self, phase: &Phase) -> Result<(Offset, f64), Error> {
         let (mantissa, exponent) = phase.scaled();
-        let nearest = self.series.value(self.series.range());
+        let nearest = self.series.nearest();
         // Far beyond `f64` only the leading term and the logarithm count.
         if exponent > 900 {
             let (delta, error) = self.series.deep_offset(mantissa, exponent);
@@ -196,10 +200,27 @@ impl FatouCoordinate {
         Ok((Offset::from(delta), error / delta.abs()))
     }
 
-    /// The point with the same fraction that an orbit on the left reaches after as many hops as the series has a value for;
-    /// `None` if the error of Ψ exceeds `largest`, or the offset is outside [`range`](Self::range).
+    /// The point with the same fraction that an orbit on the left reaches later: the one of the last turn on which the series
+    /// has an error below 10⁻⁸. `None` if the error of Ψ exceeds `largest`, or the offset is beyond this turn.
     pub fn jump(&self, delta: f64, error: f64, largest: f64) -> Option<SlowJump> {
-        self.jump_from(self.count_within(delta, error).ok()?, largest)
+        let count = self.count_within(delta, error).ok()?;
+        let first = self.series.end_of_jump();
+        let hops = (count.hops - first).floor();
+        if !(count.error <= largest && hops >= 0.0 && hops <= LARGEST_JUMP) {
+            return None;
+        }
+        Some(self.land(hops as u64, HopCount { hops: count.hops - hops, ..count }))
+    }
+
+    /// The |δ| beyond which a [`jump`](Self::jump) has nothing to jump over.
+    pub fn jump_range(&self) -> f64 {
+        let root = self.series.first_of_jump();
+        root * root * root
+    }
+
+    fn land(&self, hops: u64, count: HopCount) -> SlowJump {
+        let (delta, error) = self.at_count(count);
+        SlowJump { hops, delta, error, count }
     }
 
     /// As [`jump`](Self::jump), from `delta` + `rest`, at most half an ulp apart, with the longer [`phase`](Self::phase).
@@ -218,24 +239,13 @@ impl FatouCoordinate {
         // meaning; `largest` refuses it.
         let error = phase.error() + 1.5 * error * slope.abs() + 0.5 * (rest * slope).abs();
         let fraction = phase.fraction() + rest * slope;
-        let nearest = self.series.value(self.series.range());
+        let nearest = self.series.nearest();
         let last = (nearest.hops + nearest.error + error - fraction).ceil();
         let hops = whole.checked_sub(last as i64).filter(|&hops| hops >= 0)?;
         if !(error <= largest) {
             return None;
         }
-        let (delta, error) = self.at_count(HopCount { hops: last + fraction, error });
-        Some(SlowJump { hops: hops as u64, delta, error })
-    }
-
-    fn jump_from(&self, count: HopCount, largest: f64) -> Option<SlowJump> {
-        let nearest = self.series.value(self.series.range());
-        let hops = (count.hops - count.error - nearest.hops - nearest.error).floor();
-        if !(count.error <= largest && hops >= 0.0 && hops <= LARGEST_JUMP) {
-            return None;
-        }
-        let (delta, error) = self.at_count(HopCount { hops: count.hops - hops, ..count });
-        Some(SlowJump { hops: hops as u64, delta, error })
+        Some(self.land(hops as u64, HopCount { hops: last + fraction, error }))
     }
 
     /// The offset at which Ψ has this value, and a bound on its error.
@@ -246,9 +256,14 @@ impl FatouCoordinate {
         (self.side.sign() * cube, 3.1 * root * root * error + 2.0 * f64::EPSILON * cube)
     }
 
+    fn whole_range(&self) -> f64 {
+        let whole = self.series.whole();
+        whole * whole * whole
+    }
+
     fn check(&self, inside: bool, delta: f64) -> Result<(), Error> {
         let reach = self.reach();
-        if inside && delta.abs() <= reach {
+        if inside && delta.abs() <= reach.max(self.whole_range()) {
             return Ok(());
         }
         let (left, right) = match self.side {

@@ -12,8 +12,8 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-/// The number of terms. More terms cost time with their square. At a distance of ten hops from the fixed point the terms
-/// of a Fatou coordinate fall like k!/63^k: eighteen reach 10⁻¹⁶.
+/// The number of terms. More terms cost time with their square; fewer leave more hops to be followed one by one. With sixteen
+/// the series of a Fatou coordinate has 10⁻¹² at A x = 0.036, and 10⁻⁶ at 0.12.
 pub(crate) const ORDER: usize = 16;
 
 /// A polynomial in u, 0 ≤ u ≤ 1, with bounds.

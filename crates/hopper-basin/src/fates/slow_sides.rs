@@ -3,16 +3,24 @@
 //! Left of α*_n an orbit at distance |δ| takes some |δ|^{−1/3} hops to leave. The Fatou coordinate gives the point that it
 //! reaches, with an error (docs/theory.md, Section 16).
 
-use hopper_asymptotics::{FatouCoordinate, Side, SlowJump};
-use passive_hopper::{FixedPointSpeed, MassRatio};
+use hopper_asymptotics::{Coefficients, FatouCoordinate, Form, Side, SlowJump};
+use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
+use std::f64::consts::FRAC_1_PI;
 use std::sync::OnceLock;
 
 /// The number of fixed points whose coordinates are stored. Those of larger n are computed at each use.
 const KEPT: usize = 64;
 
 /// No series of a Fatou coordinate begins farther from its fixed point: |δ| = (|t|/β)³ up to terms of relative size |t|, with
-/// |t| ≤ 0.08 and β ≥ 2.25, is below 4.6·10⁻⁵.
-const FARTHEST: f64 = 5e-5;
+/// |t| ≤ 0.2 and β ≥ 2.24, is below 7.5·10⁻⁴.
+const FARTHEST: f64 = 1e-3;
+
+/// The farthest |δ| of a jump left of α*_n, or more: the range of the series, A |δ|^{1/3} ≤ 0.12.
+fn farthest(n: u64, mass_ratio: MassRatio) -> f64 {
+    let Ok(local) = Coefficients::new(n, mass_ratio, Form::Corrected) else { return 0.0 };
+    let root = 0.12 / (10.0 / 3.0 * local.lambda);
+    (1.1 * root * root * root).min(FARTHEST)
+}
 
 /// Largest error of a phase with which an orbit jumps. Where it decides too little, longer arithmetic has a smaller one. The
 /// fates are right with any value below 1/2; a smaller one sends more orbits to longer arithmetic at once.
@@ -43,6 +51,11 @@ impl SlowSides {
         self.with(n, |psi| psi.jump(offset, error, LARGEST_ERROR))
     }
 
+    /// Whether the point is so far from α*_n that a jump would lead back.
+    pub(crate) fn is_beyond_jumps(&self, n: u64, offset: f64) -> bool {
+        self.with(n, |psi| (-offset > psi.jump_range()).then_some(())).is_some()
+    }
+
     /// As [`jump`](Self::jump), from an offset in two parts.
     pub(crate) fn long_jump(&self, n: u64, offset: (f64, f64), error: f64) -> Option<SlowJump> {
         self.with(n, |psi| psi.long_jump(offset, error, LARGEST_ERROR))
@@ -60,5 +73,33 @@ impl SlowSides {
             Some(slot) => use_it(slot.get_or_init(make).as_ref()?),
             None => use_it(&make()?),
         }
+    }
+}
+
+/// The ends of the slow sides at one mass ratio, for a fast look-up.
+#[derive(Debug, Clone)]
+pub(crate) struct SlowZones {
+    /// For n = 0, 1, …: the speeds from which an orbit may jump left of α*_n, and α*_n. The first zone is empty.
+    zones: Vec<(f64, f64)>,
+}
+
+impl SlowZones {
+    /// The zones of α*_1 to α*_`last`.
+    pub(crate) fn new(mass_ratio: MassRatio, last: u64) -> Self {
+        let zone = |n| {
+            let star = alpha_star(n);
+            (star - farthest(n, mass_ratio), star)
+        };
+        let empty = (f64::INFINITY, f64::NEG_INFINITY);
+        SlowZones { zones: std::iter::once(empty).chain((1..=last).map(zone)).collect() }
+    }
+
+    /// The n ≥ 1 whose slow side may contain `alpha`.
+    #[inline]
+    pub(crate) fn find(&self, alpha: f64) -> Option<u64> {
+        // α*_n lies in (nπ, (n+1)π), and the zone is narrower than its distance from nπ.
+        let n = (alpha * FRAC_1_PI) as usize;
+        let &(left, right) = self.zones.get(n)?;
+        ((alpha >= left) & (alpha <= right)).then_some(n as u64)
     }
 }

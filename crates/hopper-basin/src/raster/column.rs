@@ -3,12 +3,18 @@
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
+use crate::fates::slow_sides::SlowZones;
+use crate::raster::arcs::Arcs;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
 use crate::raster::laps::Laps;
 use crate::traps::trap_index::{Lookup, TrapIndex};
 use basin_of_attraction::Traps;
+use passive_hopper::index_below;
 use std::ops::Range;
+
+/// The number of fixed points on whose slow sides the orbits of a raster jump. Others are followed, or labelled alone.
+const SLOW_SIDES: u64 = 64;
 
 /// The labels and itineraries of a column.
 pub(crate) struct Column<'a> {
@@ -22,12 +28,16 @@ pub(crate) struct Column<'a> {
     /// For every speed, whether the gap up to the next speed is closed: all speeds in a closed gap have the fate of
     /// both.
     closed: Vec<bool>,
+    pub(crate) zones: SlowZones,
+    /// The known arcs of the circles of α*_1, α*_2, …
+    arcs: Vec<Arcs>,
 }
 
 impl<'a> Column<'a> {
     /// A column without labels.
     pub(crate) fn new(fates: &'a Fates, speeds: &[f64]) -> Result<Self, Error> {
         let largest = speeds.last().copied().unwrap_or(0.0);
+        let slow_sides = (index_below(largest)? + 1).min(SLOW_SIDES);
         Ok(Column {
             fates,
             traps: TrapIndex::new(largest, |n| fates.trap(n))?,
@@ -35,6 +45,8 @@ impl<'a> Column<'a> {
             labels: vec![HopperFate::UNDECIDED; speeds.len()],
             itineraries: vec![None; speeds.len()],
             closed: vec![false; speeds.len()],
+            zones: SlowZones::new(fates.map().mass_ratio(), slow_sides),
+            arcs: Vec::new(),
         })
     }
 
@@ -55,6 +67,15 @@ impl<'a> Column<'a> {
     /// The traps of the index as intervals of known fate.
     pub(crate) fn known_traps(&self) -> impl Iterator<Item = (KnownFate, (f64, f64))> {
         self.traps.ends().map(|(n, ends)| (fate_in_trap(n), ends))
+    }
+
+    /// The known arcs of the circle of α*_n, n ≥ 1.
+    pub(crate) fn arcs(&mut self, n: u64) -> &mut Arcs {
+        let n = n as usize;
+        if self.arcs.len() <= n {
+            self.arcs.resize_with(n + 1, Arcs::default);
+        }
+        &mut self.arcs[n]
     }
 
     /// Stores the itinerary of the speed with index `at`, whose orbit has ended.

@@ -19,14 +19,19 @@ pub(crate) struct Itinerary {
     laps: u64,
     /// The index of the trap, [`GROUND`] or [`NO_END`].
     end: u32,
+    /// The hops left of a fixed point that the orbit jumped over: n and their number; 0 if there were none.
+    slow: u64,
 }
+
+/// The bits of the number of hops in [`Itinerary::slow`], with n above them.
+const SLOW_BITS: u32 = 53;
 
 /// The value of [`Itinerary::laps`] of an orbit that has left the laps.
 const NO_LAPS: u64 = 0;
 
 impl Itinerary {
     /// The itinerary of an orbit that has not hopped yet.
-    pub(crate) const START: Itinerary = Itinerary { laps: 1, end: NO_END };
+    pub(crate) const START: Itinerary = Itinerary { laps: 1, end: NO_END, slow: 0 };
 
     /// The itinerary of an orbit that starts in trap n.
     pub(crate) fn in_trap(n: u32) -> Self {
@@ -53,6 +58,22 @@ impl Itinerary {
         self.end = GROUND;
     }
 
+    /// Adds a jump over `hops` hops left of α*_n. All of them are on one lap, the last one that the orbit was on or the next
+    /// lower one. Laps only descend, so that the place of the jump among them need not be known. An itinerary has room for one
+    /// jump.
+    pub(crate) fn jump(&mut self, n: u64, hops: u64) {
+        if self.slow != 0 || n >> (64 - SLOW_BITS) != 0 || hops >> SLOW_BITS != 0 {
+            self.give_up();
+        } else {
+            self.slow = n << SLOW_BITS | hops;
+        }
+    }
+
+    /// True if the itinerary can agree with another.
+    pub(crate) fn is_known(&self) -> bool {
+        self.laps != NO_LAPS
+    }
+
     /// Marks the itinerary as unknown: it agrees with no other from now on.
     #[inline]
     pub(crate) fn give_up(&mut self) {
@@ -65,7 +86,9 @@ impl Itinerary {
         // The bits of the known laps, without their leading one. Known intervals have laps.
         let bits = 63 - known.laps.leading_zeros();
         // The laps of both must fit below bit 63.
-        let room = (self.laps.leading_zeros() >= bits) & (self.laps != NO_LAPS);
+        let one_jump = (self.slow == 0) | (known.slow == 0);
+        let room = (self.laps.leading_zeros() >= bits) & (self.laps != NO_LAPS) & one_jump;
+        self.slow |= known.slow;
         self.end = known.end;
         self.laps = if room { self.laps << bits | (known.laps ^ 1 << bits) } else { NO_LAPS };
     }
@@ -73,7 +96,10 @@ impl Itinerary {
     /// True if every orbit that starts between these two has their fate (README.md, the theorem).
     #[inline]
     pub(crate) fn agrees_with(&self, other: &Self) -> bool {
-        self.laps == other.laps && self.laps != NO_LAPS && self.end == other.end
+        self.laps == other.laps
+            && self.laps != NO_LAPS
+            && self.end == other.end
+            && self.slow == other.slow
     }
 }
 

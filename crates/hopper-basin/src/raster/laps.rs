@@ -4,7 +4,7 @@
 //!   hump n      α*_n … maximum        rises   1 − 4μW > 0 (docs/theory.md, Corollary 28)
 //!               maximum … minimum     falls   1 − 4μW < 0
 //!               minimum … (n+1)π      rises
-//!   window n+1  (n+1)π … α*_{n+1}     rises   proved for some M, up to 10⁻³ below α*_{n+1} (`rising_windows`)
+//!   window n+1  (n+1)π … α*_{n+1}     rises   proved for some M (`rising_windows`; next to α*_{n+1} Theorem 81)
 //! ```
 //!
 //! For M < 1 the map is continuous at (n+1)π (docs/theory.md, Theorem 23). So the last part of hump n and window n+1
@@ -13,7 +13,7 @@
 use crate::error::Error;
 use crate::raster::rising_windows::rising_window;
 use crate::traps::hump::Hump;
-use passive_hopper::{MassRatio, index_below};
+use passive_hopper::{MassRatio, alpha_star, index_below};
 use std::f64::consts::{FRAC_1_PI, PI};
 
 /// The laps of hump n and window n+1.
@@ -22,7 +22,7 @@ struct LapsOfHump {
     star: f64,
     /// The ends of the falling lap, (maximum, minimum); infinite if the map only rises.
     falling: (f64, f64),
-    /// The end of the last lap. From here to α*_{n+1} there is no proof.
+    /// The end of the last lap: α*_{n+1}, or (n+1)π if the window is not proved to rise.
     end: f64,
 }
 
@@ -93,7 +93,8 @@ impl LapsOfHump {
         let window =
             rising_window(n + 1).filter(|window| mass_ratio.value() <= window.largest_mass_ratio);
         let contact_end = (n + 1) as f64 * PI;
-        let end = window.map_or(contact_end, |window| window.part.right);
+        // The proof of a window ends 10⁻³ below α*_{n+1}, and Theorem 81 goes on from there.
+        let end = window.map_or(contact_end, |_| alpha_star(n + 1));
         let falling = hump.falling(mu)?;
         Ok(LapsOfHump {
             star: hump.star.value(),

@@ -10,6 +10,7 @@
 //!
 //! This room uses `traps` and `fates`. Every label equals the label that `Fates::fate` gives.
 
+pub(crate) mod arcs;
 pub(crate) mod column;
 pub(crate) mod itinerary;
 pub(crate) mod known_intervals;

@@ -18,7 +18,7 @@ use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
-use passive_hopper::{HopWithin, LiftOffMap, alpha_star, index_below};
+use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
 
 /// At first every 16th speed is followed.
@@ -45,7 +45,19 @@ struct Followed {
     /// The neighbouring followed speeds when this orbit was started; the speed itself if there is none.
     left: u32,
     right: u32,
+    /// The itinerary; since the jump, if there was one.
     itinerary: Itinerary,
+    slow: Option<SlowStart>,
+}
+
+/// The first jump of an orbit along the slow side of α*_n.
+#[derive(Debug, Clone, Copy)]
+struct SlowStart {
+    n: u64,
+    /// Ψ after the jump.
+    phase: f64,
+    /// The itinerary up to the jump, with the jump.
+    before: Itinerary,
 }
 
 /// The orbits of a hump. `index`, `hops` and `before` have one entry for every orbit that has not ended (invariant
@@ -188,7 +200,7 @@ impl Strip<'_> {
         // NaN equals no speed, so that an orbit that has not hopped does not seem to repeat its speed.
         orbits.before.push((f64::NAN, f64::NAN));
         let (column, itinerary) = (column as u32, Itinerary::START);
-        orbits.all.push(Followed { column, at, left, right, itinerary });
+        orbits.all.push(Followed { column, at, left, right, itinerary, slow: None });
     }
 
     /// Computes the next hop of all orbits, and retires the orbits that end.
@@ -223,8 +235,19 @@ impl Strip<'_> {
         let mut kept = first;
         for from in first..self.orbits.index.len() {
             let at = self.orbits.index[from];
-            let hop = self.orbits.hops[from];
-            if self.ends(at, (self.orbits.before[from].0, hop.1), self.orbits.found[from - first]) {
+            let mut hop = self.orbits.hops[from];
+            let ended = if let Some(n) = self.slow_side(at, hop.1) {
+                match self.jump(at, n, hop.1) {
+                    Some(next) => {
+                        hop.1 = next;
+                        false
+                    }
+                    None => true,
+                }
+            } else {
+                self.ends(at, (self.orbits.before[from].0, hop.1), self.orbits.found[from - first])
+            };
+            if ended {
                 self.orbits.ended.push(at);
             } else {
                 // LISTS: `before` is not compacted, only shortened. Until the next hop fills it again, only the entries
@@ -236,6 +259,51 @@ impl Strip<'_> {
         self.orbits.index.truncate(kept);
         self.orbits.hops.truncate(kept);
         self.orbits.before.truncate(kept);
+    }
+
+    /// The n on whose slow side the orbit may be.
+    #[inline]
+    fn slow_side(&self, at: u32, hop: HopWithin) -> Option<u64> {
+        let HopWithin::Next { speed, .. } = hop else { return None };
+        self.columns[self.orbits.all[at as usize].column as usize].zones.find(speed)
+    }
+
+    /// The orbit after its hops along the slow side of α*_n; as it is if it leaves with the next hop. `None` if it has ended, on a
+    /// known arc or because its phase is not known well enough.
+    fn jump(&mut self, at: u32, n: u64, hop: HopWithin) -> Option<HopWithin> {
+        let HopWithin::Next { speed, error } = hop else { return Some(hop) };
+        let followed = &mut self.orbits.all[at as usize];
+        let column = &mut self.columns[followed.column as usize];
+        let offset = FixedPointSpeed::new(n).offset_of(speed);
+        if !(offset < 0.0) {
+            return Some(hop);
+        }
+        let sides = column.fates.slow_sides();
+        let Some(jump) = sides.jump(n, offset, error + f64::EPSILON * -offset) else {
+            if sides.is_beyond_jumps(n, offset) {
+                return Some(hop);
+            }
+            self.end_alone(at);
+            return None;
+        };
+        if followed.slow.is_some() {
+            // A second jump, below the first one: another circle inside the first.
+            followed.itinerary.jump(n, jump.hops);
+        } else {
+            let mut before = followed.itinerary;
+            before.jump(n, jump.hops);
+            if let Some(known) = column.arcs(n).find(jump.count.hops, jump.count.error) {
+                before.end_in(&known.itinerary);
+                followed.itinerary = before;
+                column.labels[followed.at as usize] = known.label;
+                return None;
+            }
+            followed.slow = Some(SlowStart { n, phase: jump.count.hops, before });
+            followed.itinerary = Itinerary::START;
+        }
+        let speed = alpha_star(n) + jump.delta;
+        // Half an ulp each for α*_n and for the sum.
+        Some(HopWithin::Next { speed, error: jump.error + f64::EPSILON * speed })
     }
 
     /// Whether an orbit has ended; if so, labels it and completes its itinerary.
@@ -316,9 +384,17 @@ impl Strip<'_> {
             let mut ended = std::mem::take(&mut self.orbits.ended);
             let first = self.orbits.index.len();
             for index in ended.drain(..) {
-                let Followed { column, at, left, right, itinerary } =
+                let Followed { column, at, left, right, mut itinerary, slow } =
                     self.orbits.all[index as usize];
                 let column = column as usize;
+                if let Some(SlowStart { n, phase, before }) = slow
+                    && itinerary.is_known()
+                {
+                    let label = self.columns[column].labels[at as usize];
+                    self.columns[column].arcs(n).add(phase, itinerary, label);
+                    let after = std::mem::replace(&mut itinerary, before);
+                    itinerary.end_in(&after);
+                }
                 self.columns[column].finish(at as usize, itinerary);
                 for (left, right) in [(left, at), (at, right)] {
                     if left < right
