@@ -64,6 +64,7 @@ pub use fatou::escape::Escape;
 pub use fatou::fatou_coordinate::{FatouCoordinate, HopCount, SlowJump};
 pub use fatou::local_hop_model::Side;
 pub use fatou::offset::Offset;
+pub use fatou::outward_walk::OutwardWalk;
 pub use fatou::phase::Phase;
 pub use fixed_point_series::{FIXED_POINT_REMAINDER, fixed_point_series};
 pub use left_expansion::{LEFT_RANGE, LeftExpansion};

@@ -189,13 +189,13 @@ impl FatouCoordinate {
         let hops = mantissa * 2f64.powi(exponent as i32);
         let beyond = nearest.hops + nearest.error - hops;
         if beyond <= 0.0 {
-            let (delta, error) = self.at_count(HopCount { hops, error: phase.error() });
+            let (delta, error) = self.offset_at(HopCount { hops, error: phase.error() });
             return Ok((Offset::from(delta), error / delta.abs()));
         }
         // Whole hops from inside the range; on the right the hops lead inwards, and the offset is a preimage.
         let whole = beyond.ceil();
         let start = HopCount { hops: hops + whole, error: phase.error() };
-        let (delta, error) = self.at_count(start);
+        let (delta, error) = self.offset_at(start);
         let (delta, error) = outward(&self.map, self.n, (delta, error), whole, self.reach())?;
         Ok((Offset::from(delta), error / delta.abs()))
     }
@@ -219,7 +219,7 @@ impl FatouCoordinate {
     }
 
     fn land(&self, hops: u64, count: HopCount) -> SlowJump {
-        let (delta, error) = self.at_count(count);
+        let (delta, error) = self.offset_at(count);
         SlowJump { hops, delta, error, count }
     }
 
@@ -248,8 +248,13 @@ impl FatouCoordinate {
         Some(self.land(hops as u64, HopCount { hops: last + fraction, error }))
     }
 
-    /// The offset at which Ψ has this value, and a bound on its error.
-    pub(crate) fn at_count(&self, count: HopCount) -> (f64, f64) {
+    /// The smallest Ψ of the turn on which a [`jump`](Self::jump) ends.
+    pub fn turn_of_jumps(&self) -> f64 {
+        self.series.end_of_jump()
+    }
+
+    /// The offset at which Ψ has this value, from [`turn_of_jumps`](Self::turn_of_jumps) up, and a bound on its error.
+    pub fn offset_at(&self, count: HopCount) -> (f64, f64) {
         let (root, error) = self.series.root_at(count);
         // d(x³) = 3x² dx; the factor covers the roundings of the cube and the second order.
         let cube = root * root * root;

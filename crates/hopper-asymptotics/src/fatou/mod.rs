@@ -6,6 +6,7 @@
 //!   phase.rs, offset.rs   an integer of any size with a fraction; an offset below the smallest f64
 //!   abel_series.rs        the series of Ψ in x = |δ|^{1/3}, with a bound on its error
 //!   leading_term.rs       the leading term of Ψ to any number of digits
+//!   outward_walk.rs       fast single hops, from where a jump ends
 //!   slow_hops.rs          single hops, where the series has no value
 //!   local_hop_model.rs    a hop as Taylor models
 //!   taylor_model.rs       polynomials with bounds
@@ -17,6 +18,7 @@ pub(crate) mod fatou_coordinate;
 pub(crate) mod leading_term;
 pub(crate) mod local_hop_model;
 pub(crate) mod offset;
+pub(crate) mod outward_walk;
 pub(crate) mod phase;
 pub(crate) mod slow_hops;
 pub(crate) mod taylor_model;

@@ -3,7 +3,7 @@
 //! Left of α*_n an orbit at distance |δ| takes some |δ|^{−1/3} hops to leave. The Fatou coordinate gives the point that it
 //! reaches, with an error (docs/theory.md, Section 16).
 
-use hopper_asymptotics::{Coefficients, FatouCoordinate, Form, Side, SlowJump};
+use hopper_asymptotics::{Coefficients, FatouCoordinate, Form, HopCount, OutwardWalk, Side, SlowJump};
 use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::OnceLock;
@@ -15,10 +15,10 @@ const KEPT: usize = 64;
 /// |t| ≤ 0.2 and β ≥ 2.24, is below 7.5·10⁻⁴.
 const FARTHEST: f64 = 1e-3;
 
-/// The farthest |δ| of a jump left of α*_n, or more: the range of the series, A |δ|^{1/3} ≤ 0.12.
+/// The farthest |δ| of a walk left of α*_n, or more: A |δ|^{1/3} ≤ 0.6.
 fn farthest(n: u64, mass_ratio: MassRatio) -> f64 {
     let Ok(local) = Coefficients::new(n, mass_ratio, Form::Corrected) else { return 0.0 };
-    let root = 0.12 / (10.0 / 3.0 * local.lambda);
+    let root = 0.6 / (10.0 / 3.0 * local.lambda);
     (1.1 * root * root * root).min(FARTHEST)
 }
 
@@ -31,7 +31,21 @@ const LARGEST_ERROR: f64 = 0.01;
 pub(crate) struct SlowSides {
     mass_ratio: MassRatio,
     /// The coordinates of α*_1, α*_2, …, each computed at its first use; `None` inside where there is none.
-    first: Box<[OnceLock<Option<FatouCoordinate>>; KEPT]>,
+    first: Box<[OnceLock<Option<SlowSide>>; KEPT]>,
+}
+
+/// The slow side of one fixed point.
+#[derive(Debug, Clone)]
+struct SlowSide {
+    psi: FatouCoordinate,
+    walk: OutwardWalk,
+}
+
+impl SlowSide {
+    fn new(n: u64, mass_ratio: MassRatio) -> Option<Self> {
+        let psi = FatouCoordinate::new(n, mass_ratio, Side::Left).ok()?;
+        Some(SlowSide { psi, walk: OutwardWalk::new(n, mass_ratio).ok()? })
+    }
 }
 
 impl SlowSides {
@@ -48,26 +62,41 @@ impl SlowSides {
 
     /// The end of the slow hops of the orbit within `error` of α*_n + `offset`.
     pub(crate) fn jump(&self, n: u64, offset: f64, error: f64) -> Option<SlowJump> {
-        self.with(n, |psi| psi.jump(offset, error, LARGEST_ERROR))
+        self.with(n, |side| side.psi.jump(offset, error, LARGEST_ERROR))
+    }
+
+    /// The smallest Ψ of the turn on which jumps left of α*_n end.
+    pub(crate) fn turn(&self, n: u64) -> Option<f64> {
+        self.with(n, |side| Some(side.psi.turn_of_jumps()))
+    }
+
+    /// The offset left of α*_n at which Ψ is `hops`, on or next to the turn of jumps, and a bound on its error.
+    pub(crate) fn offset(&self, n: u64, hops: f64) -> Option<(f64, f64)> {
+        self.with(n, |side| Some(side.psi.offset_at(HopCount { hops, error: 0.0 })))
+    }
+
+    /// The offset after a hop left of α*_n, and a bound on its error; `None` where the orbit leaves.
+    pub(crate) fn walk(&self, n: u64, (offset, error): (f64, f64)) -> Option<(f64, f64)> {
+        self.with(n, |side| side.walk.hop(offset, error))
     }
 
     /// Whether the point is so far from α*_n that a jump would lead back.
     pub(crate) fn is_beyond_jumps(&self, n: u64, offset: f64) -> bool {
-        self.with(n, |psi| (-offset > psi.jump_range()).then_some(())).is_some()
+        self.with(n, |side| (-offset > side.psi.jump_range()).then_some(())).is_some()
     }
 
     /// As [`jump`](Self::jump), from an offset in two parts.
     pub(crate) fn long_jump(&self, n: u64, offset: (f64, f64), error: f64) -> Option<SlowJump> {
-        self.with(n, |psi| psi.long_jump(offset, error, LARGEST_ERROR))
+        self.with(n, |side| side.psi.long_jump(offset, error, LARGEST_ERROR))
     }
 
     /// The result of `use_it` with the coordinate of α*_n.
-    pub(crate) fn with<T>(
+    fn with<T>(
         &self,
         n: u64,
-        use_it: impl FnOnce(&FatouCoordinate) -> Option<T>,
+        use_it: impl FnOnce(&SlowSide) -> Option<T>,
     ) -> Option<T> {
-        let make = || FatouCoordinate::new(n, self.mass_ratio, Side::Left).ok();
+        let make = || SlowSide::new(n, self.mass_ratio);
         let slot = n.checked_sub(1).and_then(|index| self.first.get(usize::try_from(index).ok()?));
         match slot {
             Some(slot) => use_it(slot.get_or_init(make).as_ref()?),
@@ -79,7 +108,7 @@ impl SlowSides {
 /// The ends of the slow sides at one mass ratio, for a fast look-up.
 #[derive(Debug, Clone)]
 pub(crate) struct SlowZones {
-    /// For n = 0, 1, …: the speeds from which an orbit may jump left of α*_n, and α*_n. The first zone is empty.
+    /// For n = 0, 1, …: the speeds from which an orbit may jump or walk left of α*_n, and α*_n. The first zone is empty.
     zones: Vec<(f64, f64)>,
 }
 

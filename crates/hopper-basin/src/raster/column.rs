@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
+use crate::fates::beside_edge::BesideEdge;
 use crate::fates::slow_sides::SlowZones;
 use crate::raster::arcs::Arcs;
 use crate::raster::itinerary::Itinerary;
@@ -31,6 +32,10 @@ pub(crate) struct Column<'a> {
     pub(crate) zones: SlowZones,
     /// The known arcs of the circles of α*_1, α*_2, …
     arcs: Vec<Arcs>,
+    /// Starts that fall onto fixed points, with the itineraries of all starts beside them.
+    pub(crate) edges: Vec<(BesideEdge, Itinerary)>,
+    /// The number of searches for such starts that found none.
+    pub(crate) missed_edges: usize,
 }
 
 impl<'a> Column<'a> {
@@ -47,6 +52,8 @@ impl<'a> Column<'a> {
             closed: vec![false; speeds.len()],
             zones: SlowZones::new(fates.map().mass_ratio(), slow_sides),
             arcs: Vec::new(),
+            edges: Vec::new(),
+            missed_edges: 0,
         })
     }
 

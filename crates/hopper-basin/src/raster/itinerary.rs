@@ -14,9 +14,12 @@ const GROUND: u32 = u32::MAX - 2;
 /// The laps an exact orbit visits, and its end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Itinerary {
-    /// A leading one bit, then the numbers of the laps, [`ID_BITS`] bits each. 64 bits hold twelve laps. [`NO_LAPS`] if a
-    /// hop was on no lap, or if the fate was computed alone: the itinerary then agrees with no other.
+    /// A leading one bit, then for each hop a zero bit if it was on the lap of the hop before, else a one bit and the number of
+    /// the lap, [`ID_BITS`] bits. 64 bits hold ten different laps, or more hops on fewer. [`NO_LAPS`] if a hop was on no lap, or
+    /// if the fate was computed alone: the itinerary then agrees with no other.
     laps: u64,
+    /// The lap of the last hop; [`NO_LAP`] if the next hop must give its number.
+    last: u8,
     /// The index of the trap, [`GROUND`] or [`NO_END`].
     end: u32,
     /// The hops left of a fixed point that the orbit jumped over: n and their number; 0 if there were none.
@@ -29,9 +32,12 @@ const SLOW_BITS: u32 = 53;
 /// The value of [`Itinerary::laps`] of an orbit that has left the laps.
 const NO_LAPS: u64 = 0;
 
+/// No number of a lap.
+const NO_LAP: u8 = u8::MAX;
+
 impl Itinerary {
     /// The itinerary of an orbit that has not hopped yet.
-    pub(crate) const START: Itinerary = Itinerary { laps: 1, end: NO_END, slow: 0 };
+    pub(crate) const START: Itinerary = Itinerary { laps: 1, last: NO_LAP, end: NO_END, slow: 0 };
 
     /// The itinerary of an orbit that starts in trap n.
     pub(crate) fn in_trap(n: u32) -> Self {
@@ -41,13 +47,16 @@ impl Itinerary {
     /// Adds a hop of an orbit that lies within `error` of `alpha`.
     #[inline]
     pub(crate) fn hop(&mut self, (alpha, error): (f64, f64), laps: &Laps) {
-        // After twelve laps the leading one is at bit 60, and no thirteenth lap fits. The laps are then unknown, and the
-        // raster follows the orbits beside this one. This is rare: an orbit of Fig. 6's window hops 3.9 times on the
-        // average.
-        let room = self.laps >> (64 - ID_BITS) == 0 && self.laps != NO_LAPS;
+        // If the bits are used up, the laps are unknown, and the raster follows the orbits beside this one. This is rare: an
+        // orbit of Fig. 6's window hops 3.9 times on the average.
+        let room = self.laps.leading_zeros();
         // LAP: the exact speed must be on one lap.
         self.laps = match laps.lap(alpha, error) {
-            Some(lap) if room => self.laps << ID_BITS | u64::from(lap),
+            Some(lap) if lap == self.last && room >= 1 && self.is_known() => self.laps << 1,
+            Some(lap) if room > ID_BITS && self.is_known() => {
+                self.last = lap;
+                self.laps << (ID_BITS + 1) | 1 << ID_BITS | u64::from(lap)
+            }
             _ => NO_LAPS,
         };
     }
@@ -70,7 +79,8 @@ impl Itinerary {
     }
 
     /// True if the itinerary can agree with another.
-    pub(crate) fn is_known(&self) -> bool {
+    #[inline]
+    fn is_known(&self) -> bool {
         self.laps != NO_LAPS
     }
 
@@ -90,6 +100,8 @@ impl Itinerary {
         let room = (self.laps.leading_zeros() >= bits) & (self.laps != NO_LAPS) & one_jump;
         self.slow |= known.slow;
         self.end = known.end;
+        // The known laps begin with a number: the same hops may have another form, which only hides an agreement.
+        self.last = known.last;
         self.laps = if room { self.laps << bits | (known.laps ^ 1 << bits) } else { NO_LAPS };
     }
 

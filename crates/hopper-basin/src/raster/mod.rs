@@ -5,7 +5,8 @@
 //! Several columns form a strip, whose orbits hop together ([`strip`], [`column`]).
 //! The itinerary of an orbit lists the laps that it visits ([`laps`], [`rising_windows`], [`itinerary`]). Speeds
 //! between two orbits with the same itinerary need no orbit of their own. Their intervals are stored for orbits that
-//! descend into them ([`known_intervals`]).
+//! descend into them ([`known_intervals`]). Along the slow side of a fixed point orbits jump ([`slow_orbits`]), and what they do
+//! after it is found on the known arcs of the circle of fates ([`arcs`]).
 //! [`labels`] takes speeds in any order.
 //!
 //! This room uses `traps` and `fates`. Every label equals the label that `Fates::fate` gives.
@@ -17,4 +18,5 @@ pub(crate) mod known_intervals;
 pub(crate) mod labels;
 pub(crate) mod laps;
 pub(crate) mod rising_windows;
+pub(crate) mod slow_orbits;
 pub(crate) mod strip;

@@ -18,7 +18,7 @@ use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
-use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star, index_below};
+use passive_hopper::{HopWithin, LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
 
 /// At first every 16th speed is followed.
@@ -39,33 +39,23 @@ const LARGEST_STRIP: usize = 1 << 31;
 
 /// A followed speed. A speed is given by its index in the column.
 #[derive(Debug, Clone, Copy)]
-struct Followed {
-    column: u32,
-    at: u32,
+pub(crate) struct Followed {
+    pub(crate) column: u32,
+    pub(crate) at: u32,
     /// The neighbouring followed speeds when this orbit was started; the speed itself if there is none.
     left: u32,
     right: u32,
-    /// The itinerary; since the jump, if there was one.
-    itinerary: Itinerary,
-    slow: Option<SlowStart>,
-}
-
-/// The first jump of an orbit along the slow side of α*_n.
-#[derive(Debug, Clone, Copy)]
-struct SlowStart {
-    n: u64,
-    /// Ψ after the jump.
-    phase: f64,
-    /// The itinerary up to the jump, with the jump.
-    before: Itinerary,
+    pub(crate) itinerary: Itinerary,
+    /// The number of hops of the oldest orbit when this one was started.
+    pub(crate) since: usize,
 }
 
 /// The orbits of a hump. `index`, `hops` and `before` have one entry for every orbit that has not ended (invariant
 /// LISTS).
 #[derive(Default)]
-struct Orbits<'a> {
+pub(crate) struct Orbits<'a> {
     /// All orbits that have been started.
-    all: Vec<Followed>,
+    pub(crate) all: Vec<Followed>,
     /// The orbits that have not ended, as indices of `all`.
     index: Vec<u32>,
     /// The maps and current speeds of these orbits, with bounds on their errors.
@@ -73,20 +63,20 @@ struct Orbits<'a> {
     /// The speeds of these orbits before the last hop, with their errors; NaN for orbits that have not hopped.
     before: Vec<(f64, f64)>,
     /// The number of hops of the oldest orbit.
-    count: usize,
+    pub(crate) count: usize,
     /// For each of these orbits, the interval of known fate that contains its speed; used by `retire` only.
     found: Vec<u32>,
     /// The orbits that have ended since the last call of `refine`.
     ended: Vec<u32>,
 }
 
-struct Strip<'a> {
-    columns: Vec<Column<'a>>,
-    speeds: Vec<f64>,
+pub(crate) struct Strip<'a> {
+    pub(crate) columns: Vec<Column<'a>>,
+    pub(crate) speeds: Vec<f64>,
     /// The number of additional speeds, whose labels are not needed.
     lower: usize,
-    intervals: KnownIntervals,
-    orbits: Orbits<'a>,
+    pub(crate) intervals: KnownIntervals,
+    pub(crate) orbits: Orbits<'a>,
     /// The last error of a fate that was computed for one speed alone.
     failed: Result<(), Error>,
 }
@@ -200,7 +190,7 @@ impl Strip<'_> {
         // NaN equals no speed, so that an orbit that has not hopped does not seem to repeat its speed.
         orbits.before.push((f64::NAN, f64::NAN));
         let (column, itinerary) = (column as u32, Itinerary::START);
-        orbits.all.push(Followed { column, at, left, right, itinerary, slow: None });
+        orbits.all.push(Followed { column, at, left, right, itinerary, since: orbits.count });
     }
 
     /// Computes the next hop of all orbits, and retires the orbits that end.
@@ -236,16 +226,22 @@ impl Strip<'_> {
         for from in first..self.orbits.index.len() {
             let at = self.orbits.index[from];
             let mut hop = self.orbits.hops[from];
-            let ended = if let Some(n) = self.slow_side(at, hop.1) {
-                match self.jump(at, n, hop.1) {
+            let ended = match self.slow_side(at, hop.1) {
+                Some(n) => match self.jump(at, n, hop.1) {
                     Some(next) => {
                         hop.1 = next;
                         false
                     }
                     None => true,
+                },
+                None => {
+                    let before = self.orbits.before[from];
+                    if hop.1 == HopWithin::Inconclusive {
+                        // The second bound takes some microseconds, a fate alone some hundred.
+                        hop.1 = hop.0.signed_hop_within(before.0, before.1);
+                    }
+                    self.ends(at, (before.0, hop.1), self.orbits.found[from - first])
                 }
-            } else {
-                self.ends(at, (self.orbits.before[from].0, hop.1), self.orbits.found[from - first])
             };
             if ended {
                 self.orbits.ended.push(at);
@@ -259,51 +255,6 @@ impl Strip<'_> {
         self.orbits.index.truncate(kept);
         self.orbits.hops.truncate(kept);
         self.orbits.before.truncate(kept);
-    }
-
-    /// The n on whose slow side the orbit may be.
-    #[inline]
-    fn slow_side(&self, at: u32, hop: HopWithin) -> Option<u64> {
-        let HopWithin::Next { speed, .. } = hop else { return None };
-        self.columns[self.orbits.all[at as usize].column as usize].zones.find(speed)
-    }
-
-    /// The orbit after its hops along the slow side of α*_n; as it is if it leaves with the next hop. `None` if it has ended, on a
-    /// known arc or because its phase is not known well enough.
-    fn jump(&mut self, at: u32, n: u64, hop: HopWithin) -> Option<HopWithin> {
-        let HopWithin::Next { speed, error } = hop else { return Some(hop) };
-        let followed = &mut self.orbits.all[at as usize];
-        let column = &mut self.columns[followed.column as usize];
-        let offset = FixedPointSpeed::new(n).offset_of(speed);
-        if !(offset < 0.0) {
-            return Some(hop);
-        }
-        let sides = column.fates.slow_sides();
-        let Some(jump) = sides.jump(n, offset, error + f64::EPSILON * -offset) else {
-            if sides.is_beyond_jumps(n, offset) {
-                return Some(hop);
-            }
-            self.end_alone(at);
-            return None;
-        };
-        if followed.slow.is_some() {
-            // A second jump, below the first one: another circle inside the first.
-            followed.itinerary.jump(n, jump.hops);
-        } else {
-            let mut before = followed.itinerary;
-            before.jump(n, jump.hops);
-            if let Some(known) = column.arcs(n).find(jump.count.hops, jump.count.error) {
-                before.end_in(&known.itinerary);
-                followed.itinerary = before;
-                column.labels[followed.at as usize] = known.label;
-                return None;
-            }
-            followed.slow = Some(SlowStart { n, phase: jump.count.hops, before });
-            followed.itinerary = Itinerary::START;
-        }
-        let speed = alpha_star(n) + jump.delta;
-        // Half an ulp each for α*_n and for the sum.
-        Some(HopWithin::Next { speed, error: jump.error + f64::EPSILON * speed })
     }
 
     /// Whether an orbit has ended; if so, labels it and completes its itinerary.
@@ -362,7 +313,7 @@ impl Strip<'_> {
 
     /// Ends an orbit by the fate of its start, computed alone. Its itinerary agrees with no other.
     #[cold]
-    fn end_alone(&mut self, at: u32) {
+    pub(crate) fn end_alone(&mut self, at: u32) {
         let Followed { column, at: start, itinerary, .. } = &mut self.orbits.all[at as usize];
         itinerary.give_up();
         let (column, start) = (*column as usize, *start as usize);
@@ -384,17 +335,9 @@ impl Strip<'_> {
             let mut ended = std::mem::take(&mut self.orbits.ended);
             let first = self.orbits.index.len();
             for index in ended.drain(..) {
-                let Followed { column, at, left, right, mut itinerary, slow } =
+                let Followed { column, at, left, right, itinerary, .. } =
                     self.orbits.all[index as usize];
                 let column = column as usize;
-                if let Some(SlowStart { n, phase, before }) = slow
-                    && itinerary.is_known()
-                {
-                    let label = self.columns[column].labels[at as usize];
-                    self.columns[column].arcs(n).add(phase, itinerary, label);
-                    let after = std::mem::replace(&mut itinerary, before);
-                    itinerary.end_in(&after);
-                }
                 self.columns[column].finish(at as usize, itinerary);
                 for (left, right) in [(left, at), (at, right)] {
                     if left < right
@@ -424,7 +367,7 @@ fn speed_and_error(hop: &HopWithin) -> (f64, f64) {
 
 /// KNOWN: whether all speeds within `error` of `alpha` lie in the interval.
 #[inline]
-fn is_inside(alpha: f64, error: f64, (left, right): (f64, f64)) -> bool {
+pub(crate) fn is_inside(alpha: f64, error: f64, (left, right): (f64, f64)) -> bool {
     /// More than the rounding of the differences.
     const ROUND_UP: f64 = 1.0 + 4.0 * f64::EPSILON;
     // A speed without an error may be an end. The differences are then not negative exactly inside.

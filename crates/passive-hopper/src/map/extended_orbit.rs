@@ -9,7 +9,7 @@ use crate::kernel::scalar::hop::MassFactors;
 use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::map::extended_hop::{ExtendedMasses, StartIn};
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
-use crate::map::speed_error::change_of_square;
+use crate::map::speed_error::{SquareTangent, change_of_square, tangent_of_square};
 use crate::model::fixed_points::{alpha_star, fixed_point_in, n_pi};
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
@@ -107,6 +107,19 @@ impl ExtendedOrbit {
         self.0.long_offset_from(n)
     }
 
+    /// Follows all starts within `radius` of the start with this orbit, by its [`tangent`](Self::tangent). A hop is then
+    /// inconclusive unless it is of one kind for all of them. Call it before the first hop.
+    pub fn with_radius(mut self, radius: f64) -> Self {
+        self.0.set_radius(radius);
+        self
+    }
+
+    /// How the orbits of near starts differ from this one, by the offset of the start; `None` without a
+    /// [radius](Self::with_radius).
+    pub fn tangent(&self) -> Option<OrbitTangent> {
+        self.0.tangent()
+    }
+
     /// Moves the orbit to α*_n + `delta`, which is known to within `error`: the end of hops that were not followed one by
     /// one. Nothing of the speed before is kept.
     ///
@@ -119,6 +132,52 @@ impl ExtendedOrbit {
     }
 }
 
+/// How an orbit moves with its start: |x(y) − x(0) − `slope` y| ≤ `rounding` |y| + `second` y² for |y| ≤ `radius`, with the
+/// offset y of the start.
+///
+/// The bounds are those of docs/theory.md, Lemma 78: the second order is an estimate, which is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OrbitTangent {
+    /// dx/dy.
+    pub slope: f64,
+    /// Bound on the error of the slope.
+    pub rounding: f64,
+    /// Bound on the second order.
+    pub second: f64,
+    /// The largest |y|.
+    pub radius: f64,
+}
+
+impl OrbitTangent {
+    const START: OrbitTangent =
+        OrbitTangent { slope: 1.0, rounding: 0.0, second: 0.0, radius: 0.0 };
+
+    /// Bound on |x(y) − x(0)|.
+    pub fn reach(&self) -> f64 {
+        self.radius * (self.slope.abs() + self.rounding + self.second * self.radius)
+    }
+
+    /// The tangent after a hop to `next` = √F with the tangent of F, whose argument moves by at most `within`.
+    fn after(&self, square: &SquareTangent, next: f64, within: f64) -> Self {
+        // √(F + D) = √F + D/(2√F) − D²/(2√F (√F + √(F + D))²), and the last root is at least √(F − change).
+        let twice = 2.0 * next;
+        let least = next + (next * next - square.change(within)).max(0.0).sqrt();
+        let size = self.slope.abs() + self.rounding + self.second * self.radius;
+        // |D| ≤ largest · |x(y) − x(0)|
+        let largest = square.slope.abs() + square.rounding + square.second * within;
+        let bend = (square.second + largest * largest / (least * least)) / twice * size * size;
+        let slope = square.slope / twice;
+        let rounding = square.rounding / twice * size + slope.abs() * self.rounding;
+        OrbitTangent {
+            slope: slope * self.slope,
+            // Two roundings of the slope, and the rounding of these bounds.
+            rounding: ROUND_UP * (rounding + 2.0 * f64::EPSILON * (slope * self.slope).abs()),
+            second: ROUND_UP * (bend + slope.abs() * self.second),
+            radius: self.radius,
+        }
+    }
+}
+
 /// An orbit in one of the arithmetics.
 trait Orbit: Debug + Send {
     fn hop(&mut self) -> Result<ExtendedStep, Error>;
@@ -127,6 +186,8 @@ trait Orbit: Debug + Send {
     fn minus(&self, other: f64) -> f64;
     fn offset_from(&self, n: u64) -> (f64, f64);
     fn long_offset_from(&self, n: u64) -> (f64, f64, f64);
+    fn set_radius(&mut self, radius: f64);
+    fn tangent(&self) -> Option<OrbitTangent>;
     fn move_to(&mut self, n: u64, delta: f64, error: f64);
 }
 
@@ -134,6 +195,7 @@ trait Orbit: Debug + Send {
 struct OrbitIn<R> {
     speed: R,
     error: f64,
+    tangent: Option<OrbitTangent>,
     masses: ExtendedMasses<R>,
     factors: MassFactors,
 }
@@ -141,7 +203,7 @@ struct OrbitIn<R> {
 impl<R: Extended> OrbitIn<R> {
     fn new(map: &LiftOffMap, alpha: f64) -> Self {
         let masses = ExtendedMasses::new(map.mass_ratio());
-        OrbitIn { speed: R::from(alpha), error: 0.0, masses, factors: map.factors }
+        OrbitIn { speed: R::from(alpha), error: 0.0, tangent: None, masses, factors: map.factors }
     }
 }
 
@@ -155,11 +217,12 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
     fn hop(&mut self) -> Result<ExtendedStep, Error> {
         let speed = self.speed.nearest();
         // The start of the orbit is exact, and the solver decides its first landing on the bits of α*_n and nπ.
-        if self.error > 0.0 && !on_one_side_in(self.speed, self.error) {
+        let within = self.error + self.tangent.map_or(0.0, |tangent| tangent.reach());
+        if within > 0.0 && !on_one_side_in(self.speed, within) {
             return Ok(ExtendedStep::Inconclusive);
         }
         let start = StartIn::at_speed(self.speed, self.masses);
-        let Some(hop) = start.hop(self.error, self.masses, |_, _| ())? else {
+        let Some(hop) = start.hop(within, self.masses, |_, _| ())? else {
             return Ok(ExtendedStep::Inconclusive);
         };
         let change = change_of_square(speed, self.error, &hop.landings, self.factors);
@@ -175,6 +238,16 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
             return Ok(ExtendedStep::Grounded);
         }
         let next = hop.next_speed_squared.sqrt();
+        if let Some(tangent) = &mut self.tangent {
+            let Some(of_square) = tangent_of_square(speed, within, &hop.landings, self.factors)
+            else {
+                return Ok(ExtendedStep::Inconclusive);
+            };
+            if !(square > of_square.change(within) + error) {
+                return Ok(ExtendedStep::Inconclusive);
+            }
+            *tangent = tangent.after(&of_square, next.nearest(), within);
+        }
         // As in `BoundedSquare::next`.
         let least = (square - error).max(0.0).sqrt();
         self.error = ROUND_UP * (error / (next.nearest() + least)) + R::EPSILON * next.nearest();
@@ -207,6 +280,14 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
         // The roundings of α*_n, of the differences, and of the rest.
         let rounding = 2.0 * R::EPSILON * self.speed.nearest() + f64::EPSILON * rest.abs();
         (nearest, rest, self.error + rounding)
+    }
+
+    fn set_radius(&mut self, radius: f64) {
+        self.tangent = Some(OrbitTangent { radius, ..OrbitTangent::START });
+    }
+
+    fn tangent(&self) -> Option<OrbitTangent> {
+        self.tangent
     }
 
     fn move_to(&mut self, n: u64, delta: f64, error: f64) {

@@ -37,11 +37,38 @@ pub(crate) fn change_of_square(
     alpha: f64,
     error: f64,
     landings: &[Landing],
-    MassFactors { mu, kappa }: MassFactors,
+    factors: MassFactors,
 ) -> Option<f64> {
     if error == 0.0 {
         return Some(0.0);
     }
+    tangent_of_square(alpha, error, landings, factors).map(|tangent| tangent.change(error))
+}
+
+/// The tangent of F: |F(α + y) − F(α) − `slope` y| ≤ `rounding` |y| + `second` y².
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SquareTangent {
+    pub(crate) slope: f64,
+    /// Bound on the error of `slope`.
+    pub(crate) rounding: f64,
+    /// The second order.
+    pub(crate) second: f64,
+}
+
+impl SquareTangent {
+    /// Bound on |F(α + y) − F(α)| for |y| ≤ `error`.
+    pub(crate) fn change(&self, error: f64) -> f64 {
+        error * (self.slope.abs() + self.rounding + self.second * error)
+    }
+}
+
+/// The tangent of F at `alpha`, for |y| ≤ `error`; `None` if the error is too large for the expansion.
+pub(crate) fn tangent_of_square(
+    alpha: f64,
+    error: f64,
+    landings: &[Landing],
+    MassFactors { mu, kappa }: MassFactors,
+) -> Option<SquareTangent> {
     let mut start = TakeOff { excess: 0.0, velocity: alpha };
     let mut by_speed = Variation { excess: 0.0, velocity: 1.0 };
     // Σ Γ ∂Γ/∂α; its terms by absolute value; the part of the second order from a change of x′.
@@ -69,16 +96,14 @@ pub(crate) fn change_of_square(
         by_speed = after;
         start = landing.take_off();
     }
-    let change = error * largest_rate;
-    if !(change <= LARGEST_CHANGE) {
+    if !(error * largest_rate <= LARGEST_CHANGE) {
         return None;
     }
-    let slope = (2.0 * (alpha - mu * sum)).abs();
     let flights = landings.len() as f64;
-    let second_order = SECOND_ORDER * flights * change * sizes + error * bend;
-    let bound = error * (slope + error + 2.0 * mu * second_order);
-    let rounding = SLOPE_ULPS * flights * f64::EPSILON * error * (alpha + mu * sizes);
-    (bound + rounding).is_finite().then_some(bound + rounding)
+    let second = 1.0 + 2.0 * mu * (SECOND_ORDER * flights * largest_rate * sizes + bend);
+    let rounding = SLOPE_ULPS * flights * f64::EPSILON * (alpha + mu * sizes);
+    let tangent = SquareTangent { slope: 2.0 * (alpha - mu * sum), rounding, second };
+    tangent.change(error).is_finite().then_some(tangent)
 }
 
 #[cfg(test)]

@@ -1,0 +1,246 @@
+//! What a strip does with orbits on the slow side of a fixed point: they jump, and the circle of fates decides.
+
+use crate::fates::beside_edge::BesideEdge;
+use crate::fates::hopper_fate::HopperFate;
+use crate::raster::arcs::Arc;
+use crate::raster::column::Column;
+use crate::raster::itinerary::Itinerary;
+use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
+use crate::raster::strip::{Strip, is_inside};
+use hopper_asymptotics::{HopCount, SlowJump};
+use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star};
+
+/// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
+/// tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It affects the time only.
+const LARGEST_ERROR: f64 = 1e-4;
+
+/// The first phases that are followed on a circle, beyond both ends of a turn by the largest error of a phase. It affects the
+/// time only.
+const FIRST_PHASES: u32 = 16;
+const BEYOND: f64 = 0.011;
+
+/// Most searches for edges of a column that find none. Then its orbits are labelled alone. It affects the time only.
+const MOST_MISSED_EDGES: usize = 4;
+
+/// Most hops of a followed phase: an orbit leaves the turn of jumps after some 15 hops. Beyond it the phase stays open.
+const MOST_HOPS: usize = 2048;
+
+impl Strip<'_> {
+    /// The n on whose slow side the orbit may be.
+    #[inline]
+    pub(crate) fn slow_side(&self, at: u32, hop: HopWithin) -> Option<u64> {
+        let HopWithin::Next { speed, .. } = hop else { return None };
+        self.columns[self.orbits.all[at as usize].column as usize].zones.find(speed)
+    }
+
+    /// The orbit after its hops along the slow side of α*_n; as it is if it leaves with the next hop. `None` if it has ended.
+    pub(crate) fn jump(&mut self, at: u32, n: u64, hop: HopWithin) -> Option<HopWithin> {
+        let HopWithin::Next { speed, error } = hop else { return Some(hop) };
+        let column = self.orbits.all[at as usize].column as usize;
+        let offset = FixedPointSpeed::new(n).offset_of(speed);
+        let sides = self.columns[column].fates.slow_sides();
+        if !(offset < 0.0) {
+            return Some(hop);
+        }
+        let known = (offset, error + f64::EPSILON * -offset);
+        if sides.is_beyond_jumps(n, offset) {
+            let mut itinerary = self.orbits.all[at as usize].itinerary;
+            let (speed, error) = self.walk(column, n, known, &mut itinerary);
+            self.orbits.all[at as usize].itinerary = itinerary;
+            return Some(HopWithin::Next { speed, error });
+        }
+        let jump = sides.jump(n, offset, known.1);
+        match jump {
+            Some(jump) if self.columns[column].laps.is_none() => {
+                // Without laps no two orbits agree.
+                let speed = alpha_star(n) + jump.delta;
+                // Half an ulp each for α*_n and for the sum.
+                return Some(HopWithin::Next { speed, error: jump.error + f64::EPSILON * speed });
+            }
+            Some(jump) if jump.count.error <= LARGEST_ERROR => self.end_on_circle(at, n, jump),
+            _ => {
+                if !(self.end_beside_edge(at) || self.find_edge(at, n) && self.end_beside_edge(at)) {
+                    match jump {
+                        Some(jump) => self.end_on_circle(at, n, jump),
+                        None => self.end_alone(at),
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// Ends the orbit by its phase after a jump.
+    fn end_on_circle(&mut self, at: u32, n: u64, jump: SlowJump) {
+        let followed = self.orbits.all[at as usize];
+        let column = followed.column as usize;
+        match self.arc(column, n, jump.count) {
+            Some(known) => {
+                let itinerary = &mut self.orbits.all[at as usize].itinerary;
+                itinerary.jump(n, jump.hops);
+                itinerary.end_in(&known.itinerary);
+                self.columns[column].labels[followed.at as usize] = known.label;
+            }
+            None => self.end_alone(at),
+        }
+    }
+
+    /// Ends an orbit that starts beside a known edge; false if it does not.
+    fn end_beside_edge(&mut self, at: u32) -> bool {
+        let followed = self.orbits.all[at as usize];
+        let column = &self.columns[followed.column as usize];
+        let start = self.speeds[followed.at as usize];
+        let sides = column.fates.slow_sides();
+        let found = column.edges.iter().find_map(|(edge, itinerary)| {
+            edge.jump(sides, start).map(|jump| (edge.n, jump, *itinerary))
+        });
+        let Some((n, jump, itinerary)) = found else { return false };
+        self.orbits.all[at as usize].itinerary = itinerary;
+        self.end_on_circle(at, n, jump);
+        true
+    }
+
+    /// Finds the edge beside the start of an orbit that has come next to α*_n; false if there is none, or it is known.
+    fn find_edge(&mut self, at: u32, n: u64) -> bool {
+        let followed = self.orbits.all[at as usize];
+        let hops = self.orbits.count.saturating_sub(followed.since);
+        let column = &mut self.columns[followed.column as usize];
+        let Some(laps) = &column.laps else { return false };
+        let start = self.speeds[followed.at as usize];
+        let searched = column.edges.iter().any(|(known, _)| known.is_near(n, start));
+        if searched || column.missed_edges >= MOST_MISSED_EDGES {
+            return false;
+        }
+        let mut itinerary = Itinerary::START;
+        let see = |speed: f64, reach: f64| itinerary.hop((speed, reach), laps);
+        let edge = BesideEdge::new(column.fates.map(), start, (n, hops), see);
+        match edge {
+            Some(edge) => column.edges.push((edge, itinerary)),
+            None => column.missed_edges += 1,
+        }
+        edge.is_some()
+    }
+
+    /// The fate of the phases of `count` left of α*_n, from the known arcs, and from as many more orbits as it needs.
+    fn arc(&mut self, column: usize, n: u64, count: HopCount) -> Option<KnownFate> {
+        if self.columns[column].arcs(n).is_empty() {
+            let turn = self.columns[column].fates.slow_sides().turn(n)?;
+            for k in 0..=FIRST_PHASES {
+                let part = f64::from(k) / f64::from(FIRST_PHASES);
+                self.add_phase(column, n, turn - BEYOND + part * (1.0 + 2.0 * BEYOND));
+            }
+        }
+        loop {
+            match self.columns[column].arcs(n).find(count.hops, count.error) {
+                Arc::Known(known) => return Some(known),
+                // A smaller gap would not show more: the phases reach beyond it.
+                Arc::Open(left, right) if right - left > 2.0 * count.error.max(1e-9) => {
+                    self.add_phase(column, n, left.midpoint(right));
+                }
+                _ => return None,
+            }
+        }
+    }
+
+    /// Follows the orbit of a phase and adds it to the arcs.
+    fn add_phase(&mut self, column: usize, n: u64, phase: f64) {
+        let known = self.columns[column]
+            .fates
+            .slow_sides()
+            .offset(n, phase)
+            .and_then(|offset| self.follow_from(column, n, offset))
+            .unwrap_or_else(|| {
+                let mut itinerary = Itinerary::START;
+                itinerary.give_up();
+                KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
+            });
+        self.columns[column].arcs(n).add(phase, known.itinerary, known.label);
+    }
+
+    /// The speed and its error after the hops left of α*_n that a walk has a value for.
+    fn walk(
+        &self,
+        column: usize,
+        n: u64,
+        mut offset: (f64, f64),
+        itinerary: &mut Itinerary,
+    ) -> (f64, f64) {
+        let Column { fates, laps, .. } = &self.columns[column];
+        let speed_of = |(offset, error): (f64, f64)| {
+            let speed = alpha_star(n) + offset;
+            // Half an ulp each for α*_n and for the sum.
+            (speed, error + f64::EPSILON * speed)
+        };
+        while let Some(next) = fates.slow_sides().walk(n, offset) {
+            match laps {
+                Some(laps) => itinerary.hop(speed_of(offset), laps),
+                None => itinerary.give_up(),
+            }
+            offset = next;
+        }
+        speed_of(offset)
+    }
+
+    /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
+    fn follow_from(&mut self, column: usize, n: u64, offset: (f64, f64)) -> Option<KnownFate> {
+        let mut itinerary = Itinerary::START;
+        let start = self.walk(column, n, offset, &mut itinerary);
+        // The second bound takes ten times as long, and decides nearly all of the rest.
+        self.follow(column, start, itinerary, LiftOffMap::hop_within)
+            .or_else(|| self.follow(column, start, itinerary, LiftOffMap::signed_hop_within))
+    }
+
+    /// The fate of all speeds within `error` of `speed`, hop by hop; `None` if `f64` does not decide it.
+    fn follow(
+        &mut self,
+        column: usize,
+        (mut speed, mut error): (f64, f64),
+        mut itinerary: Itinerary,
+        hop: fn(&LiftOffMap, f64, f64) -> HopWithin,
+    ) -> Option<KnownFate> {
+        for hops in 0..MOST_HOPS {
+            let found = self.intervals.find(column, speed);
+            let known = match found {
+                NO_INTERVAL => self.columns[column].trap(speed),
+                found => Some(self.intervals.get(found)),
+            };
+            if let Some((known, ends)) = known
+                && is_inside(speed, error, ends)
+            {
+                itinerary.end_in(&known.itinerary);
+                return Some(KnownFate { itinerary, label: known.label });
+            }
+            let sides = self.columns[column].fates.slow_sides();
+            // A phase beyond the turn would jump back to it.
+            if hops > 0
+                && let Some(n) = self.columns[column].zones.find(speed)
+            {
+                let offset = FixedPointSpeed::new(n).offset_of(speed);
+                if offset < 0.0 && !sides.is_beyond_jumps(n, offset) {
+                    let jump = sides.jump(n, offset, error + f64::EPSILON * -offset)?;
+                    if jump.hops > 0 {
+                        // A circle inside the circle.
+                        let known = self.arc(column, n, jump.count)?;
+                        itinerary.jump(n, jump.hops);
+                        itinerary.end_in(&known.itinerary);
+                        return Some(KnownFate { itinerary, label: known.label });
+                    }
+                }
+            }
+            let column = &self.columns[column];
+            itinerary.hop((speed, error), column.laps.as_ref()?);
+            let map = column.fates.map();
+            match hop(map, speed, error) {
+                HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
+                HopWithin::Grounded => {
+                    itinerary.end_on_ground();
+                    return Some(KnownFate { itinerary, label: HopperFate::GROUNDED });
+                }
+                HopWithin::Inconclusive => {
+                    return None;
+                }
+            }
+        }
+        None
+    }
+}
