@@ -121,11 +121,7 @@ fn extreme_mass_ratios_and_indices_have_bounds_or_errors() {
                     }
                 };
                 found += 1;
-                assert!(
-                    psi.range() > 0.0
-                        && psi.range() <= psi.reach()
-                        && psi.reach() < 0.01
-                );
+                assert!(psi.range() > 0.0 && psi.range() <= psi.reach() && psi.reach() < 0.01);
                 for part in [1e-200, 1e-6, 0.5, 1.0] {
                     let delta = sign(side) * part * psi.range();
                     let phase = psi.phase(delta.into()).unwrap();
