@@ -18,8 +18,11 @@ fn fates(mass_ratio: f64) -> Fates {
 /// The trap that certainly contains the orbit's speed.
 fn trap_of(fates: &Fates, orbit: &ExtendedOrbit) -> Option<u64> {
     let mut n = index_below(orbit.speed()).unwrap();
+    // The rounded speed may lie on the other side of a fixed point than the orbit.
     if orbit.offset_from(n).0 < 0.0 && n > 0 {
         n -= 1;
+    } else if orbit.offset_from(n + 1).0 >= 0.0 {
+        n += 1;
     }
     let (offset, error) = orbit.offset_from(n);
     let trap = fates.trap(n).unwrap();
@@ -49,7 +52,10 @@ fn reference(fates: &Fates, alpha: f64, most: usize) -> Option<HopperFate> {
 /// Hops that are followed next to planted edges. Orbits that are slower count as undecided.
 const FEW: usize = 300;
 
-/// What a fate within `most` hops promises. Returns whether it is decided.
+/// Most hops of a fate that is compared. Slower orbits jump over their slow hops; `edge_fates.rs` compares longer ones.
+const MOST_COMPARED: usize = 500;
+
+/// What a fate within `most` hops, a jump counted as one, promises. Returns whether it is decided.
 fn check(fates: &Fates, alpha: f64, most: usize) -> bool {
     let m = fates.map().mass_ratio().value();
     let (fate, hops) = fates.fate_within(alpha, most).unwrap();
@@ -63,7 +69,9 @@ fn check(fates: &Fates, alpha: f64, most: usize) -> bool {
         assert!(hops == most || reason != UndecidedReason::Budget, "{reason:?} after {hops}");
         return false;
     }
-    assert_eq!(Some(fate), reference(fates, alpha, most + 1), "M = {m}, α = {alpha}");
+    if hops <= MOST_COMPARED {
+        assert_eq!(Some(fate), reference(fates, alpha, hops + 2), "M = {m}, α = {alpha}");
+    }
     true
 }
 
@@ -194,23 +202,21 @@ fn lengths_of_whole_contact_parts_do_not_depend_on_the_size_of_the_speed() {
 fn fates_left_of_a_preimage_of_a_fixed_point_are_decided_and_right() {
     let fates = fates(0.12);
     let at = |distance, k| 11.920_553_918_335_777 - distance * (0.3 + 0.7 * f64::from(k) / 299.0);
-    for distance in [1e-8, 1e-10] {
+    for distance in [1e-8, 1e-10, 1e-11, 3e-12] {
         for k in (0..300).step_by(75) {
             let alpha = at(distance, k);
             assert!(check(&fates, alpha, 2000), "{alpha}");
         }
     }
-    // Nearer to the preimage the orbit is slower, and 106 bits may not follow it to its end.
-    for distance in [1e-11, 3e-12] {
-        for k in (0..300).step_by(150) {
-            let alpha = at(distance, k);
-            let is_decided = check(&fates, alpha, 3000);
-            let (fate, hops) = fates.fate_within(alpha, 3000).unwrap();
-            let undecided =
-                matches!(fate, HopperFate::Undecided(UndecidedReason::Precision { .. }));
-            assert!(is_decided || undecided, "{alpha}: {fate:?} after {hops}");
-        }
-    }
+}
+
+/// The orbit comes to 1.6·10⁻¹⁶ above α*_6, and its speed rounds to an `f64` below.
+#[test]
+fn an_orbit_just_above_a_fixed_point_is_in_its_trap() {
+    let fates = fates(0.103_492_005_177_405_1);
+    let (fate, hops) = fates.fate_within(23.088_066_834_218_072, 2000).unwrap();
+    assert_eq!((fate, hops), (HopperFate::Incessant { n: 6 }, 1));
+    assert!(check(&fates, 23.088_066_834_218_072, 2000));
 }
 
 proptest! {

@@ -53,6 +53,11 @@ impl Row {
         Some(self.0[key].as_str()?.parse().unwrap())
     }
 
+    /// A result in the object `outer`.
+    pub fn inner_result(&self, outer: &str, key: &str) -> f64 {
+        self.0[outer][key].as_str().unwrap().parse().unwrap()
+    }
+
     /// The first entry of a list of results.
     pub fn first_result(&self, key: &str) -> f64 {
         self.0[key][0].as_str().unwrap().parse().unwrap()
