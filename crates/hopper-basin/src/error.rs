@@ -9,6 +9,9 @@ pub enum Error {
     /// An error of the hopper's model, such as a lift-off speed that is not positive.
     #[error(transparent)]
     Hopper(#[from] passive_hopper::Error),
+    /// An error of the expansions next to a fixed point.
+    #[error(transparent)]
+    Asymptotics(#[from] hopper_asymptotics::Error),
     /// An error of the generic basin tools, such as an empty raster.
     #[error(transparent)]
     BasinOfAttraction(#[from] basin_of_attraction::Error),
@@ -94,5 +97,22 @@ pub enum Error {
         n: u64,
         /// The largest mass ratio of the search.
         largest: f64,
+    },
+    /// No turn of the Fatou coordinate was found: the hopper is grounded from the offset, or the hops from there towards α*_n
+    /// are too many.
+    #[error("the offset {delta:e} left of α*_{n} has no turn of phases; the mass ratio is too extreme")]
+    NoTurn {
+        /// The index of the fixed point.
+        n: u64,
+        /// The offset.
+        delta: f64,
+    },
+    /// Phases that are not finite, or in the wrong order.
+    #[error("an interval of phases must be finite and must not decrease: from {from} to {to}")]
+    Phases {
+        /// The lowest phase.
+        from: f64,
+        /// The highest phase.
+        to: f64,
     },
 }
