@@ -100,7 +100,9 @@ pub enum Error {
     },
     /// No turn of the Fatou coordinate was found: the hopper is grounded from the offset, or the hops from there towards α*_n
     /// are too many.
-    #[error("the offset {delta:e} left of α*_{n} has no turn of phases; the mass ratio is too extreme")]
+    #[error(
+        "the offset {delta:e} left of α*_{n} has no turn of phases; the mass ratio is too extreme"
+    )]
     NoTurn {
         /// The index of the fixed point.
         n: u64,

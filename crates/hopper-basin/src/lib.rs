@@ -59,9 +59,7 @@ pub use basins::rasters::{basin_columns, basin_raster};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use circle::falls_onto::FallsOnto;
 pub use circle::local_fractions::LocalFractions;
-pub use circle::phase_basins::{
-    BoundaryPhase, CircleLimits, Ground, PhaseBasins, UndecidedPhases,
-};
+pub use circle::phase_basins::{BoundaryPhase, CircleLimits, Ground, PhaseBasins, UndecidedPhases};
 pub use circle::phase_shares::PhasePart;
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};

@@ -18,6 +18,10 @@ use std::f64::consts::PI;
 const FARTHEST: f64 = 0.0586;
 const FARTHEST_ABOVE_ONE: f64 = 0.0109;
 
+/// The hopper lifts off from every −10⁻³ ≤ δ < 0 for which the loss is below |δ| (docs/theory.md, Theorem 68); from 10⁻⁹ at λ up to
+/// some hundred. Nearer domains would have few `f64`.
+const NEAREST: f64 = 1e-9;
+
 /// Number of nodes. In x the nearest singularity known, x = 0, is more than a fifth of the domain's length away from it, as f(δ₀)
 /// > 9δ₀ where the loss is that large; there 20 nodes leave some 10⁻¹², and 32 nodes leave the rounding.
 const NODES: usize = 32;
@@ -41,15 +45,55 @@ pub(crate) struct Turns {
 }
 
 /// The speeds from α*_n + f(δ₀) to α*_n + δ₀.
-#[derive(Debug, Clone)]
-pub(crate) struct FundamentalDomain {
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DomainSpeeds {
     pub(crate) n: u64,
     star: FixedPointSpeed,
-    pub(crate) coordinate: FatouCoordinate,
     /// Some ulps below α*_n + f(δ₀).
     pub(crate) bottom: f64,
     /// α*_n + δ₀, within an ulp.
     pub(crate) top: f64,
+}
+
+impl DomainSpeeds {
+    /// The widest domain left of α*_n, n ≥ 1, from which the hopper lifts off.
+    pub(crate) fn widest(fates: &Fates, n: u64) -> Result<Self, Error> {
+        let above_one = fates.map().mass_ratio().value() > 1.0;
+        let mut delta = if above_one { -FARTHEST_ABOVE_ONE } else { -FARTHEST };
+        loop {
+            match DomainSpeeds::from(fates, n, delta) {
+                Ok(speeds) => return Ok(speeds),
+                Err(error) if delta.abs() <= NEAREST => return Err(error),
+                Err(_) => delta *= 0.5,
+            }
+        }
+    }
+
+    fn from(fates: &Fates, n: u64, delta: f64) -> Result<Self, Error> {
+        let star = FixedPointSpeed::new(n);
+        let top = star.value() + delta;
+        let grounded = Error::NoTurn { n, delta };
+        let image = fates.map().image(top)?.ok_or(grounded.clone())?;
+        // Some ulps for the error of the image: both ends of the circle are covered.
+        let bottom = image - 16.0 * f64::EPSILON * image;
+        if bottom < top { Ok(DomainSpeeds { n, star, bottom, top }) } else { Err(grounded) }
+    }
+
+    pub(crate) fn width(&self) -> f64 {
+        self.top - self.bottom
+    }
+
+    /// The speeds from δ₀ on to the largest `f64` below α*_n.
+    pub(crate) fn inner_side(&self) -> (f64, f64) {
+        (self.top, self.star.value().next_down())
+    }
+}
+
+/// The speeds of one turn, with their phases.
+#[derive(Debug, Clone)]
+pub(crate) struct FundamentalDomain {
+    pub(crate) speeds: DomainSpeeds,
+    pub(crate) coordinate: FatouCoordinate,
     /// Ends of x.
     roots: (f64, f64),
     /// Ψ − `whole` at the nodes.
@@ -61,41 +105,33 @@ impl FundamentalDomain {
     /// The domain left of α*_n, n ≥ 1.
     pub(crate) fn new(fates: &Fates, n: u64) -> Result<Self, Error> {
         let coordinate = FatouCoordinate::new(n, fates.map().mass_ratio(), Side::Left)?;
-        let above_one = fates.map().mass_ratio().value() > 1.0;
-        let mut delta = if above_one { -FARTHEST_ABOVE_ONE } else { -FARTHEST };
-        // From a δ too far out the hopper is grounded, or the hops to the coordinate's reach are too many.
+        let mut speeds = DomainSpeeds::widest(fates, n)?;
+        // From far out the hops to the coordinate's reach may be too many.
         loop {
-            match FundamentalDomain::from(fates, n, &coordinate, delta) {
+            match FundamentalDomain::on(fates, speeds, &coordinate) {
                 Ok(domain) => return Ok(domain),
-                Err(error) if delta.abs() <= coordinate.reach() => return Err(error),
-                Err(_) => delta *= 0.5,
+                Err(error) => {
+                    let delta = speeds.star.offset_of(speeds.top);
+                    if delta.abs() <= coordinate.reach() {
+                        return Err(error);
+                    }
+                    speeds = DomainSpeeds::from(fates, n, 0.5 * delta)?;
+                }
             }
         }
     }
 
-    fn from(
+    fn on(
         fates: &Fates,
-        n: u64,
+        speeds: DomainSpeeds,
         coordinate: &FatouCoordinate,
-        delta: f64,
     ) -> Result<Self, Error> {
-        let star = FixedPointSpeed::new(n);
-        let top = star.value() + delta;
-        let grounded = Error::NoTurn { n, delta };
-        let image = fates.map().image(top)?.ok_or(grounded.clone())?;
-        // Some ulps for the error of the image: both ends of the circle are covered.
-        let bottom = image - 16.0 * f64::EPSILON * image;
+        let DomainSpeeds { n, star, bottom, top } = speeds;
         let (offset, image_offset) = (star.offset_of(top), star.offset_of(bottom));
-        if !(image_offset < offset) {
-            return Err(grounded);
-        }
         let roots = (pxfm::f_cbrt(-offset), pxfm::f_cbrt(-image_offset));
         let mut domain = FundamentalDomain {
-            n,
-            star,
+            speeds,
             coordinate: coordinate.clone(),
-            bottom,
-            top,
             roots,
             values: [0.0; NODES],
             error: 0.0,
@@ -122,16 +158,10 @@ impl FundamentalDomain {
 
     /// The phase of a speed of the domain, in turns.
     pub(crate) fn turns(&self, speed: f64) -> Turns {
-        let root = pxfm::f_cbrt(-self.star.offset_of(speed));
+        let root = pxfm::f_cbrt(-self.speeds.star.offset_of(speed));
         let (from, to) = self.roots;
         let at = ((root - from) - (to - root)) / (to - from);
         Turns { value: self.polynomial(at), error: self.error }
-    }
-
-    /// The difference of the phases of the highest and the lowest speed, nearly 1: the spacing of phases between neighbouring
-    /// `f64` follows from it.
-    pub(crate) fn width(&self) -> f64 {
-        self.top - self.bottom
     }
 
     /// δ at −1 ≤ `at` ≤ 1.

@@ -2,7 +2,7 @@
 
 use crate::circle::falls_onto::{FallsOnto, falls_onto};
 use crate::circle::fundamental_domain::FundamentalDomain;
-use crate::circle::labelled_speeds::{LabelledSpeeds, is_narrow, labelled_speeds};
+use crate::circle::labelled_speeds::{LabelledSpeeds, is_boundary_point, labelled_speeds};
 use crate::circle::local_fractions::LocalFractions;
 use crate::circle::phase_shares::{PhasePart, PhaseShares};
 use crate::error::Error;
@@ -24,13 +24,13 @@ pub struct CircleLimits {
 }
 
 impl Default for CircleLimits {
-    /// Stops at an undecided length of 10⁻⁹ of the circle, at intervals shorter than 10⁻¹² of it, or at 10⁵ intervals. A
+    /// Stops at an undecided length of 10⁻⁸ of the circle, at intervals shorter than 10⁻¹¹ of it, or at 2·10⁴ intervals. A
     /// window has 200 samples, which is far more than it has branches, and the circle 10 000 fates.
     fn default() -> Self {
         let refinement = Refinement {
-            undecided: 1e-9,
-            shortest: 1e-12,
-            intervals: 100_000,
+            undecided: 1e-8,
+            shortest: 1e-11,
+            intervals: 20_000,
             ..Refinement::default()
         };
         CircleLimits { refinement, window_samples: 200, fate_samples: 10_000 }
@@ -98,7 +98,7 @@ pub struct UndecidedPhases {
 /// let circle = PhaseBasins::new(&fates, 2, CircleLimits::default())?;
 /// // Next to α*_2 on its left, 3 % of all speeds belong to the basin of α*_1, at every scale.
 /// let share = circle.fractions().of(1);
-/// assert!((share.middle() - 0.030).abs() < 5e-4 && share.half_width() < 1e-9);
+/// assert!((share.middle() - 0.030).abs() < 5e-4 && share.half_width() < 1e-10);
 /// // Two points of a turn are boundary points.
 /// assert_eq!(circle.boundary().len(), 2);
 /// // The fate at 10⁻¹⁰⁰⁰ below α*_2.
@@ -128,7 +128,7 @@ impl PhaseBasins {
             return Err(Error::Index { n, smallest: 1, largest });
         }
         let domain = FundamentalDomain::new(fates, n)?;
-        let (parts, ground) = labelled_speeds(fates, &domain, &limits)?;
+        let (parts, ground) = labelled_speeds(fates, &domain.speeds, &limits)?;
         Ok(Self::on_domain(fates, domain, &parts, ground))
     }
 
@@ -138,21 +138,22 @@ impl PhaseBasins {
         parts: &[LabelledSpeeds],
         ground: Ground,
     ) -> Self {
-        let end = domain.turns(domain.top).value;
+        let end = domain.turns(domain.speeds.top).value;
         // One label on both sides of the end of the turn: there is no boundary point.
+        let at_bottom = |part: &LabelledSpeeds| is_boundary_point(domain.speeds.bottom, part.left);
+        let at_top = |part: &LabelledSpeeds| is_boundary_point(part.right, domain.speeds.top);
         let closed = parts.first().zip(parts.last()).is_some_and(|(first, last)| {
-            let ends = first.left == domain.bottom && last.right == domain.top;
-            ends && first.label == last.label
+            at_bottom(first) && at_top(last) && first.label == last.label
         });
         let mut phases = Vec::with_capacity(parts.len() + 1);
         for part in parts {
             let (left, right) = (domain.turns(part.left), domain.turns(part.right));
             let mut from = (left.value + left.error).max(end - 1.0);
             let mut to = (right.value - right.error).min(end);
-            if closed && part.left == domain.bottom {
+            if closed && at_bottom(part) {
                 from = end - 1.0;
             }
-            if closed && part.right == domain.top {
+            if closed && at_top(part) {
                 to = end;
             }
             // The turn has phase 0 inside: 0 ≤ `end` < 1.
@@ -174,7 +175,7 @@ impl PhaseBasins {
             let falls_onto = falls_onto(fates, a.right - inside, b.left + inside);
             let middle = 0.5 * (left.value + right.value);
             let error = 0.5 * (right.value - left.value) + left.error;
-            if is_narrow(a.right, b.left) && a.label != b.label {
+            if is_boundary_point(a.right, b.left) && a.label != b.label {
                 let speed = a.right + 0.5 * (b.left - a.right);
                 let phase = middle - middle.floor();
                 let (below, above) = (a.label, b.label);
@@ -195,7 +196,7 @@ impl PhaseBasins {
 
     /// n of α*_n.
     pub fn n(&self) -> u64 {
-        self.domain.n
+        self.domain.speeds.n
     }
 
     /// The mass ratio.
@@ -215,12 +216,12 @@ impl PhaseBasins {
 
     /// The lowest and the highest speed of the fundamental domain on which the circle was found: one turn.
     pub fn domain(&self) -> (f64, f64) {
-        (self.domain.bottom, self.domain.top)
+        (self.domain.speeds.bottom, self.domain.speeds.top)
     }
 
     /// The phase of a speed of the [domain](Self::domain), in [0, 1); `None` for other speeds.
     pub fn phase_of(&self, speed: f64) -> Option<f64> {
-        let inside = speed >= self.domain.bottom && speed <= self.domain.top;
+        let inside = speed >= self.domain.speeds.bottom && speed <= self.domain.speeds.top;
         let turns = self.domain.turns(speed).value;
         inside.then(|| turns - turns.floor())
     }
@@ -230,7 +231,7 @@ impl PhaseBasins {
     /// It is four times the largest difference between the polynomial and phases at points between its nodes, and the bound on
     /// the error of those phases: an estimate, and not a proved bound.
     pub fn phase_error(&self) -> f64 {
-        self.domain.turns(self.domain.top).error
+        self.domain.turns(self.domain.speeds.top).error
     }
 
     /// The intervals with a label, from phase 0 to 1. One that contains phase 0 is given in two parts.
@@ -291,7 +292,11 @@ impl PhaseBasins {
             return self.fractions().widened(2.0 / turns.max(1.0));
         }
         let widening = if turns > error { error / turns } else { 1.0 };
-        self.share_of_turns(low.fraction(), turns).widened(if error == 0.0 { 0.0 } else { widening })
+        self.share_of_turns(low.fraction(), turns).widened(if error == 0.0 {
+            0.0
+        } else {
+            widening
+        })
     }
 
     fn share_of_turns(&self, from: f64, turns: f64) -> LocalFractions {
