@@ -117,4 +117,38 @@ pub enum Error {
         /// The highest phase.
         to: f64,
     },
+    /// No boundary point that comes to a fixed point is near a speed.
+    #[error(
+        "no speed within {within:e} of {alpha} comes to a fixed point exactly in at most {hops} hops; give a speed nearer to the edge"
+    )]
+    NoEdge {
+        /// The speed given.
+        alpha: f64,
+        /// The distance searched.
+        within: f64,
+        /// The largest number of hops.
+        hops: usize,
+    },
+    /// An offset outside the range of a chart.
+    #[error("the offset {y:e} is outside the chart about the edge: it holds up to {radius:e}")]
+    OutsideChart {
+        /// The offset given.
+        y: f64,
+        /// The radius of the chart.
+        radius: f64,
+    },
+    /// A chart and a circle that do not belong together.
+    #[error(
+        "the edge belongs to the circle of α*_{n} at M = {mass_ratio}, not to that of α*_{other} at M = {other_ratio}"
+    )]
+    OtherCircle {
+        /// The index of the chart's fixed point.
+        n: u64,
+        /// The mass ratio of the chart.
+        mass_ratio: f64,
+        /// The index of the given circle.
+        other: u64,
+        /// The mass ratio of the given circle.
+        other_ratio: f64,
+    },
 }

@@ -38,6 +38,21 @@ impl LocalFractions {
         self
     }
 
+    /// `part` of these shares and 1 − `part` of `other`.
+    pub(crate) fn mixed(&self, part: f64, other: &LocalFractions) -> Self {
+        let mut labels: Vec<u16> = self.labels().chain(other.labels()).collect();
+        labels.sort_unstable();
+        labels.dedup();
+        let mix = |own: f64, other: f64| part * own + (1.0 - part) * other;
+        let bound = |label: u16| {
+            let (own, other) = (self.of(label), other.of(label));
+            let (lower, upper) = (mix(own.lower, other.lower), mix(own.upper, other.upper));
+            (label, Bounds { lower, upper })
+        };
+        let undecided = mix(self.undecided, other.undecided);
+        LocalFractions { bounds: labels.into_iter().map(bound).collect(), undecided }
+    }
+
     /// The labels that occur, in increasing order.
     pub fn labels(&self) -> impl Iterator<Item = u16> + '_ {
         self.bounds.iter().map(|&(label, _)| label)

@@ -10,11 +10,17 @@
 //!   falls_onto.rs           what the orbit of a boundary point comes to
 //!   phase_basins.rs         the intervals of phase; look-ups
 //!   phase_shares.rs         sums over an interval of phases
+//!   edge_chart.rs           windows about a speed that comes to α*_n exactly
+//!   edge_derivatives.rs     the derivatives of many hops there, from differences in longer arithmetic
+//!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
 //! ```
 //!
 //! This room uses `basins`, `fates` and `traps`.
 
+pub(crate) mod edge_chart;
+pub(crate) mod edge_derivatives;
+pub(crate) mod edge_search;
 pub(crate) mod falls_onto;
 pub(crate) mod fundamental_domain;
 pub(crate) mod labelled_speeds;

@@ -284,19 +284,16 @@ impl PhaseBasins {
         let error = low.error() + high.error();
         // From 2⁶² turns on the ends do not change a digit of the share.
         let Ok(whole) = i64::try_from(high.whole() - low.whole()) else {
-            return self.fractions();
+            return if error < 1.0 { self.fractions() } else { self.fractions().widened(1.0) };
         };
         let turns = whole as f64 + (high.fraction() - low.fraction());
-        if !(error < 1.0) {
-            // The ends have no known phases: a part of a turn at each end is undecided.
-            return self.fractions().widened(2.0 / turns.max(1.0));
-        }
-        let widening = if turns > error { error / turns } else { 1.0 };
-        self.share_of_turns(low.fraction(), turns).widened(if error == 0.0 {
-            0.0
-        } else {
-            widening
-        })
+        let widening = if error == 0.0 { 0.0 } else { (error / turns).min(1.0) };
+        self.share_of_turns(low.fraction(), turns).widened(widening)
+    }
+
+    /// The shares in so many turns from an unknown phase on.
+    pub(crate) fn fractions_of_turns(&self, turns: f64) -> LocalFractions {
+        self.fractions().widened((2.0 / turns).min(1.0))
     }
 
     fn share_of_turns(&self, from: f64, turns: f64) -> LocalFractions {

@@ -1,0 +1,358 @@
+//! The circle of fates shows the fates of single speeds at every scale, and its charts the edges to forty digits.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use basin_of_attraction::Refinement;
+use hopper_asymptotics::{FatouCoordinate, Offset, Phase, Side};
+use hopper_basin::{
+    CircleLimits, EdgeChart, Error, FallsOnto, Fates, Ground, HopperFate, PhaseBasins,
+};
+use hopper_reference::rows;
+use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, MassRatio};
+
+const GROUNDED: u16 = HopperFate::GROUNDED;
+
+fn fates(mass_ratio: f64) -> Fates {
+    Fates::new(MassRatio::new(mass_ratio).unwrap()).unwrap()
+}
+
+fn circle(fates: &Fates, n: u64) -> PhaseBasins {
+    PhaseBasins::new(fates, n, CircleLimits::default()).unwrap()
+}
+
+/// n, M, and the shares that were measured with 3000 phases at 10⁻⁶, 10⁻⁸ and 10⁻¹⁰ in another program.
+type Measured = (u64, f64, &'static [(u16, f64)]);
+
+const MEASURED: [Measured; 6] = [
+    (1, 0.2, &[(0, 1.0)]),
+    (2, 0.2, &[(0, 0.970), (1, 0.030)]),
+    (3, 0.2, &[(0, 0.963), (1, 0.030), (2, 0.007)]),
+    (2, 0.12, &[(0, 0.695), (1, 0.305)]),
+    (1, 0.8, &[(0, 0.182), (GROUNDED, 0.818)]),
+    (2, 0.8, &[(0, 0.187), (1, 0.003), (GROUNDED, 0.810)]),
+];
+
+/// The speeds α*_n + δ, rounded to `f64`, of `count` equally spaced phases in the turn that begins at `scale`, with the phases of
+/// the rounded speeds.
+fn turn(psi: &FatouCoordinate, n: u64, scale: f64, count: usize) -> Vec<(f64, Phase)> {
+    let star = FixedPointSpeed::new(n);
+    let first = psi.phase(Offset::from(scale)).unwrap();
+    let speed = |k: usize| {
+        let phase = Phase::new(first.whole() + 1, (k as f64 + 0.5) / count as f64, 0.0);
+        let (delta, _) = psi.offset(&phase).unwrap();
+        let speed = star.value() + delta.nearest();
+        (speed, psi.phase(Offset::from(star.offset_of(speed))).unwrap())
+    };
+    (0..count).map(speed).collect()
+}
+
+/// 3000 phases for each circle, 1000 at each of three scales. The fates are those of the exact orbits.
+#[test]
+fn the_label_of_a_phase_is_the_fate_at_every_scale() {
+    for (n, mass_ratio, _) in MEASURED {
+        let fates = fates(mass_ratio);
+        let circle = circle(&fates, n);
+        for scale in [-1e-6, -1e-8, -1e-10] {
+            let points = turn(circle.coordinate(), n, scale, 1000);
+            let speeds: Vec<f64> = points.iter().map(|(speed, _)| *speed).collect();
+            let mut unknown = 0;
+            for ((speed, phase), label) in points.iter().zip(fates.labels(&speeds).unwrap()) {
+                let error = phase.error() + circle.phase_error();
+                match circle.label_at(phase.fraction(), error) {
+                    Some(found) => assert_eq!(found, label, "{n} {mass_ratio} {speed} {phase}"),
+                    None => unknown += 1,
+                }
+            }
+            // Not one of these phases lies within the error of a boundary point.
+            assert_eq!(unknown, 0, "{n} {mass_ratio} {scale:e}");
+        }
+    }
+}
+
+#[test]
+fn local_fractions_agree_with_measured_ones() {
+    for (n, mass_ratio, shares) in MEASURED {
+        let fractions = circle(&fates(mass_ratio), n).fractions();
+        let labels: Vec<u16> = shares.iter().map(|(label, _)| *label).collect();
+        assert_eq!(fractions.labels().collect::<Vec<_>>(), labels);
+        for &(label, share) in shares {
+            let found = fractions.of(label);
+            // The measured shares have three digits.
+            assert!((found.middle() - share).abs() < 1e-3, "{n} {mass_ratio} {label} {found:?}");
+            assert!(found.half_width() < 1e-7, "{found:?}");
+        }
+    }
+}
+
+/// Finer limits give bounds inside the coarser ones, and the lengths sum to one.
+#[test]
+fn bounds_on_local_fractions_are_nested() {
+    let fates = fates(0.2);
+    let limits = |undecided: f64| CircleLimits {
+        refinement: Refinement { undecided, shortest: 1e-3 * undecided, ..Refinement::default() },
+        ..CircleLimits::default()
+    };
+    let coarse = PhaseBasins::new(&fates, 3, limits(1e-4)).unwrap().fractions();
+    let fine = PhaseBasins::new(&fates, 3, limits(1e-7)).unwrap().fractions();
+    assert!(fine.undecided() < 0.01 * coarse.undecided() && coarse.undecided() < 1e-3);
+    // Each end may be known less well by some ulps of the speed.
+    let ends = 1e-12;
+    for label in [0, 1, 2] {
+        let (coarse, fine) = (coarse.of(label), fine.of(label));
+        assert!(coarse.lower <= fine.lower + ends, "{coarse:?} {fine:?}");
+        assert!(fine.upper <= coarse.upper + ends, "{coarse:?} {fine:?}");
+    }
+    let sum: f64 = [0, 1, 2].map(|label| fine.of(label).lower).iter().sum();
+    assert!((sum + fine.undecided() - 1.0).abs() < 1e-13);
+}
+
+/// The orbit of a boundary point, in 106 bits, comes to the fixed point or to the ground in the number of hops given.
+#[test]
+fn boundary_points_fall_where_they_are_said_to() {
+    let mut seen = [0; 2];
+    for (n, mass_ratio) in [(3, 0.2), (2, 0.8)] {
+        let fates = fates(mass_ratio);
+        for point in circle(&fates, n).boundary() {
+            let follow = |speed: f64, hops: usize| {
+                let mut orbit =
+                    ExtendedOrbit::new(fates.map(), speed, Arithmetic::Bits106).unwrap();
+                (0..hops).all(|_| orbit.hop().unwrap() == ExtendedStep::LiftsOff).then_some(orbit)
+            };
+            // Some ulps to both sides, with room for those of the point itself.
+            let (left, right) = (point.speed * (1.0 - 1e-13), point.speed * (1.0 + 1e-13));
+            match point.falls_onto.unwrap() {
+                FallsOnto::FixedPoint { m, hops } => {
+                    let [a, b] = [left, right].map(|s| follow(s, hops).unwrap().offset_from(m).0);
+                    assert!(m < n && (a < 0.0) != (b < 0.0), "{point:?} {a:e} {b:e}");
+                    seen[0] += 1;
+                }
+                FallsOnto::Grounding { hops } => {
+                    let [a, b] = [left, right].map(|s| follow(s, hops).is_some());
+                    assert!(a != b, "{point:?}");
+                    assert!(follow(left, hops - 1).is_some() && follow(right, hops - 1).is_some());
+                    assert!([point.below, point.above].contains(&GROUNDED));
+                    seen[1] += 1;
+                }
+            }
+        }
+    }
+    assert!(seen[0] > 50 && seen[1] > 50, "{seen:?}");
+}
+
+/// Fates of neighbouring `f64` near 10⁻⁶ differ where the circle has its boundary points. These `f64` are a phase of 3·10⁻⁹ apart.
+#[test]
+fn boundary_phases_agree_with_bisected_fates() {
+    let mut found = 0;
+    for (n, mass_ratio) in [(2, 0.2), (2, 0.12), (1, 0.8)] {
+        let fates = fates(mass_ratio);
+        let circle = circle(&fates, n);
+        let label = |speed: f64| fates.fate(speed).unwrap().label();
+        let psi = circle.coordinate();
+        let points = turn(psi, n, -1e-6, 200);
+        for pair in points.windows(2) {
+            let (mut low, mut high) = (pair[0].0, pair[1].0);
+            let (below, above) = (label(low), label(high));
+            if below == above {
+                continue;
+            }
+            while low.next_up() < high {
+                let middle = low + 0.5 * (high - low);
+                if label(middle) == below { low = middle } else { high = middle }
+            }
+            let delta = FixedPointSpeed::new(n).offset_of(low);
+            let phase = psi.phase(Offset::from(delta)).unwrap().fraction();
+            let near = |b: &&hopper_basin::BoundaryPhase| (b.phase - phase).abs() < 6e-9;
+            let boundary = circle.boundary().iter().find(near).unwrap();
+            assert_eq!((boundary.below, boundary.above), (below, above));
+            found += 1;
+        }
+    }
+    assert_eq!(found, 6);
+}
+
+#[test]
+fn a_share_of_phases_is_that_of_its_parts() {
+    let fates = fates(0.2);
+    let circle = circle(&fates, 2);
+    let [first, second] = circle.boundary() else { panic!("{:?}", circle.boundary()) };
+    assert_eq!((first.below, first.above), (0, 1));
+    let length = second.phase - first.phase;
+    assert!((circle.fractions().of(1).middle() - length).abs() < 1e-11);
+    // From the middle of the component of basin 1 through one turn and a half of the component more.
+    let start = first.phase + 0.5 * length;
+    let share = circle.share(start, start + 1.0 + length).unwrap();
+    assert!((share.of(1).middle() - 1.5 * length / (1.0 + length)).abs() < 1e-10);
+    // Within the component, also in another turn and through phases of any size.
+    assert!(
+        circle.share(start - 3.0, start - 3.0 + 0.4 * length).unwrap().of(1).lower > 1.0 - 1e-9
+    );
+    let phase = |whole: u64, fraction: f64| Phase::new(whole, fraction, 0.0);
+    let share = circle.share_between(&phase(1 << 60, start), &phase((1 << 60) + 7, start));
+    assert!((share.of(1).middle() - length).abs() < 1e-10);
+    assert!(circle.share(0.5, 0.4).is_err() && circle.share(0.5, f64::NAN).is_err());
+    assert_eq!(circle.label_at(start, 0.6 * length), None);
+}
+
+/// Digits of a decimal number in units of 10⁻³⁰.
+fn digits(text: &str) -> i128 {
+    let negative = text.starts_with('-');
+    let (whole, fraction) = text.trim_start_matches('-').split_once('.').unwrap();
+    let digits = format!("{whole}{fraction:0<30.30}");
+    let value: i128 = digits.parse().unwrap();
+    if negative { -value } else { value }
+}
+
+/// The references have 40 digits, and the slope 17 (mpmath).
+#[test]
+fn edges_agree_with_forty_digits() {
+    let mut compared = 0;
+    for row in rows(include_str!("data/edges.jsonl")) {
+        let fates = fates(row.input("mass_ratio"));
+        let chart = EdgeChart::near(&fates, row.input("alpha")).unwrap();
+        assert_eq!((chart.n(), chart.hops() as u64), (row.integer("n"), row.integer("hops")));
+        let (point, rest, error) = chart.point();
+        let ours = digits(&format!("{point:.60}")) + digits(&format!("{rest:.60}"));
+        let off = (digits(row.text("edge")) - ours).unsigned_abs() as f64 * 1e-30;
+        assert!(off <= error + 4e-30 && error < 1e-28, "{row}: {off:e}, said {error:e}");
+        let slope: f64 = row.text("slope").parse().unwrap();
+        assert!((chart.slope() / slope - 1.0).abs() < 1e-15, "{row} {}", chart.slope());
+        compared += 1;
+    }
+    assert_eq!(compared, 4);
+}
+
+/// f^k(p + y) in 256 bits, minus D₁ y (1 + D₂ y/2), is within the remainder, at y that the chart was not made from.
+#[test]
+fn the_remainder_of_a_chart_covers_exact_orbits() {
+    for row in rows(include_str!("data/edges.jsonl")) {
+        let fates = fates(row.input("mass_ratio"));
+        let chart = EdgeChart::near(&fates, row.input("alpha")).unwrap();
+        let (point, rest, _) = chart.point();
+        for k in 0..40 {
+            let part = pxfm::f_exp10(-0.2 * f64::from(k)) * 0.97;
+            for sign in [1.0, -1.0] {
+                let speed = point + sign * part * chart.radius();
+                // `speed` − `point` is exact.
+                let y = (speed - point) - rest;
+                let mut orbit =
+                    ExtendedOrbit::new(fates.map(), speed, Arithmetic::Bits256).unwrap();
+                for _ in 0..chart.hops() {
+                    assert_eq!(orbit.hop().unwrap(), ExtendedStep::LiftsOff);
+                }
+                let exact = orbit.offset_from(chart.n()).0;
+                let (found, error) = chart.offset(Offset::from(y)).unwrap();
+                let off = (found.nearest() / exact - 1.0).abs();
+                assert!(off <= error, "{row} at {y:e}: {off:e} > {error:e}");
+            }
+        }
+    }
+}
+
+/// The references are fates of exact doubles from 10⁻⁸ to some ulps beside the edges, followed with 60 digits.
+#[test]
+fn labels_of_charts_agree_with_reference_fates() {
+    let charts: Vec<(f64, EdgeChart, PhaseBasins)> = rows(include_str!("data/edges.jsonl"))
+        .map(|row| {
+            let fates = fates(row.input("mass_ratio"));
+            let chart = EdgeChart::near(&fates, row.input("alpha")).unwrap();
+            (row.input("mass_ratio"), chart, circle(&fates, chart.n()))
+        })
+        .collect();
+    let (mut compared, mut unknown) = (0, 0);
+    for row in rows(include_str!("data/edge_fates.jsonl")) {
+        let alpha = row.input("alpha");
+        let own = charts.iter().find(|(mass_ratio, chart, _)| {
+            *mass_ratio == row.input("mass_ratio") && (chart.point().0 - alpha).abs() < 1e-6
+        });
+        let Some((_, chart, circle)) = own else { continue };
+        let (point, rest, _) = chart.point();
+        let found = chart.label(circle, Offset::from((alpha - point) - rest)).unwrap();
+        let expected = match row.text("fate") {
+            "decaying" => 0,
+            "grounded" => GROUNDED,
+            _ => row.integer("n") as u16,
+        };
+        compared += 1;
+        match found {
+            Some(label) => assert_eq!(label, expected, "{row}"),
+            None => unknown += 1,
+        }
+    }
+    assert!(compared > 500 && unknown * 50 < compared, "{unknown} of {compared}");
+}
+
+/// Theorem 87 next to a preimage: speeds within 10⁻⁷ of the edge, at random places, have the local fractions.
+#[test]
+fn speeds_next_to_an_edge_have_the_local_fractions() {
+    let fates = fates(0.12);
+    let chart = EdgeChart::onto(&fates, 2, 11.9206).unwrap();
+    assert_eq!(chart.basin_side(), Side::Right);
+    let circle = circle(&fates, 2);
+    let count = 4000;
+    let speeds: Vec<f64> =
+        (1..=count).map(|k| chart.point().0 - 1e-7 * f64::from(k) / f64::from(count)).collect();
+    let labels = fates.labels(&speeds).unwrap();
+    let share = labels.iter().filter(|&&label| label == 1).count() as f64 / f64::from(count);
+    // x = 0.003: the last turns are some hundredths of the interval.
+    assert!((share - circle.fractions().of(1).middle()).abs() < 0.02, "{share}");
+}
+
+#[test]
+fn windows_of_any_width_about_an_edge_have_shares() {
+    let fates = fates(0.12);
+    let chart = EdgeChart::onto(&fates, 2, 11.9206).unwrap();
+    let circle = circle(&fates, 2);
+    let local = circle.fractions().of(1);
+    let offset = |text: &str| text.parse::<Offset>().unwrap();
+    for depth in ["e-30", "e-100", "e-300", "e-1000"] {
+        let [near, far] = ["-1", "-2"].map(|digit| offset(&format!("{digit}{depth}")));
+        let share = chart.share(&circle, far, near).unwrap().of(1);
+        assert!((share.middle() - local.middle()).abs() < 1e-7, "{depth} {share:?}");
+        assert!(share.half_width() < 1e-7, "{depth} {share:?}");
+        // The other side belongs to basin 2, and a pixel across the edge is half of each.
+        let right = offset(&format!("1{depth}"));
+        assert_eq!(chart.label(&circle, right).unwrap(), Some(2));
+        let across = chart.share(&circle, near, right).unwrap();
+        assert!((across.of(2).middle() - 0.5).abs() < 1e-7, "{depth} {across:?}");
+        assert!((across.of(1).middle() - 0.5 * local.middle()).abs() < 1e-7, "{depth} {across:?}");
+    }
+    // At 10⁻¹² a narrow pixel has the share of its own phases.
+    let pixel = chart.share(&circle, offset("-1e-12"), offset("-1.0000001e-12")).unwrap();
+    let label = chart.label(&circle, offset("-1e-12")).unwrap().unwrap();
+    assert!(pixel.of(label).lower > 0.99, "{pixel:?}");
+}
+
+/// Where branches are not known the result says so; it is right for most other speeds.
+#[test]
+fn above_the_mass_ratio_of_known_branches_labels_are_sampled() {
+    let fates = fates(1.5);
+    let circle = circle(&fates, 2);
+    assert!(matches!(circle.ground(), Ground::Spacing { speeds } if speeds < 1e-4));
+    let points = turn(circle.coordinate(), 2, -1e-8, 1000);
+    let speeds: Vec<f64> = points.iter().map(|(speed, _)| *speed).collect();
+    let mut wrong = 0;
+    for ((_, phase), label) in points.iter().zip(fates.labels(&speeds).unwrap()) {
+        let found = circle.label_at(phase.fraction(), circle.phase_error());
+        wrong += usize::from(found.is_some_and(|found| found != label));
+    }
+    assert!(wrong <= 2, "{wrong}");
+    assert!(matches!(self::circle(&self::fates(0.2), 2).ground(), Ground::Branches { .. }));
+}
+
+#[test]
+fn wrong_inputs_are_errors() {
+    let fates = fates(0.2);
+    let limits = CircleLimits::default();
+    assert!(matches!(PhaseBasins::new(&fates, 0, limits), Err(Error::Index { .. })));
+    let few = CircleLimits { window_samples: 2, ..limits };
+    assert!(matches!(PhaseBasins::new(&fates, 1, few), Err(Error::BasinOfAttraction(_))));
+    assert!(matches!(EdgeChart::near(&fates, 4.55), Err(Error::NoEdge { .. })));
+    assert!(EdgeChart::near(&fates, f64::NAN).is_err());
+    let chart = EdgeChart::onto(&fates, 1, 8.47304).unwrap();
+    let other = circle(&fates, 2);
+    let y = Offset::from(-1e-9);
+    assert!(matches!(chart.label(&other, y), Err(Error::OtherCircle { .. })));
+    assert!(matches!(chart.offset(Offset::from(1.0)), Err(Error::OutsideChart { .. })));
+    // A point on the side of the basin has no phase.
+    assert!(chart.phase(other.coordinate(), Offset::from(1e-9)).is_err());
+}
