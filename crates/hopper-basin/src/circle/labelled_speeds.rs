@@ -13,8 +13,15 @@ use std::f64::consts::PI;
 /// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
 const ONE_SUDDEN: f64 = 0.905_619_101_548_377_4;
 
+/// Up to this n the windows are known to have one branch each for most M (docs/theory.md, Theorem 48). For larger n the intervals
+/// between the many traps below would also be too many: at n = 10 and M = 0.3, 2·10⁴ intervals leave a tenth of the circle undecided.
+const LARGEST_N: u64 = 8;
+
 /// Intervals of fewer ulps than this are not followed: their ends could not be told apart.
 const SHORTEST_ULPS: f64 = 16.0;
+
+/// Most speeds whose fates are found: more than some minutes need.
+const MOST_SAMPLES: usize = 10_000_000;
 
 /// A gap of no more ulps is closed: it is one boundary point, or none, as the fates on both sides show. Ends are found to an ulp
 /// in each of the levels, and later hops contract their errors.
@@ -49,7 +56,7 @@ pub(crate) fn labelled_speeds(
         let samples = limits.window_samples.min(limits.fate_samples);
         return Err(basin_of_attraction::Error::TooFewSamples { samples }.into());
     }
-    if fates.map().mass_ratio().value() > ONE_SUDDEN {
+    if fates.map().mass_ratio().value() > ONE_SUDDEN || domain.n > LARGEST_N {
         let parts = by_spacing(fates, domain, limits)?;
         return Ok((
             parts,
@@ -141,52 +148,68 @@ fn by_spacing(
     limits: &CircleLimits,
 ) -> Result<Vec<LabelledSpeeds>, Error> {
     let count = limits.fate_samples;
+    if count > MOST_SAMPLES {
+        let remedy = "give fewer";
+        let error = basin_of_attraction::Error::TooManySamples {
+            samples: count,
+            most: MOST_SAMPLES,
+            remedy,
+        };
+        return Err(error.into());
+    }
     let at = |k: usize| domain.bottom + domain.width() * (k as f64 / (count - 1) as f64);
     let speeds: Vec<f64> = (0..count).map(at).collect();
     let labels = fates.labels(&speeds)?;
     let mut parts: Vec<LabelledSpeeds> = Vec::new();
+    // An undecided speed ends an interval.
+    let mut decided = false;
     for (&speed, &label) in speeds.iter().zip(&labels) {
         if HopperFate::is_undecided(label) {
+            decided = false;
             continue;
         }
-        let previous = parts.last().copied();
-        match previous {
-            Some(last) if last.label == label => {
-                if let Some(last) = parts.last_mut() {
-                    last.right = speed;
-                }
-            }
-            Some(last) => {
-                let (end, start) = bisect(fates, (last.right, last.label), (speed, label))?;
-                if let Some(last) = parts.last_mut() {
-                    last.right = end;
-                }
-                parts.push(LabelledSpeeds { left: start, right: speed, label });
-            }
-            None => parts.push(LabelledSpeeds { left: speed, right: speed, label }),
+        let part = LabelledSpeeds { left: speed, right: speed, label };
+        match parts.last_mut().filter(|_| decided) {
+            Some(last) if last.label == label => last.right = speed,
+            Some(_) => changes(fates, &mut parts, part, count + limits.refinement.intervals)?,
+            None => parts.push(part),
         }
+        decided = true;
     }
+    parts.retain(|part| part.left < part.right);
     Ok(parts)
 }
 
-/// Two speeds as near as `f64` and the fates permit, with the given labels and no third one seen between them. A third label ends
-/// the search.
-fn bisect(
+/// Appends `next` to `parts`, whose last one has another label, with the change of label between the two found by bisection. A third
+/// label on the way is an interval of its own, until there are `most` intervals.
+fn changes(
     fates: &Fates,
-    (mut left, at_left): (f64, u16),
-    (mut right, at_right): (f64, u16),
-) -> Result<(f64, f64), Error> {
-    loop {
-        let middle = left + 0.5 * (right - left);
-        if !(middle > left && middle < right) {
-            return Ok((left, right));
+    parts: &mut Vec<LabelledSpeeds>,
+    next: LabelledSpeeds,
+    most: usize,
+) -> Result<(), Error> {
+    // Speeds still to be reached, the nearest last.
+    let mut ahead = vec![next];
+    while let (Some(last), Some(&goal)) = (parts.last_mut(), ahead.last()) {
+        let middle = last.right + 0.5 * (goal.left - last.right);
+        if !(middle > last.right && middle < goal.left) {
+            parts.push(goal);
+            ahead.pop();
+            continue;
         }
-        match fates.fate(middle)?.label() {
-            label if label == at_left => left = middle,
-            label if label == at_right => right = middle,
-            _ => return Ok((left, right)),
+        let label = fates.fate(middle)?.label();
+        if label == last.label {
+            last.right = middle;
+        } else if let Some(goal) = ahead.last_mut().filter(|goal| goal.label == label) {
+            goal.left = middle;
+        } else if HopperFate::is_undecided(label) || parts.len() + ahead.len() >= most {
+            parts.push(goal);
+            ahead.pop();
+        } else {
+            ahead.push(LabelledSpeeds { left: middle, right: middle, label });
         }
     }
+    Ok(())
 }
 
 /// The intervals with ends moved inwards until their fates are certain. An interval without such ends is left out.

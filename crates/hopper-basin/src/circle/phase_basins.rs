@@ -15,11 +15,13 @@ use passive_hopper::MassRatio;
 /// How far the circle is refined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CircleLimits {
-    /// When the search for intervals stops; lengths are phases, of which the circle has 1. For M ≤ 0.905.
+    /// When the search for intervals stops; lengths are phases, of which the circle has 1. Intervals of less than 16 ulps of the
+    /// speed are never followed. For M ≤ 0.905 and n ≤ 8.
     pub refinement: Refinement,
-    /// The number of points at which each sudden window is searched for branches of the map. For M ≤ 0.905.
+    /// The number of points at which each sudden window is searched for branches of the map. For M ≤ 0.905 and n ≤ 8.
     pub window_samples: usize,
-    /// The number of speeds whose fates are found, for M > 0.905, where the branches are not known.
+    /// The number of speeds whose fates are found, for M > 0.905 or n > 8, where the branches are not known or
+    /// are too many.
     pub fate_samples: usize,
 }
 
@@ -40,14 +42,14 @@ impl Default for CircleLimits {
 /// What the labels of a circle stand on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ground {
-    /// On the monotone branches of the map: every speed of an interval has the label, if the branches are complete. On contact
-    /// parts they are (docs/theory.md, Corollary 28). In the sudden windows for n ≤ 8 and the M of Theorem 48 they are; for others
-    /// up to 0.905 a branch narrower than `spacing` may be missed.
+    /// On the monotone branches of the map, for M ≤ 0.905 and n ≤ 8: every speed of an interval has the label, if the branches are
+    /// complete. On contact parts they are (docs/theory.md, Corollary 28), and in the sudden windows for the M of Theorem 48. For
+    /// other M a branch narrower than `spacing` may be missed there.
     Branches {
         /// The spacing of the samples of the sudden windows, in units of speed.
         spacing: f64,
     },
-    /// On the fates of single speeds, M > 0.905. Between two neighbours of equal label another basin may be missed. Nothing is
+    /// On the fates of single speeds, for M > 0.905 or n > 8. Between two neighbours of equal label another basin may be missed. Nothing is
     /// certain but the fates of these speeds.
     Spacing {
         /// The spacing of the speeds, in units of speed.
@@ -258,13 +260,18 @@ impl PhaseBasins {
 
     /// The local fractions p_{n,k}.
     ///
-    /// The bounds hold as the labels do ([`ground`](Self::ground)).
+    /// The bounds hold as the labels do ([`ground`](Self::ground)). With [`Ground::Spacing`] they are no bounds: they are widened by
+    /// 3/N, N the number of speeds. A set of speeds with a larger share has one of N random speeds in it with 95 % probability.
     pub fn fractions(&self) -> LocalFractions {
-        LocalFractions::new(self.shares.lengths(0.0, 1.0), self.rounding())
+        let found = LocalFractions::new(self.shares.lengths(0.0, 1.0), self.rounding());
+        match self.ground {
+            Ground::Branches { .. } => found,
+            Ground::Spacing { speeds } => found.widened(3.0 * speeds / self.domain.speeds.width()),
+        }
     }
 
     /// The share of every fate in the phases from `from` to `to` ≥ `from`, in turns: a pixel that covers them. The shares of
-    /// phases and of speeds differ by a part of the order 1/Ψ.
+    /// phases and of speeds differ by a part of the order 1/Ψ. The bounds hold as the labels do ([`ground`](Self::ground)).
     ///
     /// # Errors
     /// [`Error::Phases`] unless both are finite, and `to` is not below `from`. If they are equal, the share is that of the
