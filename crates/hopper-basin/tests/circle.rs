@@ -139,6 +139,34 @@ fn boundary_points_fall_where_they_are_said_to() {
     assert!(seen[0] > 50 && seen[1] > 50, "{seen:?}");
 }
 
+/// An orbit from near α*_n, followed in 106 bits to the fundamental domain, keeps the fraction of its phase.
+#[test]
+fn phases_of_the_domain_are_those_of_orbits_from_within() {
+    let coarse = CircleLimits {
+        refinement: Refinement { undecided: 0.1, ..CircleLimits::default().refinement },
+        fate_samples: 100,
+        ..CircleLimits::default()
+    };
+    for (n, mass_ratio) in [(1, 0.02), (1, 0.8), (2, 0.2), (3, 0.12), (8, 0.9), (2, 1.5), (3, 20.0)]
+    {
+        let fates = fates(mass_ratio);
+        let circle = PhaseBasins::new(&fates, n, coarse).unwrap();
+        assert!(circle.phase_error() < 1e-11, "{}", circle.phase_error());
+        let (bottom, top) = circle.domain();
+        for (start, phase) in turn(circle.coordinate(), n, -2e-8, 7) {
+            let mut orbit = ExtendedOrbit::new(fates.map(), start, Arithmetic::Bits106).unwrap();
+            while orbit.speed() > top {
+                assert_eq!(orbit.hop().unwrap(), ExtendedStep::LiftsOff);
+            }
+            let found = circle.phase_of(orbit.speed()).unwrap();
+            let apart = (found - phase.fraction()).abs();
+            // The speed is rounded.
+            let error = phase.error() + circle.phase_error() + 1e-15 * top / (top - bottom);
+            assert!(apart.min(1.0 - apart) <= error, "{n} {mass_ratio}: {apart:e} > {error:e}");
+        }
+    }
+}
+
 /// Fates of neighbouring `f64` near 10⁻⁶ differ where the circle has its boundary points. These `f64` are a phase of 3·10⁻⁹ apart.
 #[test]
 fn boundary_phases_agree_with_bisected_fates() {

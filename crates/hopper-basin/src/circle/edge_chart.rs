@@ -56,7 +56,8 @@ const OWN_RADIUS: f64 = 1e-3;
 
 impl EdgeChart {
     /// The chart about the boundary point nearest to `guess`, at most 10⁻³ away, which comes to a fixed point α*_n, n ≥ 1, in at
-    /// most 256 hops.
+    /// most 256 hops. A point is passed over if its derivatives cannot be found with steps of 2⁻³⁶ or more. With all digits of an
+    /// edge it takes some tens of milliseconds, with few digits up to seconds.
     ///
     /// # Errors
     /// [`Error::NoEdge`] if none is found; the errors of [`Fates::fate`] for a wrong speed.
@@ -238,8 +239,9 @@ impl EdgeChart {
 
     /// The share of every fate between p + `from` and p + `to`, in any order: a pixel.
     ///
-    /// On the side of the circle shares are those of phases ([`PhaseBasins::share`]). A pixel that contains p, or of which one end
-    /// is p, has the local fractions on that side, within eight parts of one turn.
+    /// On the side of the circle shares are those of phases ([`PhaseBasins::share`]). From p itself on there are infinitely many
+    /// turns, and the shares are the local fractions. Their error is of the order 1/Ψ at the far end (docs/theory.md, Theorem 87);
+    /// the bounds are widened by 8/Ψ, an estimate.
     ///
     /// # Errors
     /// As [`label`](Self::label).

@@ -33,17 +33,24 @@ pub(crate) fn approaches(
 ) -> Result<(), Error> {
     fates.map().check_speed(guess)?;
     let (mut speed, mut slope, mut within) = (guess, 1.0, NEAR);
+    // The fixed point near which the orbit has been since its last zero: the same point again is no other zero.
+    let mut stays_at = None;
     for hops in 0..=MOST_HOPS {
         let low = index_below(speed)?;
+        if stays_at.is_some_and(|n| n != low && n != low + 1) {
+            stays_at = None;
+        }
         for n in [low, low + 1] {
             // To first order; a factor 4 for the next orders.
             let estimate = (FixedPointSpeed::new(n).offset_of(speed) / slope).abs();
             if n >= 1
+                && stays_at != Some(n)
                 && estimate <= NEAR.min(4.0 * within)
                 && let Some(point) = newton(fates, n, hops, guess)
             {
                 let Some(next) = see(Approach { n, hops, point }) else { return Ok(()) };
                 within = next;
+                stays_at = Some(n);
             }
         }
         let Some((next, factor)) = hop(fates, speed) else { break };

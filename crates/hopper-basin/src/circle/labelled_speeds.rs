@@ -2,8 +2,9 @@
 
 use crate::basins::branches::branches;
 use crate::basins::intervals::traps_and_grounding;
+use crate::circle::circle_limits::{CircleLimits, Ground};
 use crate::circle::fundamental_domain::DomainSpeeds;
-use crate::circle::phase_basins::{CircleLimits, Ground};
+
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;

@@ -5,6 +5,7 @@
 //! of speeds.
 //!
 //! ```text
+//!   circle_limits.rs        how far the circle is refined; what its labels stand on
 //!   fundamental_domain.rs   the speeds from α*_n + f(δ₀) to α*_n + δ₀, and their phases
 //!   labelled_speeds.rs      the domain as intervals with certain ends
 //!   falls_onto.rs           what the orbit of a boundary point comes to
@@ -18,6 +19,7 @@
 //!
 //! This room uses `basins`, `fates` and `traps`.
 
+pub(crate) mod circle_limits;
 pub(crate) mod edge_chart;
 pub(crate) mod edge_derivatives;
 pub(crate) mod edge_search;

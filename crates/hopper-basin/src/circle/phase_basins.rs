@@ -1,5 +1,6 @@
 //! The circle of fates left of α*_n: the basins as intervals of phase.
 
+use crate::circle::circle_limits::{CircleLimits, Ground};
 use crate::circle::falls_onto::{FallsOnto, falls_onto};
 use crate::circle::fundamental_domain::FundamentalDomain;
 use crate::circle::labelled_speeds::{LabelledSpeeds, is_boundary_point, labelled_speeds};
@@ -8,54 +9,8 @@ use crate::circle::phase_shares::{PhasePart, PhaseShares};
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
-use basin_of_attraction::Refinement;
 use hopper_asymptotics::{FatouCoordinate, Phase};
 use passive_hopper::MassRatio;
-
-/// How far the circle is refined.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct CircleLimits {
-    /// When the search for intervals stops; lengths are phases, of which the circle has 1. Intervals of less than 16 ulps of the
-    /// speed are never followed. For M ≤ 0.905 and n ≤ 8.
-    pub refinement: Refinement,
-    /// The number of points at which each sudden window is searched for branches of the map. For M ≤ 0.905 and n ≤ 8.
-    pub window_samples: usize,
-    /// The number of speeds whose fates are found, for M > 0.905 or n > 8, where the branches are not known or
-    /// are too many.
-    pub fate_samples: usize,
-}
-
-impl Default for CircleLimits {
-    /// Stops at an undecided length of 10⁻⁸ of the circle, at intervals shorter than 10⁻¹¹ of it, or at 2·10⁴ intervals. A
-    /// window has 200 samples, which is far more than it has branches, and the circle 10 000 fates.
-    fn default() -> Self {
-        let refinement = Refinement {
-            undecided: 1e-8,
-            shortest: 1e-11,
-            intervals: 20_000,
-            ..Refinement::default()
-        };
-        CircleLimits { refinement, window_samples: 200, fate_samples: 10_000 }
-    }
-}
-
-/// What the labels of a circle stand on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ground {
-    /// On the monotone branches of the map, for M ≤ 0.905 and n ≤ 8: every speed of an interval has the label, if the branches are
-    /// complete. On contact parts they are (docs/theory.md, Corollary 28), and in the sudden windows for the M of Theorem 48. For
-    /// other M a branch narrower than `spacing` may be missed there.
-    Branches {
-        /// The spacing of the samples of the sudden windows, in units of speed.
-        spacing: f64,
-    },
-    /// On the fates of single speeds, for M > 0.905 or n > 8. Between two neighbours of equal label another basin may be missed. Nothing is
-    /// certain but the fates of these speeds.
-    Spacing {
-        /// The spacing of the speeds, in units of speed.
-        speeds: f64,
-    },
-}
 
 /// A point of the circle at which two basins meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
