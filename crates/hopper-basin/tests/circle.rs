@@ -5,7 +5,8 @@
 use basin_of_attraction::Refinement;
 use hopper_asymptotics::{FatouCoordinate, Offset, Phase, Side};
 use hopper_basin::{
-    CircleLimits, EdgeChart, Error, FallsOnto, Fates, Ground, HopperFate, PhaseBasins,
+    CircleLimits, EdgeChart, Error, FallsOnto, Fates, Ground, HopperFate, PhaseBasins, crisis,
+    grounding,
 };
 use hopper_reference::rows;
 use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, MassRatio};
@@ -348,6 +349,25 @@ fn windows_of_any_width_about_an_edge_have_shares() {
     let pixel = chart.share(&circle, offset("-1e-12"), offset("-1.0000001e-12")).unwrap();
     let label = chart.label(&circle, offset("-1e-12")).unwrap().unwrap();
     assert!(pixel.of(label).lower > 0.99, "{pixel:?}");
+}
+
+/// Below a crisis the left of the next fixed point has one fate. Above it the other fate has a share C √(M − M_c): f falls below
+/// α*_{n−1}, or to zero, on an interval of this width about its quadratic minimum.
+#[test]
+fn a_crisis_opens_a_share_like_a_square_root() {
+    let [ground, fall] = [grounding(0).unwrap().mass_ratio, crisis(1).unwrap().mass_ratio];
+    for (n, critical, before, new) in [(1, ground, 0, GROUNDED), (2, fall, 1, 0)] {
+        let share = |beyond: f64| {
+            let fractions = circle(&fates(critical + beyond), n).fractions();
+            if beyond < 0.0 {
+                assert!(fractions.labels().eq([before]), "{fractions:?}");
+            }
+            fractions.of(new).middle() / beyond.abs().sqrt()
+        };
+        assert_eq!(share(-1e-8), 0.0);
+        let (near, far) = (share(1e-8), share(1e-6));
+        assert!(near > 1.0 && (near / far - 1.0).abs() < 1e-4, "{n} {near} {far}");
+    }
 }
 
 /// Where branches are not known the result says so; it is right for most other speeds.
