@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::Refinement;
-use hopper_asymptotics::{FatouCoordinate, Offset, Phase, Side};
+use hopper_asymptotics::{FatouCoordinate, Offset, Phase};
 use hopper_basin::{
     CircleLimits, Error, FallsOnto, Fates, Ground, HopperFate, PhaseBasins, crisis, grounding,
 };
