@@ -9,6 +9,9 @@ pub enum Error {
     /// An error of the hopper's model, such as a lift-off speed that is not positive.
     #[error(transparent)]
     Hopper(#[from] passive_hopper::Error),
+    /// An error of the expansions next to a fixed point.
+    #[error(transparent)]
+    Asymptotics(#[from] hopper_asymptotics::Error),
     /// An error of the generic basin tools, such as an empty raster.
     #[error(transparent)]
     BasinOfAttraction(#[from] basin_of_attraction::Error),
@@ -94,5 +97,58 @@ pub enum Error {
         n: u64,
         /// The largest mass ratio of the search.
         largest: f64,
+    },
+    /// No turn of the Fatou coordinate was found: the hopper is grounded from the offset, or the hops from there towards α*_n
+    /// are too many.
+    #[error(
+        "the offset {delta:e} left of α*_{n} has no turn of phases; the mass ratio is too extreme"
+    )]
+    NoTurn {
+        /// The index of the fixed point.
+        n: u64,
+        /// The offset.
+        delta: f64,
+    },
+    /// Phases that are not finite, or in the wrong order.
+    #[error("an interval of phases must be finite and must not decrease: from {from} to {to}")]
+    Phases {
+        /// The lowest phase.
+        from: f64,
+        /// The highest phase.
+        to: f64,
+    },
+    /// No boundary point that comes to a fixed point is near a speed.
+    #[error(
+        "no speed within {within:e} of {alpha} comes to a fixed point exactly in at most {hops} hops; give a speed nearer to the edge"
+    )]
+    NoEdge {
+        /// The speed given.
+        alpha: f64,
+        /// The distance searched.
+        within: f64,
+        /// The largest number of hops.
+        hops: usize,
+    },
+    /// An offset outside the range of a chart.
+    #[error("the offset {y:e} is outside the chart about the edge: it holds up to {radius:e}")]
+    OutsideChart {
+        /// The offset given.
+        y: f64,
+        /// The radius of the chart.
+        radius: f64,
+    },
+    /// A chart and a circle that do not belong together.
+    #[error(
+        "the edge belongs to the circle of α*_{n} at M = {mass_ratio}, not to that of α*_{other} at M = {other_ratio}"
+    )]
+    OtherCircle {
+        /// The index of the chart's fixed point.
+        n: u64,
+        /// The mass ratio of the chart.
+        mass_ratio: f64,
+        /// The index of the given circle.
+        other: u64,
+        /// The mass ratio of the given circle.
+        other_ratio: f64,
     },
 }

@@ -19,6 +19,10 @@
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
 //! | [`basin_levels`], [`branches`] | one basin level by level, from the branches of the map |
+//! | [`PhaseBasins`], [`CircleLimits`] | the circle of fates left of α*_n: the basins as intervals of phase, at every scale |
+//! | [`BoundaryPhase`], [`UndecidedPhases`], [`FallsOnto`] | its boundary points and what they come to; what is undecided |
+//! | [`LocalFractions`], [`Ground`] | the shares of the fates next to α*_n, with bounds, and what the bounds stand on |
+//! | [`EdgeChart`] | windows of any width about a speed that comes to α*_n exactly |
 //! | [`first_humps`] | the lift-off speeds [α*_1, α*_{k+1}]; the paper's window has k = 5 |
 //! | [`FIG_8`], [`FIG_9`] | the (M, α) windows of these figures of the paper |
 //!
@@ -45,6 +49,7 @@
 //! Phys. Rev. E, Secs. V and VI.
 
 mod basins;
+mod circle;
 mod error;
 mod fates;
 mod raster;
@@ -56,6 +61,12 @@ pub use basins::intervals::{HopperBasins, hopper_basins};
 pub use basins::levels::basin_levels;
 pub use basins::rasters::{basin_columns, basin_raster};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
+pub use circle::circle_limits::{CircleLimits, Ground};
+pub use circle::edge_chart::EdgeChart;
+pub use circle::falls_onto::FallsOnto;
+pub use circle::local_fractions::LocalFractions;
+pub use circle::phase_basins::{BoundaryPhase, PhaseBasins, UndecidedPhases};
+pub use circle::phase_shares::PhasePart;
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;

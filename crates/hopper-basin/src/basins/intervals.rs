@@ -56,7 +56,23 @@ pub fn hopper_basins(
     };
     // Orbits fall below the window: all branches of the map down to zero are needed.
     let branches = branches(fates, 0, to, samples)?;
-    let mut traps = grounded(fates, &branches, top);
+    let traps = traps_and_grounding(fates, &branches, to, top)?;
+    let whole = Interval::new(0.0, top)?;
+    let basins = interval_basins(fates, &traps, &branches, whole, refinement)?.within(window);
+    // The widest of the windows ((n+1)π, α*_{n+1}).
+    let spacing = (0..to).map(|n| alpha_star(n + 1) - (n + 1) as f64 * PI).fold(0.0, f64::max)
+        / (samples - 1) as f64;
+    Ok(HopperBasins { basins, spacing })
+}
+
+/// The traps of α*_0 … α*_`to`−1 and the gaps between `branches` below `top` in which the hopper is grounded, with labels.
+pub(crate) fn traps_and_grounding(
+    fates: &Fates,
+    branches: &[Branch],
+    to: u64,
+    top: f64,
+) -> Result<Vec<(Interval, u16)>, Error> {
+    let mut traps = grounded(fates, branches, top);
     for n in 0..to {
         let trap = fates.trap(n)?;
         let right = trap.right().min(alpha_star(n + 1).next_down());
@@ -67,12 +83,7 @@ pub fn hopper_basins(
         }
         traps.push((Interval::new(trap.fixed_point.value(), right)?, n as u16));
     }
-    let whole = Interval::new(0.0, top)?;
-    let basins = interval_basins(fates, &traps, &branches, whole, refinement)?.within(window);
-    // The widest of the windows ((n+1)π, α*_{n+1}).
-    let spacing = (0..to).map(|n| alpha_star(n + 1) - (n + 1) as f64 * PI).fold(0.0, f64::max)
-        / (samples - 1) as f64;
-    Ok(HopperBasins { basins, spacing })
+    Ok(traps)
 }
 
 /// The gaps between branches in which the hopper is grounded, with their label.

@@ -6,7 +6,7 @@ use hopper_asymptotics::{
     Coefficients, Decay, Form, LeftExpansion, RightExpansion, trap_length_series, fixed_point_series, small_hop_loss,
 };
 use hopper_basin::{
-    Fates, HopperFate, Trap, basin_columns, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, immediate_basin,
+    CircleLimits, EdgeChart, Fates, HopperFate, PhaseBasins, Trap, basin_columns, basin_levels, basin_raster, branches, crisis, grounding, hopper_basins, immediate_basin,
     basin_fractions, first_humps, upper_crisis_bracket,
 };
 use hybrid_system::{Execution, Limits};
@@ -115,6 +115,17 @@ fn basins(ratio: MassRatio, n: u64, [b, c, d, e]: [f64; 4]) {
         let (all, resolved) = (found.basins.basin_length_of(|_| true), found.basins.resolved_length_of(|_| true));
         assert!(all.lower <= resolved && resolved <= all.upper, "{all:?} {resolved}");
     }
+    let limits = CircleLimits { refinement, window_samples: few, fate_samples: few };
+    if let Ok(circle) = PhaseBasins::new(&fates, n % 12, limits) {
+        let fractions = circle.fractions();
+        let sum: f64 = fractions.labels().map(|label| fractions.of(label).lower).sum();
+        assert!(sum <= 1.0 + 1e-12, "{fractions:?}");
+        let _ = (circle.label_at(b, c), circle.label_at(d, 0.0), circle.phase_of(e), circle.share(b, c));
+        if let Ok(chart) = EdgeChart::onto(&fates, n % 12, d) {
+            let _ = (chart.label(&circle, b.into()), chart.share(&circle, c.into(), e.into()));
+        }
+    }
+    let _ = EdgeChart::near(&fates, d);
     let _ = (immediate_basin(fates.map(), from, b.abs().max(1e-2)), upper_crisis_bracket(from, b.abs().max(0.1), 20.0));
 }
 

@@ -1,0 +1,31 @@
+//! Which fates are shown at every scale left of a fixed point?
+//!
+//! Left of α*_n the fate of a speed depends on the fraction of its Fatou coordinate alone (docs/theory.md, Section 16). So one
+//! circle of phases, [`phase_basins`], has all that is seen there, however near to α*_n. It is found on one fundamental domain
+//! of speeds.
+//!
+//! ```text
+//!   circle_limits.rs        how far the circle is refined; what its labels stand on
+//!   fundamental_domain.rs   the speeds from α*_n + f(δ₀) to α*_n + δ₀, and their phases
+//!   labelled_speeds.rs      the domain as intervals with certain ends
+//!   falls_onto.rs           what the orbit of a boundary point comes to
+//!   phase_basins.rs         the intervals of phase; look-ups
+//!   phase_shares.rs         sums over an interval of phases
+//!   edge_chart.rs           windows about a speed that comes to α*_n exactly
+//!   edge_derivatives.rs     the derivatives of many hops there, from differences in longer arithmetic
+//!   edge_search.rs          the speeds near a given one that come to a fixed point
+//!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
+//! ```
+//!
+//! This room uses `basins`, `fates` and `traps`.
+
+pub(crate) mod circle_limits;
+pub(crate) mod edge_chart;
+pub(crate) mod edge_derivatives;
+pub(crate) mod edge_search;
+pub(crate) mod falls_onto;
+pub(crate) mod fundamental_domain;
+pub(crate) mod labelled_speeds;
+pub(crate) mod local_fractions;
+pub(crate) mod phase_basins;
+pub(crate) mod phase_shares;
