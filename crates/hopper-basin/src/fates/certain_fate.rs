@@ -57,17 +57,13 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         let Verdict::Inconclusive { .. } = signed.0 else { return Ok(signed) };
         let mut verdict = signed;
         for (arithmetic, most) in Arithmetic::ALL.into_iter().zip(EXTENDED_BUDGETS) {
-            // The error of a phase is the same in all arithmetics. Where it leaves the fate open, hops one by one may decide it.
-            for jumps in [true, false] {
-                match self.in_extended(alpha, (budget, most), arithmetic, jumps)? {
-                    (Some(inconclusive @ Verdict::Inconclusive { .. }), hops) => {
-                        verdict = (inconclusive, hops);
-                    }
-                    (Some(decided), hops) => return Ok((decided, hops)),
-                    // A longer arithmetic would use up its budget as well.
-                    (None, _) if jumps => return Ok(verdict),
-                    (None, _) => {}
+            match self.in_extended(alpha, (budget, most), arithmetic)? {
+                (Some(inconclusive @ Verdict::Inconclusive { .. }), hops) => {
+                    verdict = (inconclusive, hops);
                 }
+                (Some(decided), hops) => return Ok((decided, hops)),
+                // A longer arithmetic would use up its budget as well.
+                (None, _) => break,
             }
         }
         Ok(verdict)
@@ -124,13 +120,12 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
     }
 
     /// The verdict in longer arithmetic, within a budget of hops of the caller and one of this arithmetic; `None` if the
-    /// second is used up. Without `jumps` every hop is followed.
+    /// second is used up.
     fn in_extended(
         &self,
         alpha: f64,
         (budget, most): (usize, usize),
         arithmetic: Arithmetic,
-        jumps: bool,
     ) -> Result<(Option<Verdict>, usize), Error> {
         let mut orbit = ExtendedOrbit::new(self.map, alpha, arithmetic)?;
         let mut hops = 0;
@@ -155,7 +150,10 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
             if followed >= most {
                 return Ok((None, hops));
             }
-            if jumps && let Some(jumped) = self.jump_in_extended(n + 1, &mut orbit)? {
+            // A jump leaves the error of its phase, the same in all arithmetics. Where a longer one can follow the slow hops, it
+            // keeps its digits.
+            let fewest = if arithmetic == Arithmetic::Bits106 { 1 } else { most - followed };
+            if let Some(jumped) = self.jump_in_extended(n + 1, fewest, &mut orbit)? {
                 hops = hops.saturating_add(jumped);
                 continue;
             }
@@ -170,14 +168,20 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         Ok((Some(Verdict::Budget), hops))
     }
 
-    /// Moves the orbit to the end of its slow hops left of α*_n, and gives their number; `None` if it is not near.
-    fn jump_in_extended(&self, n: u64, orbit: &mut ExtendedOrbit) -> Result<Option<usize>, Error> {
+    /// Moves the orbit to the end of its slow hops left of α*_n, and gives their number; `None` if it is not near, or they are
+    /// less than `fewest`.
+    fn jump_in_extended(
+        &self,
+        n: u64,
+        fewest: usize,
+        orbit: &mut ExtendedOrbit,
+    ) -> Result<Option<usize>, Error> {
         if SlowSides::offset_if_near(orbit.speed().min(below(n)), n).is_none() {
             return Ok(None);
         }
         let (offset, rest, error) = orbit.long_offset_from(n);
         let Some(jump) = self.slow.long_jump(n, (offset, rest), error) else { return Ok(None) };
-        if jump.hops == 0 {
+        if jump.hops < fewest as u64 {
             return Ok(None);
         }
         orbit.move_to(n, jump.delta, jump.error)?;
