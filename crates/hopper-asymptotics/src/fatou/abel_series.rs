@@ -207,7 +207,7 @@ impl AbelSeries {
     }
 
     /// Bound on the error of Σ d_k x^k with that of the series.
-    fn series_error(&self, x: f64) -> f64 {
+    pub(crate) fn series_error(&self, x: f64) -> f64 {
         let y = x / self.whole;
         let series = self.errors.iter().rev().fold(0.0, |sum, error| sum * y + error);
         // The tail has fewer than 40 roundings, and x errs by an ulp, which moves x^k by k ulps.
@@ -260,7 +260,7 @@ impl AbelSeries {
         let x = (1.0 / (self.drift * p)).min(self.whole);
         let found = self.value(x);
         let error = found.error + count.error + (found.hops - count.hops).abs();
-        // The slope by p is at least one half (docs/theory.md, Section 16): p errs by at most twice as much, and x by r/(1 − r).
+        // The slope by p is at least one half (docs/theory.md, Lemma 92.2): p errs by at most twice as much, and x by r/(1 − r).
         let relative = 2.0 * error / p;
         let inside = relative <= LARGEST_ERROR && p * (1.0 - relative) >= SHORTEST * smallest;
         (x, if inside { relative / (1.0 - relative) + f64::EPSILON } else { f64::INFINITY })

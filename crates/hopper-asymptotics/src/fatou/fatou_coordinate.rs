@@ -64,6 +64,9 @@ pub struct SlowJump {
     pub count: HopCount,
 }
 
+/// The largest error of the offset of a [`FatouCoordinate::long_jump`], as a part of the offset.
+const LARGEST_PART: f64 = 0.05;
+
 /// The largest number of hops of one [`SlowJump`]: an `f64` up to it has its digit of one half.
 const LARGEST_JUMP: f64 = 4.5e15;
 
@@ -234,7 +237,8 @@ impl FatouCoordinate {
         let count = self.count_within(delta, error).ok()?;
         let first = self.series.end_of_jump();
         let hops = (count.hops - first).floor();
-        if !(count.error <= largest && (0.0..=LARGEST_JUMP).contains(&hops)) {
+        let known = self.side == Side::Left && count.error <= largest;
+        if !(known && (0.0..=LARGEST_JUMP).contains(&hops)) {
             return None;
         }
         Some(self.land(hops as u64, HopCount { hops: count.hops - hops, ..count }))
@@ -251,22 +255,30 @@ impl FatouCoordinate {
         SlowJump { hops, delta, error, count }
     }
 
-    /// As [`jump`](Self::jump), from `delta` + `rest`, at most half an ulp apart, with the longer [`phase`](Self::phase).
+    /// As [`jump`](Self::jump), from `delta` + `rest`, at most half an ulp apart, with the longer [`phase`](Self::phase). `None` also
+    /// for an error above a twentieth of |δ|.
     pub fn long_jump(
         &self,
         (delta, rest): (f64, f64),
         error: f64,
         largest: f64,
     ) -> Option<SlowJump> {
-        self.check(delta * self.side.sign() > 0.0 && delta.abs() <= self.range(), delta).ok()?;
+        if !(self.side == Side::Left && delta < 0.0 && -delta <= self.range()) {
+            return None;
+        }
         let phase = self.phase(Offset::from(delta)).ok()?;
         let whole =
             i64::try_from(phase.whole()).ok().filter(|&whole| whole < LARGEST_JUMP as i64)?;
         let root = pxfm::f_cbrt(delta.abs());
         let slope = self.series.slope(root) * self.side.sign() / (3.0 * root * root); // dΨ/dδ
-        // The exact slope lies within half of this one (docs/theory.md, Section 16). An error as large as δ has no
-        // meaning; `largest` refuses it.
-        let error = phase.error() + 1.5 * error * slope.abs() + 0.5 * (rest * slope).abs();
+        if !(error + rest.abs() <= LARGEST_PART * delta.abs()) {
+            return None;
+        }
+        // docs/theory.md, Lemma 92.1. The slope grows like |δ|^{−4/3}: by less than a half over a twentieth of δ.
+        let error = phase.error()
+            + 2.0 * self.series.series_error(root)
+            + 1.5 * error * slope.abs()
+            + 4.0 * f64::EPSILON * (rest * slope).abs();
         let fraction = phase.fraction() + rest * slope;
         let nearest = self.series.nearest();
         let last = (nearest.hops + nearest.error + error - fraction).ceil();
