@@ -71,7 +71,7 @@ fn sine_like(width: f64, shift: u32, largest: f64, factor: impl Fn(usize) -> f64
 }
 
 impl LocalHopModel {
-    /// The hop on one side of a fixed point. For the left side |δ| must not exceed 10⁻³ up to `width`.
+    /// The hop on one side of a fixed point. For the left side |δ| must not exceed 0.0109 up to `width` (docs/theory.md, Theorem 81).
     pub(crate) fn new(local: &Coefficients, mass_ratio: MassRatio, side: Side, width: f64) -> Self {
         let first = FirstFlight::new(local, side, width);
         let mut squares = &first.closing * &first.closing;

@@ -10,14 +10,16 @@ use crate::fatou::polynomial::ORDER;
 use crate::fatou::taylor_model::Model;
 use passive_hopper::MassRatio;
 
-/// The largest |t|. At 0.2 |δ| is below 7.5·10⁻⁴, where Theorem 68 holds. A larger value would need more terms.
-const LARGEST_WIDTH: f64 = 0.2;
+/// The largest |t|. At 0.3 |δ| is below 2.5·10⁻³: one sudden lift-off follows up to 0.0109 (docs/theory.md, Theorem 81). The
+/// polynomials err by some 10⁻⁶ there. A larger value would need more terms.
+const LARGEST_WIDTH: f64 = 0.3;
 
 /// The largest A x. Beyond it an orbit leaves within some hops.
-const LARGEST_TURN: f64 = 0.6;
+const LARGEST_TURN: f64 = 1.2;
 
-/// Newton steps for |t|: the first guess has an error of some per cent, and four steps reach the last bit.
-const NEWTON_STEPS: usize = 4;
+/// Newton steps for |t|. The first guess errs by some 10⁻³ of it, a step squares the error and multiplies it by some hundredths,
+/// and two steps reach the last bit.
+const NEWTON_STEPS: usize = 2;
 
 /// Relative rounding error of a hop's δ′ in ulps: the sums of two polynomials, a cube root, and some products.
 const HOP_ULPS: f64 = 16.0;
@@ -73,7 +75,8 @@ impl OutwardWalk {
         }
         // u with width · u · root(u) = x.
         let target = x / self.width;
-        let mut u = target / self.root[0];
+        let first = target / self.root[0];
+        let mut u = first * (1.0 - first * self.root[1] / self.root[0]);
         for _ in 0..NEWTON_STEPS {
             let (root, slope) = value_and_slope(&self.root, u);
             u -= (u * root - target) / (root + u * slope);
@@ -126,7 +129,7 @@ mod tests {
                 let (found, error) = walk.hop(delta, 0.0).unwrap();
                 let off = (found - next(delta)).abs();
                 assert!(off <= error + 8.0 * f64::EPSILON * found.abs(), "{n} {m} {delta:e}");
-                assert!(error <= 1e-8 * found.abs(), "{n} {m} {delta:e}: {error:e}");
+                assert!(error <= 2e-6 * found.abs(), "{n} {m} {delta:e}: {error:e}");
                 let spread = 1e-3 * -delta;
                 let (found, error) = walk.hop(delta, spread).unwrap();
                 let ends = [next(delta + spread), next(delta - spread)];

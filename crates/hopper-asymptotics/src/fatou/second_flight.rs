@@ -7,7 +7,7 @@
 //!   Γ₂ = −t² w [V w C₂ − |t| w² S₃ + X̂ S₁]
 //! ```
 //!
-//! Proof: docs/theory.md, Theorem 68.
+//! Proof: docs/theory.md, Theorem 36; Theorem 81 that this is the landing, and the last one; Lemma 91.
 
 use crate::fatou::polynomial::{EVEN_POWERS, ORDER, Polynomial, Truncated};
 use crate::fatou::taylor_model::Model;

@@ -13,14 +13,14 @@ use std::sync::OnceLock;
 /// The number of fixed points whose coordinates are stored. Those of larger n are computed at each use.
 const KEPT: usize = 64;
 
-/// No series of a Fatou coordinate begins farther from its fixed point: |δ| = (|t|/β)³ up to terms of relative size |t|, with
-/// |t| ≤ 0.2 and β ≥ 2.24, is below 7.5·10⁻⁴.
-const FARTHEST: f64 = 1e-3;
+/// No walk or jump begins farther from its fixed point: |δ| = (|t|/β)³ up to terms of relative size |t|, with |t| ≤ 0.3 and β ≥ 2.24,
+/// is below 2.5·10⁻³.
+const FARTHEST: f64 = 3e-3;
 
-/// The farthest |δ| of a walk left of α*_n, or more: A |δ|^{1/3} ≤ 0.6.
+/// The farthest |δ| of a walk left of α*_n, or more: A |δ|^{1/3} ≤ 1.2.
 fn farthest(n: u64, mass_ratio: MassRatio) -> f64 {
     let Ok(local) = Coefficients::new(n, mass_ratio, Form::Corrected) else { return 0.0 };
-    let root = 0.6 / (10.0 / 3.0 * local.lambda);
+    let root = 1.2 / (10.0 / 3.0 * local.lambda);
     (1.1 * root * root * root).min(FARTHEST)
 }
 

@@ -2,6 +2,7 @@
 
 mod hops;
 mod rasters;
+mod zooms;
 
 use crate::error::Error;
 use crate::timing::sin_cos_seconds;
@@ -24,7 +25,7 @@ const REPEATS: usize = 15;
 
 /// All figures, measured in one run.
 pub(crate) fn measure(progress: &Progress) -> Result<Vec<Measured>, Error> {
-    let bar = progress.bar("speed", 4);
+    let bar = progress.bar("speed", 5);
     let (checked, landings) = (hops::check()?, hops::check_landings()?);
     bar.set(1);
     // A processor is slower just after an idle time. The unit is therefore measured before and after the hops, and the
@@ -42,6 +43,8 @@ pub(crate) fn measure(progress: &Progress) -> Result<Vec<Measured>, Error> {
         figure("hops_per_second_per_core", 1.0 / bulk, "1/s"),
     ];
     figures.extend(rasters::measure(&bar)?);
+    figures.extend(zooms::measure()?);
+    bar.set(5);
     bar.finish();
     Ok(figures)
 }
