@@ -122,7 +122,7 @@ pub(super) fn boundary_boxes(
             "left of $α$^{{∗}}_{{2}} at $M$ = {M} the boxes of size $ε$ = 10^{{−16}} number {:.5} $ε$^{{−1/4}} for one \
              backward orbit (law: 4 ({left_factor}$λ$)^{{−3/4}} = {constant:.5}) and {:.5} $ε$^{{−1/4}} for the whole \
              boundary, which is {} such orbits (law: {:.5}): dimension 1/4. Whole humps have the local slopes {} at \
-             10^{{−9.5}}; that they tend to 1/4 is Conjecture 47",
+             10^{{−9.5}}; they tend to 1/4 by Corollary 90, on the condition of Theorem 46",
             single[1],
             whole[1],
             starts.len(),
