@@ -7,8 +7,8 @@ use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, OrbitTangent,
 };
 
-/// The largest distance of a start from the reference, and the next one that is tried. At 10⁻⁸ the second order of the tangent
-/// moves a phase by some 10⁻³; the error of an orbit in `f64` is about as large there. Larger values gain nothing.
+/// The largest distance of a start from the reference, and the next ones that are tried where the orbits do not hop alike. At 10⁻⁶
+/// the bound on the third order moves a phase by some 10⁻⁴; an orbit in `f64` has a smaller error there.
 const RADII: [f64; 3] = [1e-6, 3e-8, 1e-9];
 
 /// The starts near one that falls onto α*_n.
