@@ -7,6 +7,7 @@
 //!   hop_count.rs          a number of hops in f64
 //!   abel_series.rs        the series of Ψ in x = |δ|^{1/3}, with a bound on its error
 //!   leading_term.rs       1/(A x) + c ln x to any number of digits
+//!   slow_jump.rs          jumps over many hops
 //!   outward_walk.rs       fast single hops, from where a jump ends
 //!   slow_hops.rs          single hops, where the series has no value
 //!   local_hop_model.rs    a hop as Taylor models
@@ -27,4 +28,5 @@ pub(crate) mod phase;
 pub(crate) mod polynomial;
 pub(crate) mod second_flight;
 pub(crate) mod slow_hops;
+pub(crate) mod slow_jump;
 pub(crate) mod taylor_model;
