@@ -17,6 +17,10 @@
 //! | [`RightExpansion`], [`LeftExpansion`] | the map to higher orders on either side |
 //! | [`ExpansionValue`] | a value of an expansion, with a bound on its error |
 //! | [`Decay`] | the law of the algebraic approach, and the number of hops that it takes |
+//! | [`FatouCoordinate`], [`Side`] | the number of hops along the slow side, counted continuously, with a bound |
+//! | [`Phase`], [`Offset`] | its value, an integer of any size with a fraction; an offset such as 10⁻¹⁰⁰⁰ |
+//! | [`Escape`] | the law of the escape to the left, the twin of [`Decay`] |
+//! | [`SlowJump`], [`OutwardWalk`], [`HopCount`] | many hops jumped over, and single hops, in `f64` with bounds |
 //! | [`fixed_point_series`], [`trap_length_series`] | α*_n for large n, and Δ_n for large λ |
 //! | [`small_hop_loss`] | the map about α*_0 = 0 |
 //!
@@ -71,6 +75,7 @@ pub use fatou::slow_jump::SlowJump;
 pub use fixed_point_series::{FIXED_POINT_REMAINDER, fixed_point_series};
 pub use left_expansion::{LEFT_RANGE, LeftExpansion};
 pub use local_map::LEFT_FACTOR;
+/// An integer of any size, of the crate `num-bigint`.
 pub use num_bigint::BigInt;
 pub use right_expansion::{RIGHT_RANGE, RightExpansion};
 pub use small_alpha::{SMALL_ALPHA_RANGE, SMALL_HOP_REMAINDER, small_hop_loss};
