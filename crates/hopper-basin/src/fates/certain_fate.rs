@@ -86,7 +86,7 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
             if followed == budget {
                 break;
             }
-            if let Some(offset) = SlowSides::offset_if_near(speed, n + 1)
+            if let Some(offset) = self.slow.offset_if_near(speed, n + 1)
                 && let Some((slow, offset, bound)) =
                     self.slow.leave(n + 1, offset, error + f64::EPSILON * -offset)
             {
@@ -176,7 +176,7 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         fewest: usize,
         orbit: &mut ExtendedOrbit,
     ) -> Result<Option<usize>, Error> {
-        if SlowSides::offset_if_near(orbit.speed().min(below(n)), n).is_none() {
+        if self.slow.offset_if_near(orbit.speed().min(below(n)), n).is_none() {
             return Ok(None);
         }
         let (offset, rest, error) = orbit.long_offset_from(n);

@@ -17,12 +17,16 @@ const KEPT: usize = 64;
 /// is below 2.5·10⁻³.
 const FARTHEST: f64 = 3e-3;
 
-/// The farthest |δ| of a walk left of α*_n, or more: A |δ|^{1/3} ≤ 1.2.
-fn farthest(n: u64, mass_ratio: MassRatio) -> f64 {
+/// The farthest |δ| left of α*_n at which A |δ|^{1/3} is at most `turn`, or more.
+fn farthest(n: u64, mass_ratio: MassRatio, turn: f64) -> f64 {
     let Ok(local) = Coefficients::new(n, mass_ratio, Form::Corrected) else { return 0.0 };
-    let root = 1.2 / (10.0 / 3.0 * local.lambda);
+    let root = turn / (10.0 / 3.0 * local.lambda);
     (1.1 * root * root * root).min(FARTHEST)
 }
+
+/// The largest A x of a walk and of a jump.
+const WALK: f64 = 1.2;
+const JUMP: f64 = 0.12;
 
 /// Largest error of a phase with which an orbit jumps. Where it decides too little, longer arithmetic has a smaller one. The
 /// fates are right with any value below 1/2; a smaller one sends more orbits to longer arithmetic at once.
@@ -33,7 +37,7 @@ const LARGEST_ERROR: f64 = 0.01;
 pub(crate) struct SlowSides {
     mass_ratio: MassRatio,
     /// The coordinates of α*_1, α*_2, …, each computed at its first use; `None` inside where there is none.
-    first: Box<[OnceLock<Option<SlowSide>>; KEPT]>,
+    first: [OnceLock<Option<Box<SlowSide>>>; KEPT],
 }
 
 /// The slow side of one fixed point.
@@ -44,22 +48,23 @@ struct SlowSide {
 }
 
 impl SlowSide {
-    fn new(n: u64, mass_ratio: MassRatio) -> Option<Self> {
+    fn new(n: u64, mass_ratio: MassRatio) -> Option<Box<Self>> {
         let psi = FatouCoordinate::new(n, mass_ratio, Side::Left).ok()?;
-        Some(SlowSide { psi, walk: OutwardWalk::new(n, mass_ratio).ok()? })
+        Some(Box::new(SlowSide { psi, walk: OutwardWalk::new(n, mass_ratio).ok()? }))
     }
 }
 
 impl SlowSides {
     pub(crate) fn new(mass_ratio: MassRatio) -> Self {
-        SlowSides { mass_ratio, first: Box::new([const { OnceLock::new() }; KEPT]) }
+        SlowSides { mass_ratio, first: [const { OnceLock::new() }; KEPT] }
     }
 
-    /// Whether an orbit at `speed` may be on the slow side of α*_n, n ≥ 1, and its offset.
+    /// The offset of an orbit at `speed` from α*_n, n ≥ 1, if it may be near enough to jump along the slow side.
     #[inline]
-    pub(crate) fn offset_if_near(speed: f64, n: u64) -> Option<f64> {
+    pub(crate) fn offset_if_near(&self, speed: f64, n: u64) -> Option<f64> {
         let offset = FixedPointSpeed::new(n).offset_of(speed);
-        (offset < 0.0 && offset > -FARTHEST).then_some(offset)
+        let near = offset < 0.0 && offset > -FARTHEST;
+        (near && -offset <= farthest(n, self.mass_ratio, JUMP)).then_some(offset)
     }
 
     /// The end of the slow hops of the orbit within `error` of α*_n + `offset`.
@@ -108,7 +113,7 @@ impl SlowSides {
         let slot = n.checked_sub(1).and_then(|index| self.first.get(usize::try_from(index).ok()?));
         match slot {
             Some(slot) => use_it(slot.get_or_init(make).as_ref()?),
-            None => use_it(&make()?),
+            None => use_it(&*make()?),
         }
     }
 }
@@ -119,8 +124,16 @@ const BEYOND: f64 = 1.0 + 1e-11;
 /// The ends of the slow sides at one mass ratio, for a fast look-up.
 #[derive(Debug, Clone)]
 pub(crate) struct SlowZones {
-    /// For n = 0, 1, …: the speeds from which an orbit may jump or walk left of α*_n, and α*_n. The first zone is empty.
-    zones: Vec<(f64, f64)>,
+    /// For n = 0, 1, …: the speeds from which an orbit may walk left of α*_n, and may jump, and α*_n. The first zone is empty.
+    zones: Vec<[f64; 3]>,
+}
+
+/// A place on the slow side of α*_n.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SlowZone {
+    pub(crate) n: u64,
+    /// Whether the orbit may be near enough to jump.
+    pub(crate) jumps: bool,
 }
 
 impl SlowZones {
@@ -128,18 +141,20 @@ impl SlowZones {
     pub(crate) fn new(mass_ratio: MassRatio, last: u64) -> Self {
         let zone = |n| {
             let star = alpha_star(n);
-            (star - farthest(n, mass_ratio), star * BEYOND)
+            let left = |turn| star - farthest(n, mass_ratio, turn);
+            [left(WALK), left(JUMP), star * BEYOND]
         };
-        let empty = (f64::INFINITY, f64::NEG_INFINITY);
+        let empty = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY];
         SlowZones { zones: std::iter::once(empty).chain((1..=last).map(zone)).collect() }
     }
 
     /// The n ≥ 1 whose slow side may contain `alpha`.
     #[inline]
-    pub(crate) fn find(&self, alpha: f64) -> Option<u64> {
+    pub(crate) fn find(&self, alpha: f64) -> Option<SlowZone> {
         // α*_n lies in (nπ, (n+1)π), and the zone is narrower than its distance from nπ.
         let n = (alpha * FRAC_1_PI) as usize;
-        let &(left, right) = self.zones.get(n)?;
-        ((alpha >= left) & (alpha <= right)).then_some(n as u64)
+        let &[walk, jump, right] = self.zones.get(n)?;
+        let zone = SlowZone { n: n as u64, jumps: alpha >= jump };
+        ((alpha >= walk) & (alpha <= right)).then_some(zone)
     }
 }

@@ -34,6 +34,8 @@ pub(crate) struct Column<'a> {
     arcs: Vec<Arcs>,
     /// Starts that fall onto fixed points, with the itineraries of all starts beside them.
     pub(crate) edges: Vec<(BesideEdge, Itinerary)>,
+    /// The number of orbits that came to a slow side, too far for a jump.
+    pub(crate) walkers: usize,
     /// The number of searches for such starts that found none.
     pub(crate) missed_edges: usize,
 }
@@ -53,6 +55,7 @@ impl<'a> Column<'a> {
             zones: SlowZones::new(fates.map().mass_ratio(), slow_sides),
             arcs: Vec::new(),
             edges: Vec::new(),
+            walkers: 0,
             missed_edges: 0,
         })
     }

@@ -2,6 +2,7 @@
 
 use crate::fates::beside_edge::BesideEdge;
 use crate::fates::hopper_fate::HopperFate;
+use crate::fates::slow_sides::SlowZone;
 use crate::raster::arcs::Arc;
 use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
@@ -20,6 +21,11 @@ const LARGEST_ERROR: f64 = 1e-4;
 const FIRST_PHASES: u32 = 16;
 const BEYOND: f64 = 0.011;
 
+/// The speeds of a column over the number of orbits that come to a slow side, too far for a jump, before its series is made. Next to
+/// an edge most orbits come there; in a whole window some do, for which the series would take longer than it saves. It affects the
+/// time only.
+const SPEEDS_OVER_WALKERS: usize = 64;
+
 /// Most searches for edges of a column that find none. Then its orbits are labelled alone. It affects the time only.
 const MOST_MISSED_EDGES: usize = 4;
 
@@ -29,9 +35,16 @@ const MOST_HOPS: usize = 2048;
 impl Strip<'_> {
     /// Where the orbit is on the slow side of a fixed point, if it may be: n, its offset, and the error of the offset.
     #[inline]
-    pub(crate) fn slow_side(&self, at: u32, hop: HopWithin) -> Option<(u64, f64, f64)> {
+    pub(crate) fn slow_side(&mut self, at: u32, hop: HopWithin) -> Option<(u64, f64, f64)> {
         let HopWithin::Next { speed, error } = hop else { return None };
-        let n = self.columns[self.orbits.all[at as usize].column as usize].zones.find(speed)?;
+        let column = &mut self.columns[self.orbits.all[at as usize].column as usize];
+        let SlowZone { n, jumps } = column.zones.find(speed)?;
+        if !jumps {
+            column.walkers += 1;
+            if column.walkers <= self.speeds.len() / SPEEDS_OVER_WALKERS {
+                return None;
+            }
+        }
         let offset = FixedPointSpeed::new(n).offset_of(speed);
         let error = error + f64::EPSILON * offset.abs();
         (offset < error).then_some((n, offset, error))
@@ -207,7 +220,7 @@ impl Strip<'_> {
             let sides = self.columns[column].fates.slow_sides();
             // A phase beyond the turn would jump back to it.
             if hops > 0
-                && let Some(n) = self.columns[column].zones.find(speed)
+                && let Some(SlowZone { n, jumps: true }) = self.columns[column].zones.find(speed)
             {
                 let offset = FixedPointSpeed::new(n).offset_of(speed);
                 if offset < 0.0 && !sides.is_beyond_jumps(n, offset) {
