@@ -22,6 +22,7 @@
 //! | [`PhaseBasins`], [`CircleLimits`] | the circle of fates left of α*_n: the basins as intervals of phase, at every scale |
 //! | [`BoundaryPhase`], [`UndecidedPhases`], [`FallsOnto`] | its boundary points and what they come to; what is undecided |
 //! | [`LocalFractions`], [`Ground`] | the shares of the fates next to α*_n, with bounds, and what the bounds stand on |
+//! | [`share_raster`], [`ShareRaster`], [`Upwards`] | the shares over mass ratio and phase, or over mass ratio and log |δ| |
 //! | [`EdgeChart`] | windows of any width about a speed that comes to α*_n exactly |
 //! | [`first_humps`] | the lift-off speeds [α*_1, α*_{k+1}]; the paper's window has k = 5 |
 //! | [`FIG_8`], [`FIG_9`] | the (M, α) windows of these figures of the paper |
@@ -67,6 +68,7 @@ pub use circle::falls_onto::FallsOnto;
 pub use circle::local_fractions::LocalFractions;
 pub use circle::phase_basins::{BoundaryPhase, PhaseBasins, UndecidedPhases};
 pub use circle::phase_shares::PhasePart;
+pub use circle::share_raster::{ShareRaster, Upwards, share_raster};
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;

@@ -15,6 +15,7 @@
 //!   edge_derivatives.rs     the derivatives of many hops there, from differences in longer arithmetic
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
+//!   share_raster.rs         the circle over M, unrolled by phase or by distance from α*_n
 //! ```
 //!
 //! This room uses `basins`, `fates` and `traps`.
@@ -29,3 +30,4 @@ pub(crate) mod labelled_speeds;
 pub(crate) mod local_fractions;
 pub(crate) mod phase_basins;
 pub(crate) mod phase_shares;
+pub(crate) mod share_raster;

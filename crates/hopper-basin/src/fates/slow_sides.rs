@@ -3,7 +3,9 @@
 //! Left of α*_n an orbit at distance |δ| takes some |δ|^{−1/3} hops to leave. The Fatou coordinate gives the point that it
 //! reaches, with an error (docs/theory.md, Section 16).
 
-use hopper_asymptotics::{Coefficients, FatouCoordinate, Form, HopCount, OutwardWalk, Side, SlowJump};
+use hopper_asymptotics::{
+    Coefficients, FatouCoordinate, Form, HopCount, OutwardWalk, Side, SlowJump,
+};
 use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::OnceLock;
@@ -101,11 +103,7 @@ impl SlowSides {
     }
 
     /// The result of `use_it` with the coordinate of α*_n.
-    fn with<T>(
-        &self,
-        n: u64,
-        use_it: impl FnOnce(&SlowSide) -> Option<T>,
-    ) -> Option<T> {
+    fn with<T>(&self, n: u64, use_it: impl FnOnce(&SlowSide) -> Option<T>) -> Option<T> {
         let make = || SlowSide::new(n, self.mass_ratio);
         let slot = n.checked_sub(1).and_then(|index| self.first.get(usize::try_from(index).ok()?));
         match slot {

@@ -35,7 +35,8 @@ impl Arcs {
         else {
             return Arc::Outside;
         };
-        let open = around.windows(2).find(|pair| !pair[0].1.itinerary.agrees_with(&pair[1].1.itinerary));
+        let open =
+            around.windows(2).find(|pair| !pair[0].1.itinerary.agrees_with(&pair[1].1.itinerary));
         match (open, around) {
             (Some(pair), _) => Arc::Open(pair[0].0, pair[1].0),
             // Without an error a phase may be a point, which has its own fate.
@@ -64,7 +65,9 @@ mod tests {
         let mut arcs = Arcs::default();
         assert_eq!(arcs.find(0.3, 0.0), Arc::Outside);
         let (first, second) = (Itinerary::in_trap(1), Itinerary::in_trap(0));
-        for (phase, itinerary, label) in [(0.4, first, 1), (0.2, first, 1), (0.6, second, 0), (0.3, first, 1)] {
+        for (phase, itinerary, label) in
+            [(0.4, first, 1), (0.2, first, 1), (0.6, second, 0), (0.3, first, 1)]
+        {
             arcs.add(phase, itinerary, label);
         }
         let known = Arc::Known(KnownFate { itinerary: first, label: 1 });

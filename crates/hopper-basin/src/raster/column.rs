@@ -1,9 +1,9 @@
 //! One column of a raster: increasing speeds at one mass ratio, their labels and their itineraries.
 
 use crate::error::Error;
+use crate::fates::beside_edge::BesideEdge;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
-use crate::fates::beside_edge::BesideEdge;
 use crate::fates::slow_sides::SlowZones;
 use crate::raster::arcs::Arcs;
 use crate::raster::itinerary::Itinerary;

@@ -96,9 +96,10 @@ impl Strip<'_> {
             edge.offset(start).map(|offset| (edge.n, offset, *itinerary))
         });
         let Some((n, (offset, error), itinerary)) = found else { return false };
-        let in_trap = column.fates.trap(n).is_ok_and(|trap| {
-            trap.side_of_offset(offset, error) == TrapSide::Inside
-        });
+        let in_trap = column
+            .fates
+            .trap(n)
+            .is_ok_and(|trap| trap.side_of_offset(offset, error) == TrapSide::Inside);
         if in_trap {
             self.orbits.all[at as usize].itinerary = itinerary;
             let known = KnownFate { itinerary: Itinerary::in_trap(n as u32), label: n as u16 };
