@@ -15,6 +15,7 @@
 //!   edge_derivatives.rs     the derivatives of many hops there, from differences in longer arithmetic
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
+//!   gap_count.rs            the number of gaps between boundary points, at any scale
 //!   share_raster.rs         the circle over M, unrolled by phase or by distance from α*_n
 //! ```
 //!
@@ -26,6 +27,7 @@ pub(crate) mod edge_derivatives;
 pub(crate) mod edge_search;
 pub(crate) mod falls_onto;
 pub(crate) mod fundamental_domain;
+pub(crate) mod gap_count;
 pub(crate) mod labelled_speeds;
 pub(crate) mod local_fractions;
 pub(crate) mod phase_basins;

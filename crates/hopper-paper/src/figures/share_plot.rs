@@ -41,7 +41,7 @@ fn minus(value: f64) -> String {
 }
 
 /// The pixels, the highest row first.
-fn png(raster: &ShareRaster) -> Result<Vec<u8>, Error> {
+pub(crate) fn png(raster: &ShareRaster) -> Result<Vec<u8>, Error> {
     let grid = raster.grid();
     let mut pixels = Vec::with_capacity(3 * grid.columns * grid.rows);
     for row in (0..grid.rows).rev() {
