@@ -13,6 +13,7 @@
 //!   phase_shares.rs         sums over an interval of phases
 //!   edge_chart.rs           windows about a speed that comes to α*_n exactly
 //!   edge_derivatives.rs     the derivatives of many hops there, from differences in longer arithmetic
+//!   edge_window.rs          the pixels of a window about such a speed
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
 //!   gap_count.rs            the number of gaps between boundary points, at any scale
@@ -25,6 +26,7 @@ pub(crate) mod circle_limits;
 pub(crate) mod edge_chart;
 pub(crate) mod edge_derivatives;
 pub(crate) mod edge_search;
+pub(crate) mod edge_window;
 pub(crate) mod falls_onto;
 pub(crate) mod fundamental_domain;
 pub(crate) mod gap_count;

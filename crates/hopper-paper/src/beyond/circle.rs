@@ -74,7 +74,10 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
     legend(&mut svg);
     for (n, m) in [(1, 0.2), (2, 0.12), (2, 0.2), (3, 0.2), (1, 0.8), (2, 0.8), (3, 0.8)] {
         let found = PhaseBasins::new(&fates(m)?, n, CircleLimits::default())?.fractions();
-        let cell = |label: u16| format!("{:.7}", found.of(label).middle());
+        let cell = |label: u16| {
+            let share = found.of(label);
+            format!("{:.7} ± {:.0e}", share.middle(), share.half_width())
+        };
         let shares = [0, 1, 2, HopperFate::GROUNDED].map(cell);
         table.row([format!("{n}"), format!("{m}")].into_iter().chain(shares));
     }
@@ -88,7 +91,8 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
                     covers, mixed as light. Below: the local fractions $p$_{n,k}, the share of each basin in \
                     ($α$^{∗}_{n} − $ε$, $α$^{∗}_{n}) as $ε$ → 0; the decaying share is black. A circle of one colour has no \
                     structure at any scale: that of $α$^{∗}_{1} up to the first grounding, $M$ = 0.3275, and that of \
-                    $α$^{∗}_{n} up to the crisis $M$_{c}($n$ − 1). The table has the shares with an error below 10^{−6}."
+                    $α$^{∗}_{n} up to the crisis $M$_{c}($n$ − 1). Bands that are steeper than a pixel is wide look dotted: the \
+                    circle of a column is that of its middle."
                 .into(),
             svg,
             data: vec![csv_file("circle.csv", &["n", "mass_ratio", "label", "share"], data)?],

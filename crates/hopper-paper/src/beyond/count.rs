@@ -89,7 +89,10 @@ pub(super) fn count(_: &Job) -> Result<Finding, Error> {
         svg.text(left.left + 28.0, y + 4.0, Anchor::Start, 12.0, name);
     }
     let powers = |frame: (f64, f64), sign: &str| -> Vec<(f64, String)> {
-        let label = |(value, _): (f64, String)| (value, format!("10^{{{sign}{value:.0}}}"));
+        let label = |(value, _): (f64, String)| {
+            let sign = if value == 0.0 { "" } else { sign };
+            (value, format!("10^{{{sign}{value:.0}}}"))
+        };
         ticks(frame, 5).into_iter().map(label).collect()
     };
     left.axes(&mut svg, &powers(x, "−"), &powers(left.y, ""), "scale $ε$", "number");

@@ -4,6 +4,7 @@
 //! tiles and compared with them. The tiles are removed only after this comparison.
 
 use super::share_files::{self, Shares};
+use super::zoom_files::{self, Zoom};
 use crate::error::Error;
 use crate::figures::basin_plot::{PIXELS, Window, draw_basins};
 use basin_of_attraction::{Grid, Interval, LabelImage};
@@ -43,6 +44,15 @@ pub struct Options {
     /// With --about: the phase instead of the distance, so many turns of the circle of fates
     #[arg(long, value_name = "TURNS", requires = "about", conflicts_with = "offset")]
     turns: Option<f64>,
+    /// Make a sequence of frames into the edge of a basin next to this speed, at this mass ratio
+    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], conflicts_with_all = ["about", "speed"])]
+    zoom: Option<Vec<f64>>,
+    /// With --zoom: the number of frames; the first has the half height 1
+    #[arg(long, value_name = "COUNT", requires = "zoom", default_value_t = 101)]
+    frames: usize,
+    /// With --zoom: decades from one frame to the next
+    #[arg(long, value_name = "DECADES", requires = "zoom", default_value_t = 1.0)]
+    step: f64,
 }
 
 /// Columns of a tile. A killed run loses one unfinished tile for each thread: with wider tiles more work is lost.
@@ -68,6 +78,12 @@ pub fn run(options: &Options) -> Result<(), Error> {
     if let Some(n) = options.about {
         let Options { out, mass_ratio, pixels, offset, turns, .. } = options.clone();
         return share_files::run(&Shares { n, out, mass_ratio, pixels, offset, turns });
+    }
+    if let (Some(&[mass_ratio, speed]), &[_, rows]) =
+        (options.zoom.as_deref(), options.pixels.as_slice())
+    {
+        let Options { out, frames, step, .. } = options.clone();
+        return zoom_files::run(&Zoom { out, mass_ratio, speed, frames, step, rows });
     }
     let grid = grid(options)?;
     let folder = Folder::open(&options.out)?;
@@ -240,6 +256,9 @@ mod tests {
             about: None,
             offset: None,
             turns: None,
+            zoom: None,
+            frames: 1,
+            step: 1.0,
         };
         let (m, alpha) = ([0.1, 1.0], [4.5, 20.0]);
         assert!(grid(&options(m, alpha, [10, 20])).is_ok());

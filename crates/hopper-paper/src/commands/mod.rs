@@ -8,3 +8,4 @@ pub mod model_figures;
 pub mod reproduce_paper;
 mod share_files;
 pub mod verify_invariance;
+mod zoom_files;
