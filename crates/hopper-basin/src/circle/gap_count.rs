@@ -216,7 +216,7 @@ impl GapCount {
     /// The gaps next to a limit point in all turns from Ψ = `first` on.
     fn beyond_resolution(&self, limit: &Limit, first: f64, ln_epsilon: f64) -> f64 {
         let at_width =
-            |width: f64| limit.of.from_turn(limit.start, ln_epsilon - limit.scale - width);
+            |width: f64| limit.of.beyond_turn(limit.start, ln_epsilon - limit.scale - width);
         let turn = |psi: f64| at_width(-self.ln_slope(self.inverse(psi)));
         let single = (0..SINGLE_TURNS).map(|k| match limit.widths.get(k) {
             Some(&width) if first == limit.first => at_width(width),
@@ -236,7 +236,7 @@ impl GapCount {
     }
 
     /// The number of gaps longer than ε from Ψ = `start` on, on average over the place of the start in its turn.
-    fn from_turn(&self, start: f64, ln_epsilon: f64) -> f64 {
+    fn beyond_turn(&self, start: f64, ln_epsilon: f64) -> f64 {
         let turns = |gap: &Gap| (self.last_turn(gap, ln_epsilon) - start).max(0.0);
         let own: f64 = self.gaps.iter().map(turns).sum();
         let deeper = self

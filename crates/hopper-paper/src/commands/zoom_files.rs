@@ -93,7 +93,7 @@ fn draw_frame(
     legend(&mut svg, frame.left, labels(std::iter::once(pixels)).into_iter());
     let scale = format!("$h$ = 10^{{{}}}", exponent(depth));
     svg.text(frame.left, 54.0, Anchor::Start, 16.0, &scale);
-    let point = format!("$M$ = {}, $p$ = {:.12} …", zoom.mass_ratio, chart.point().0);
+    let point = format!("$M$ = {}, $p$ ≈ {:?}", zoom.mass_ratio, chart.point().0);
     svg.text(frame.left + frame.width, 54.0, Anchor::End, 11.5, &point);
     Ok(svg)
 }
@@ -113,7 +113,7 @@ fn draw_all(zoom: &Zoom, chart: &EdgeChart, all: &[Vec<LocalFractions>]) -> Resu
         .collect();
     frame.axes(&mut svg, &scales, &half_heights(), "half height $h$", "speed $α$ − $p$");
     legend(&mut svg, frame.left, labels(frames.iter().copied()).into_iter());
-    let point = format!("$M$ = {}, $p$ = {:.12} …", zoom.mass_ratio, chart.point().0);
+    let point = format!("$M$ = {}, $p$ ≈ {:?}", zoom.mass_ratio, chart.point().0);
     svg.text(frame.left + frame.width, 28.5, Anchor::End, 11.5, &point);
     Ok(svg)
 }
@@ -145,4 +145,47 @@ fn png(frames: &[&[LocalFractions]]) -> Result<Vec<u8>, Error> {
         }
     }
     Ok(rgb_png("zoom", frames.len(), rows, &bytes)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn zoom(out: PathBuf) -> Zoom {
+        let speed = 11.920_553_918_335_777;
+        Zoom { out, mass_ratio: 0.12, speed, frames: 3, step: 50.0, rows: 7 }
+    }
+
+    #[test]
+    fn zooms_without_frames_or_edge_are_refused_before_anything_is_written() {
+        let good = zoom("/nowhere".into());
+        let wrong = [
+            Zoom { frames: 0, ..good.clone() },
+            Zoom { frames: usize::MAX, ..good.clone() },
+            Zoom { rows: 0, ..good.clone() },
+            Zoom { rows: usize::MAX, ..good.clone() },
+            Zoom { step: 0.0, ..good.clone() },
+            Zoom { step: f64::NAN, ..good.clone() },
+            Zoom { step: f64::INFINITY, ..good.clone() },
+            Zoom { mass_ratio: -1.0, ..good.clone() },
+            Zoom { speed: f64::NAN, ..good.clone() },
+            // Left of α*_1 there is no edge.
+            Zoom { speed: 4.0, ..good.clone() },
+        ];
+        for zoom in wrong {
+            assert!(run(&zoom).is_err(), "{zoom:?}");
+        }
+    }
+
+    #[test]
+    fn every_frame_is_a_numbered_file() {
+        let name = format!("hopper_zoom_{}", std::process::id());
+        let folder = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        run(&zoom(folder.clone())).unwrap();
+        for name in ["zoom_0000.png", "zoom_0001.png", "zoom_0002.png", OVERVIEW] {
+            assert!(std::fs::read(folder.join(name)).unwrap().starts_with(b"\x89PNG"), "{name}");
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
 }
