@@ -23,6 +23,7 @@
 //! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, from perturbed starts or from intervals |
 //! | [`LabelImage::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
+//! | [`columns_in_parallel`] | any values of the columns of a raster |
 //!
 //! ```
 //! use basin_of_attraction::{Fate, Interval, TrapSet, classify};
@@ -84,7 +85,7 @@ pub use interval_basins::{IntervalBasins, LabelledInterval, interval_basins};
 pub use power_law::{PowerLaw, Warning, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
-pub use raster::{Grid, LabelImage, LegendEntry, raster, raster_by_strips};
+pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
 pub use refinement::{Refinement, StopReason};
 pub use sampling::{
     EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions,

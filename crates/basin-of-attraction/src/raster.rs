@@ -154,32 +154,25 @@ pub fn raster_by_strips<E: From<Error> + Send>(
     let pixels = grid.pixels()?;
     let ys: Vec<f64> = (0..rows).map(|row| grid.y_at(row)).collect();
     let xs: Vec<f64> = (0..columns).map(|column| grid.x_at(column)).collect();
+    let width = width.max(1);
+    let strips = columns.div_ceil(width);
+    let labelled = |at: usize| {
+        let xs = &xs[at * width..columns.min((at + 1) * width)];
+        let labels = strip(xs, &ys)?;
+        if labels.len() != xs.len() || labels.iter().any(|column| column.len() != rows) {
+            let found = labels.iter().map(Vec::len).sum();
+            return Err(E::from(Error::BadStrip { found, columns: xs.len(), rows }));
+        }
+        Ok(labels)
+    };
     let finished = AtomicUsize::new(0);
-    let interrupted = AtomicBool::new(false);
-    let by_column: Vec<Vec<u16>> = xs
-        .par_chunks(width.max(1))
-        .map(|xs| {
-            if interrupted.load(Ordering::Relaxed) {
-                return Ok(Vec::new());
-            }
-            let labels = strip(xs, &ys)?;
-            if labels.len() != xs.len() || labels.iter().any(|column| column.len() != rows) {
-                let found = labels.iter().map(Vec::len).sum();
-                return Err(Error::BadStrip { found, columns: xs.len(), rows }.into());
-            }
-            let done = finished.fetch_add(xs.len(), Ordering::Relaxed) + xs.len();
-            if progress(done).is_break() {
-                interrupted.store(true, Ordering::Relaxed);
-            }
-            Ok(labels)
-        })
-        .collect::<Result<Vec<_>, E>>()?
-        .into_iter()
-        .flatten()
-        .collect();
-    if interrupted.into_inner() {
+    let count = |labels: &Vec<Vec<u16>>| {
+        progress(finished.fetch_add(labels.len(), Ordering::Relaxed) + labels.len())
+    };
+    let Some(by_strip) = in_parallel(strips, labelled, count)? else {
         return Err(Error::Interrupted { finished: finished.into_inner(), columns }.into());
-    }
+    };
+    let by_column: Vec<Vec<u16>> = by_strip.into_iter().flatten().collect();
     let mut labels = vec![0; pixels];
     // The columns are transposed into rows, band by band, so that every cache line of a column is read once.
     labels.par_chunks_mut(BAND * columns).enumerate().for_each(|(band, lines)| {
@@ -191,6 +184,52 @@ pub fn raster_by_strips<E: From<Error> + Send>(
         }
     });
     Ok(LabelImage { grid, labels })
+}
+
+/// One value of any type for each column of a raster, in order, computed in parallel. `progress` is as for [`raster`].
+///
+/// ```
+/// use basin_of_attraction::{Error, columns_in_parallel};
+/// use std::ops::ControlFlow::Continue;
+/// let squares = columns_in_parallel::<_, Error>(4, |column| Ok(column * column), |_| Continue(()))?;
+/// assert_eq!(squares, [0, 1, 4, 9]);
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// # Errors
+/// Those of `column`; [`Error::Interrupted`] if `progress` stops the work.
+pub fn columns_in_parallel<T: Send, E: From<Error> + Send>(
+    columns: usize,
+    column: impl Fn(usize) -> Result<T, E> + Sync,
+    progress: impl Fn(usize) -> ControlFlow<()> + Sync,
+) -> Result<Vec<T>, E> {
+    let finished = AtomicUsize::new(0);
+    let count = |_: &T| progress(finished.fetch_add(1, Ordering::Relaxed) + 1);
+    let found = in_parallel(columns, column, count)?;
+    found.ok_or_else(|| Error::Interrupted { finished: finished.into_inner(), columns }.into())
+}
+
+/// The values of all pieces in order; `None` if `finished` stops the work, which is called once for each piece.
+fn in_parallel<T: Send, E: Send>(
+    pieces: usize,
+    piece: impl Fn(usize) -> Result<T, E> + Sync,
+    finished: impl Fn(&T) -> ControlFlow<()> + Sync,
+) -> Result<Option<Vec<T>>, E> {
+    let interrupted = AtomicBool::new(false);
+    let found: Vec<Option<T>> = (0..pieces)
+        .into_par_iter()
+        .map(|at| {
+            if interrupted.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            let value = piece(at)?;
+            if finished(&value).is_break() {
+                interrupted.store(true, Ordering::Relaxed);
+            }
+            Ok(Some(value))
+        })
+        .collect::<Result<_, E>>()?;
+    Ok(if interrupted.into_inner() { None } else { found.into_iter().collect() })
 }
 
 #[cfg(test)]

@@ -38,3 +38,53 @@ pub(crate) fn name(label: u16) -> String {
         n => format!("to $α$^{{∗}}_{{{n}}}"),
     }
 }
+
+/// The colour of a pixel that covers several fates: the light of their colours mixed by their shares. The rest to 1 is undecided.
+pub(crate) fn mixed(shares: impl Iterator<Item = (u16, f64)>) -> [u8; 3] {
+    let (mut light, mut rest) = ([0.0; 3], 1.0);
+    let mut add = |color: Color, share: f64| {
+        for (sum, byte) in light.iter_mut().zip(color.rgb) {
+            *sum += share * linear(byte);
+        }
+    };
+    for (label, share) in shares {
+        add(color(label), share);
+        rest -= share;
+    }
+    add(YELLOW, f64::max(rest, 0.0));
+    light.map(encoded)
+}
+
+/// The light of an sRGB byte, from 0 to 1 (IEC 61966-2-1).
+fn linear(byte: u8) -> f64 {
+    let value = f64::from(byte) / 255.0;
+    if value <= 0.04045 { value / 12.92 } else { pxfm::f_pow((value + 0.055) / 1.055, 2.4) }
+}
+
+/// The inverse of [`linear`].
+fn encoded(light: f64) -> u8 {
+    let value = if light <= 0.003_130_8 {
+        12.92 * light
+    } else {
+        1.055 * pxfm::f_pow(light, 1.0 / 2.4) - 0.055
+    };
+    (255.0 * value).round().clamp(0.0, 255.0) as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_fate_keeps_its_colour_and_two_mix_as_light() {
+        for label in [0, 1, 2, 3, HopperFate::GROUNDED] {
+            assert_eq!(mixed([(label, 1.0)].into_iter()), rgb(label));
+        }
+        assert_eq!(mixed([].into_iter()), YELLOW.rgb);
+        // Half of the light of white and black is 0.5, the sRGB byte 188.
+        assert_eq!(mixed([(0, 0.5), (6, 0.5)].into_iter()), [188; 3]);
+        for byte in 0..=255 {
+            assert_eq!(encoded(linear(byte)), byte);
+        }
+    }
+}

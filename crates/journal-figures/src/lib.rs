@@ -12,7 +12,7 @@
 //! | [`palette`] | colours for categories |
 //! | [`html`] | the markup of labels as HTML |
 //! | [`Path`], [`Segment`] | outlines of straight lines and cubic Bézier pieces |
-//! | [`render`], [`indexed_png`] | a drawing as SVG with outlined labels and as PNG; a PNG with a palette |
+//! | [`render`], [`indexed_png`], [`rgb_png`] | a drawing as SVG with outlined labels and as PNG; a PNG with a palette, or with three bytes a pixel |
 //! | [`csv_file`], [`csv_text`] | the data beside a drawing |
 //!
 //! ```
@@ -60,5 +60,5 @@ pub use error::Error;
 pub use label::html;
 pub use marker::Marker;
 pub use path::{Path, Point, Segment};
-pub use render::{Rendered, indexed_png, render};
+pub use render::{Rendered, indexed_png, render, rgb_png};
 pub use svg::{Anchor, Pen, Svg, base64};

@@ -38,13 +38,30 @@ pub fn indexed_png(
     palette: &[[u8; 3]],
     pixels: &[u8],
 ) -> Result<Vec<u8>, Error> {
+    encoded(name, width, height, pixels, |encoder| {
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_palette(palette.concat());
+    })
+}
+
+/// A PNG with the bytes red, green and blue of every pixel, rows from above.
+pub fn rgb_png(name: &str, width: usize, height: usize, pixels: &[u8]) -> Result<Vec<u8>, Error> {
+    encoded(name, width, height, pixels, |encoder| encoder.set_color(png::ColorType::Rgb))
+}
+
+fn encoded<'a>(
+    name: &str,
+    width: usize,
+    height: usize,
+    pixels: &[u8],
+    set_colors: impl FnOnce(&mut png::Encoder<'a, &mut Vec<u8>>),
+) -> Result<Vec<u8>, Error> {
     let fail =
         |e: png::EncodingError| Error::Render { what: name.to_owned(), reason: e.to_string() };
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
-    encoder.set_color(png::ColorType::Indexed);
+    set_colors(&mut encoder);
     encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_palette(palette.concat());
     encoder.set_compression(png::Compression::High);
     let mut writer = encoder.write_header().map_err(fail)?;
     writer.write_image_data(pixels).map_err(fail)?;
@@ -112,6 +129,15 @@ mod tests {
         svg.image(0.0, 0.0, 20.0, 10.0, &png);
         assert_eq!([pixel(&svg, 9, 5), pixel(&svg, 10, 5)], palette);
         assert_eq!(pixel(&svg, 5, 15), [255; 3]);
+    }
+
+    #[test]
+    fn an_image_with_three_bytes_a_pixel_has_its_colours() {
+        let png = rgb_png("image", 2, 1, &[1, 2, 3, 250, 128, 0]).unwrap();
+        let mut svg = Svg::new(20.0, 10.0);
+        svg.image(0.0, 0.0, 20.0, 10.0, &png);
+        assert_eq!([pixel(&svg, 5, 5), pixel(&svg, 15, 5)], [[1, 2, 3], [250, 128, 0]]);
+        assert!(rgb_png("image", 2, 1, &[1, 2, 3]).is_err());
     }
 
     #[test]

@@ -318,7 +318,7 @@ impl EdgeChart {
 const LARGEST_PHASE_ERROR: f64 = 1e-3;
 
 /// 1/(A |δ|^{1/3}): Ψ to leading order; infinite beyond the largest `f64`.
-fn turns_to_leave(coordinate: &FatouCoordinate, delta: Offset) -> f64 {
+pub(crate) fn turns_to_leave(coordinate: &FatouCoordinate, delta: Offset) -> f64 {
     let logarithm =
         pxfm::f_log(delta.mantissa().abs()) + delta.exponent() as f64 * std::f64::consts::LN_10;
     pxfm::f_exp(-logarithm / 3.0) / coordinate.drift()

@@ -9,8 +9,8 @@ use crate::circle::phase_shares::{PhasePart, PhaseShares};
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
-use hopper_asymptotics::{FatouCoordinate, Phase};
-use passive_hopper::MassRatio;
+use hopper_asymptotics::{FatouCoordinate, Offset, Phase};
+use passive_hopper::{LiftOffMap, MassRatio};
 
 /// A point of the circle at which two basins meet.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -181,6 +181,16 @@ impl PhaseBasins {
         let inside = speed >= self.domain.speeds.bottom && speed <= self.domain.speeds.top;
         let turns = self.domain.turns(speed).value;
         inside.then(|| turns - turns.floor())
+    }
+
+    /// Ψ at any offset between the lowest speed of the [domain](Self::domain) and α*_n, also where the
+    /// [coordinate](Self::coordinate) has no value any more.
+    ///
+    /// # Errors
+    /// [`Error::Asymptotics`] for an offset outside this range, and those of [`FatouCoordinate::phase`]; [`Error::NoTurn`] if the
+    /// orbit does not come to the domain.
+    pub fn phase(&self, delta: Offset) -> Result<Phase, Error> {
+        self.domain.phase(&LiftOffMap::new(self.mass_ratio), delta)
     }
 
     /// The error of the phases of speeds of the domain.

@@ -119,7 +119,8 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
                     boundary point: at the scales of a plot the local slopes lie anywhere between 0 and 0.5; \
                     below they come together and approach 1/4, hump by hump, as those of a single \
                     accumulation does (for that 1/4 is proved; for the whole, with its accumulations of \
-                    accumulations, it is what is measured, and theory expects powers of ln 1/$ε$ beside it). \
+                    accumulations, it holds with powers of ln 1/$ε$ beside it, which the count down to 10^{−100} \
+                    shows). \
                     (b) The generations left of $α$^{∗}_{2}: the $k$-th lies at \
                     $δ$_{k} → (3/(10$λk$))^{3}. **Why**: $f$($α$) ≤ $α$, with equality at the fixed points \
                     only, so that no orbit returns. A point whose orbit enters a trap is an inner point of \

@@ -1,6 +1,8 @@
 //! Results that the paper does not have, each with a figure and a table.
 
 mod boundary;
+mod circle;
+mod count;
 mod entropy;
 mod finding;
 mod humps;
@@ -25,6 +27,9 @@ pub const ALL: &[(&str, Find)] = &[
     ("asymmetry", measure::asymmetry),
     ("boundary", boundary::boundary),
     ("uncertainty", boundary::uncertainty),
+    ("circle", circle::circle),
+    ("count", count::count),
+    ("openings", circle::openings),
     ("entropy", entropy::entropy_of_basins),
     ("humps", humps::nested_basins),
     ("tree", tree::preimage_tree),

@@ -3,9 +3,12 @@
 //! A run that is killed leaves its finished tiles, and the next run computes the others. The array is written from the
 //! tiles and compared with them. The tiles are removed only after this comparison.
 
+use super::share_files::{self, Shares};
+use super::zoom_files::{self, Zoom};
 use crate::error::Error;
 use crate::figures::basin_plot::{PIXELS, Window, draw_basins};
 use basin_of_attraction::{Grid, Interval, LabelImage};
+use hopper_asymptotics::Offset;
 use hopper_basin::{HopperFate, basin_columns, first_humps};
 use journal_figures::render;
 use passive_hopper::MassRatio;
@@ -32,6 +35,24 @@ pub struct Options {
     /// Pixels across and up
     #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], default_values_t = [1024, 1024])]
     pixels: Vec<usize>,
+    /// Show the speeds below this fixed point at all scales: each pixel has the shares of the basins that it covers
+    #[arg(long, value_name = "N", conflicts_with = "speed")]
+    about: Option<u64>,
+    /// With --about: distances below the fixed point, on a logarithmic scale [default: 1e-2 1e-300]
+    #[arg(long, num_args = 2, value_names = ["FAR", "NEAR"], requires = "about", allow_negative_numbers = true)]
+    offset: Option<Vec<Offset>>,
+    /// With --about: the phase instead of the distance, so many turns of the circle of fates
+    #[arg(long, value_name = "TURNS", requires = "about", conflicts_with = "offset")]
+    turns: Option<f64>,
+    /// Make a sequence of frames into the edge of a basin next to this speed, at this mass ratio
+    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], conflicts_with_all = ["about", "speed"])]
+    zoom: Option<Vec<f64>>,
+    /// With --zoom: the number of frames; the first has the half height 1
+    #[arg(long, value_name = "COUNT", requires = "zoom", default_value_t = 101)]
+    frames: usize,
+    /// With --zoom: decades from one frame to the next
+    #[arg(long, value_name = "DECADES", requires = "zoom", default_value_t = 1.0)]
+    step: f64,
 }
 
 /// Columns of a tile. A killed run loses one unfinished tile for each thread: with wider tiles more work is lost.
@@ -54,6 +75,16 @@ const LEGEND: &str = "legend.json";
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
+    if let Some(n) = options.about {
+        let Options { out, mass_ratio, pixels, offset, turns, .. } = options.clone();
+        return share_files::run(&Shares { n, out, mass_ratio, pixels, offset, turns });
+    }
+    if let (Some(&[mass_ratio, speed]), &[_, rows]) =
+        (options.zoom.as_deref(), options.pixels.as_slice())
+    {
+        let Options { out, frames, step, .. } = options.clone();
+        return zoom_files::run(&Zoom { out, mass_ratio, speed, frames, step, rows });
+    }
     let grid = grid(options)?;
     let folder = Folder::open(&options.out)?;
     let description = format!(
@@ -222,6 +253,12 @@ mod tests {
             mass_ratio: mass_ratio.to_vec(),
             speed: Some(speed.to_vec()),
             pixels: pixels.to_vec(),
+            about: None,
+            offset: None,
+            turns: None,
+            zoom: None,
+            frames: 1,
+            step: 1.0,
         };
         let (m, alpha) = ([0.1, 1.0], [4.5, 20.0]);
         assert!(grid(&options(m, alpha, [10, 20])).is_ok());

@@ -6,4 +6,6 @@ mod claim_lines;
 mod figure_files;
 pub mod model_figures;
 pub mod reproduce_paper;
+mod share_files;
 pub mod verify_invariance;
+mod zoom_files;

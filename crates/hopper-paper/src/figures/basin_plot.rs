@@ -87,15 +87,15 @@ pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Er
         svg.fill_rect(x1 + 3.0, y1 - 16.0, 37.0, 15.0, "#ffffff");
         svg.text(x1 + 5.0, y1 - 5.0, Anchor::Start, 11.5, name);
     }
-    legend(&mut svg, frame.left, image);
+    legend(&mut svg, frame.left, image.counts().into_iter().map(|(label, _)| label));
     Ok(svg)
 }
 
 /// The legend, with one entry for each colour: fixed points beyond the last colour share it.
-fn legend(svg: &mut Svg, left: f64, image: &LabelImage) {
+pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = u16>) {
     let mut x = left;
     let mut last = "";
-    for (label, _) in image.counts() {
+    for label in labels {
         let color = fate_colors::css(label);
         if color == last {
             continue;

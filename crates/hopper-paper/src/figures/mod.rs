@@ -10,6 +10,7 @@ mod fig_06_to_09_basins;
 mod graph;
 mod invariance;
 mod printed_against_stable;
+pub(crate) mod share_plot;
 
 use crate::choice;
 use crate::error::Error;
