@@ -96,24 +96,24 @@ impl EdgeChart {
         let trap = fates.trap(n).ok()?;
         let mass_ratio = fates.map().mass_ratio();
         let trap = trap.delta - trap.error;
+        // α*_n itself; other edges replace all that their hops change.
+        let star = FixedPointSpeed::new(n);
+        let own = EdgeChart {
+            n,
+            hops,
+            mass_ratio,
+            point: star.value(),
+            rest: star.rest(),
+            error: f64::EPSILON * star.rest().abs(),
+            slope: 1.0,
+            slope_error: 0.0,
+            curvature: 0.0,
+            radius: OWN_RADIUS,
+            remainder: 0.0,
+            trap,
+        };
         if hops == 0 {
-            let star = FixedPointSpeed::new(n);
-            let error = f64::EPSILON * star.rest().abs();
-            let (point, rest) = (star.value(), star.rest());
-            return Some(EdgeChart {
-                n,
-                hops,
-                mass_ratio,
-                point,
-                rest,
-                error,
-                slope: 1.0,
-                slope_error: 0.0,
-                curvature: 0.0,
-                radius: OWN_RADIUS,
-                remainder: 0.0,
-                trap,
-            });
+            return Some(own);
         }
         // Once the point is the nearest `f64`, its orbit in 256 bits gives the rest.
         for _ in 0..4 {
@@ -130,9 +130,6 @@ impl EdgeChart {
             let error = (at.value_error + cube) / slope.abs()
                 + rest.abs() * (at.slope_error + f64::EPSILON);
             return Some(EdgeChart {
-                n,
-                hops,
-                mass_ratio,
                 point,
                 rest,
                 error,
@@ -141,7 +138,7 @@ impl EdgeChart {
                 curvature: at.curvature,
                 radius: at.radius,
                 remainder: at.remainder,
-                trap,
+                ..own
             });
         }
         None

@@ -243,9 +243,7 @@ impl Strip<'_> {
                     itinerary.end_on_ground();
                     return Some(KnownFate { itinerary, label: HopperFate::GROUNDED });
                 }
-                HopWithin::Inconclusive => {
-                    return None;
-                }
+                HopWithin::Inconclusive => return None,
             }
         }
         None

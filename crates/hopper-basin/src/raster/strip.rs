@@ -226,15 +226,18 @@ impl Strip<'_> {
         for from in first..self.orbits.index.len() {
             let at = self.orbits.index[from];
             let mut hop = self.orbits.hops[from];
-            let ended = match self.slow_side(at, hop.1) {
-                Some(slow) => match self.jump(at, slow, hop.1) {
-                    Some(next) => {
-                        hop.1 = next;
-                        false
-                    }
-                    None => true,
-                },
-                None => {
+            let jumped = match self.slow_side(at, hop.1) {
+                Some(slow) => self.jump(at, slow, hop.1),
+                None => Some(hop.1),
+            };
+            let ended = match jumped {
+                None => true,
+                Some(next) if next != hop.1 => {
+                    hop.1 = next;
+                    false
+                }
+                // Not jumped: the budget of hops and repeated speeds count here too.
+                Some(_) => {
                     let before = self.orbits.before[from];
                     if hop.1 == HopWithin::Inconclusive {
                         // The second bound takes some microseconds, a fate alone some hundred.
