@@ -43,7 +43,7 @@ impl BesideEdge {
         let start = edge(map, near, (n, hops))?;
         RADII.into_iter().find_map(|radius| {
             let orbit = ExtendedOrbit::new(map, start, Arithmetic::Bits106).ok()?;
-            let mut orbit = orbit.with_radius(radius);
+            let mut orbit = orbit.with_radii(radius, 0.0);
             let mut speeds = Vec::with_capacity(hops);
             for _ in 0..hops {
                 speeds.push((orbit.speed(), orbit.tangent()?.reach()));
@@ -63,7 +63,7 @@ impl BesideEdge {
             let ((right, above), (left, below)) =
                 (chord(start + 0.5 * radius)?, chord(start - 0.5 * radius)?);
             let curvature = (above - below) / (right - left);
-            let third = tangent.second * tangent.second / tangent.slope.abs();
+            let third = tangent.second * tangent.second / tangent.first_order() / (radius * radius * radius);
             Some(BesideEdge { start, n, offset, tangent, curvature, third })
         })
     }

@@ -123,6 +123,13 @@ impl ErrorBound {
         ErrorBound { error: Variation { excess: 0.0, velocity: error }, ..self }
     }
 
+    /// Adds the error of V′ that a change of κ causes at the last landing, with closing speed `gamma`.
+    pub(crate) fn add_kappa_error(&mut self, change: f64, gamma: f64) {
+        /// More than the change of Γ by the errors, where the landing is conclusive.
+        const CHANGE_OF_GAMMA: f64 = 1.05;
+        self.error.velocity += CHANGE_OF_GAMMA * change * gamma;
+    }
+
     /// The same bound for a flight that starts after a sudden landing, in a state without error.
     pub(crate) fn starting_at(self, start: TakeOff) -> Self {
         ErrorBound { start, flights: 1.0, ..self }

@@ -12,6 +12,7 @@ use crate::landing::flight_ends::{Landing, TakeOff, is_sudden};
 use crate::landing::local_flight::NearFixedPoint;
 use crate::landing::next_landing::{maximum_test, next_root};
 use crate::map::limits::{SHORT_FLIGHT, SUDDEN_LIFT_OFF_BUDGET};
+use crate::map::speed_error::Changes;
 use crate::model::fixed_points::{alpha_star, fixed_point_in, n_pi};
 use crate::model::mass_ratio::MassRatio;
 use crate::precision::double_double::DoubleDouble;
@@ -153,16 +154,16 @@ impl<R: Extended> StartIn<R> {
         StartIn { alpha: star + offset, first, first_is_sudden: offset.nearest() < 0.0 }
     }
 
-    /// The hop, for a start that is known to within `error`; `None` if the hop exceeds the budget of `R`. `see` receives each
+    /// The hop, for a start and a κ that are known to within `changes`; `None` if the hop exceeds the budget of `R`. `see` receives each
     /// landing, with the bounds after it.
     pub(crate) fn hop(
         self,
-        error: f64,
+        changes: Changes,
         masses: ExtendedMasses<R>,
         see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
     ) -> Result<Option<HopIn<R>>, Error> {
         let speed = self.alpha.nearest();
-        let start = (speed, error);
+        let start = (speed, changes);
         let Some(chain) = chain(self.first, self.first_is_sudden, start, masses, see)? else {
             return Ok(None);
         };
@@ -205,7 +206,7 @@ pub(crate) fn watched_hop_with<R: Extended>(
         }
     };
     let alpha = from.alpha;
-    let Some(hop) = from.hop(0.0, masses, see)? else { return Ok(None) };
+    let Some(hop) = from.hop(Changes::of_speed(0.0), masses, see)? else { return Ok(None) };
     let HopIn { next_speed_squared, loss_of_square: loss, .. } = hop;
     let ratio = (next_speed_squared / alpha.squared()).nearest();
     let next = (next_speed_squared.nearest() > 0.0).then(|| {
@@ -252,12 +253,12 @@ struct Chain<R> {
     settled: bool,
 }
 
-/// All flights of a hop, from its first landing and the decision whether that landing is sudden, for a start that is known
-/// to within `error`; `None` if the hop exceeds the budget of the arithmetic.
+/// All flights of a hop, from its first landing and the decision whether that landing is sudden, for a start and a κ
+/// that are known to within `changes`; `None` if the hop exceeds the budget of the arithmetic.
 fn chain<R: Extended>(
     first: ExtendedLanding<R>,
     first_is_sudden: bool,
-    (alpha, error): (f64, f64),
+    (alpha, changes): (f64, Changes),
     masses: ExtendedMasses<R>,
     mut see: impl FnMut(&ExtendedLanding<R>, &ErrorBound),
 ) -> Result<Option<Chain<R>>, Error> {
@@ -268,11 +269,12 @@ fn chain<R: Extended>(
         loss: first.closing_speed.squared(),
         landings: vec![rounded],
         rounding: ErrorBound::of_extended(alpha, R::EPSILON),
-        with_start: ErrorBound::of_extended(alpha, R::EPSILON).with_speed_error(error),
+        with_start: ErrorBound::of_extended(alpha, R::EPSILON).with_speed_error(changes.speed),
         settled: first.settled,
     };
     hop.rounding.add_flight(&rounded, kappa);
     hop.with_start.add_flight(&rounded, kappa);
+    hop.with_start.add_kappa_error(changes.kappa, rounded.closing_speed);
     see(&landing, &hop.rounding);
     while rounded.sudden {
         let sudden = hop.landings.len();
@@ -295,6 +297,7 @@ fn chain<R: Extended>(
         rounded.sudden = is_sudden(rounded.excess, rounded.velocity);
         hop.rounding.add_flight_on_branch(&rounded, kappa, test);
         hop.with_start.add_flight_on_branch(&rounded, kappa, test);
+        hop.with_start.add_kappa_error(changes.kappa, rounded.closing_speed);
         see(&landing, &hop.rounding);
         hop.landings.push(rounded);
     }

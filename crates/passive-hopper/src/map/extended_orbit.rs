@@ -9,7 +9,7 @@ use crate::kernel::scalar::hop::MassFactors;
 use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::map::extended_hop::{ExtendedMasses, StartIn};
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
-use crate::map::speed_error::{SquareTangent, change_of_square, tangent_of_square};
+use crate::map::speed_error::{Changes, SquareTangent, change_of_square, tangent_of_square};
 use crate::model::fixed_points::{alpha_star, fixed_point_in, n_pi};
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
@@ -107,15 +107,15 @@ impl ExtendedOrbit {
         self.0.long_offset_from(n)
     }
 
-    /// Follows all starts within `radius` of the start with this orbit, by its [`tangent`](Self::tangent). A hop is then
-    /// inconclusive unless it is of one kind for all of them. Call it before the first hop.
-    pub fn with_radius(mut self, radius: f64) -> Self {
-        self.0.set_radius(radius);
+    /// Follows all starts within `radius` of the start with this orbit, by its [`tangent`](Self::tangent), at all mass ratios whose κ
+    /// = M/(1+M) lies within `kappa_radius` of its own. A hop is then inconclusive unless it is of one kind for all of them. Call it
+    /// before the first hop.
+    pub fn with_radii(mut self, radius: f64, kappa_radius: f64) -> Self {
+        self.0.set_radii(radius, kappa_radius);
         self
     }
 
-    /// How the orbits of near starts differ from this one, by the offset of the start; `None` without a
-    /// [radius](Self::with_radius).
+    /// How the orbits of near starts and mass ratios differ from this one; `None` without [radii](Self::with_radii).
     pub fn tangent(&self) -> Option<OrbitTangent> {
         self.0.tangent()
     }
@@ -132,48 +132,64 @@ impl ExtendedOrbit {
     }
 }
 
-/// How an orbit moves with its start: |x(y) − x(0) − `slope` y| ≤ `rounding` |y| + `second` y² for |y| ≤ `radius`, with the
-/// offset y of the start.
+/// How an orbit x moves with the offset y of its start and the offset k of κ = M/(1+M):
+///
+/// ```text
+///   |x(y, k) − x(0, 0) − slope y − kappa_slope k| ≤ rounding s + second s²      s = max(|y|/radius, |k|/kappa_radius) ≤ 1
+/// ```
 ///
 /// The bounds are those of docs/theory.md, Lemma 78: the second order is an estimate, which is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OrbitTangent {
-    /// dx/dy.
+    /// ∂x/∂y.
     pub slope: f64,
-    /// Bound on the error of the slope.
+    /// ∂x/∂k.
+    pub kappa_slope: f64,
+    /// Bound on the errors of the slopes, times the radii.
     pub rounding: f64,
     /// Bound on the second order.
     pub second: f64,
     /// The largest |y|.
     pub radius: f64,
+    /// The largest |k|.
+    pub kappa_radius: f64,
 }
 
 impl OrbitTangent {
-    const START: OrbitTangent =
-        OrbitTangent { slope: 1.0, rounding: 0.0, second: 0.0, radius: 0.0 };
-
-    /// Bound on |x(y) − x(0)|.
-    pub fn reach(&self) -> f64 {
-        self.radius * (self.slope.abs() + self.rounding + self.second * self.radius)
+    fn start(radius: f64, kappa_radius: f64) -> Self {
+        OrbitTangent { slope: 1.0, kappa_slope: 0.0, rounding: 0.0, second: 0.0, radius, kappa_radius }
     }
 
-    /// The tangent after a hop to `next` = √F with the tangent of F, whose argument moves by at most `within`.
-    fn after(&self, square: &SquareTangent, next: f64, within: f64) -> Self {
+    /// Bound on the part of the slopes.
+    pub fn first_order(&self) -> f64 {
+        (self.slope * self.radius).abs() + (self.kappa_slope * self.kappa_radius).abs()
+    }
+
+    /// Bound on |x(y, k) − x(0, 0)|.
+    pub fn reach(&self) -> f64 {
+        self.first_order() + self.rounding + self.second
+    }
+
+    /// The tangent after a hop to `next` = √F with the tangent of F, whose argument moves by at most the reach.
+    fn after(&self, square: &SquareTangent, next: f64) -> Self {
         // √(F + D) = √F + D/(2√F) − D²/(2√F (√F + √(F + D))²), and the last root is at least √(F − change).
         let twice = 2.0 * next;
-        let least = next + (next * next - square.change(within)).max(0.0).sqrt();
-        let size = self.slope.abs() + self.rounding + self.second * self.radius;
-        // |D| ≤ largest · |x(y) − x(0)|
-        let largest = square.slope.abs() + square.rounding + square.second * within;
-        let bend = (square.second + largest * largest / (least * least)) / twice * size * size;
-        let slope = square.slope / twice;
-        let rounding = square.rounding / twice * size + slope.abs() * self.rounding;
+        let largest = square.change();
+        let least = next + (next * next - largest).max(0.0).sqrt();
+        let bend = (square.second + largest * largest / (least * least)) / twice;
+        let by_speed = square.by_speed / twice;
+        let (slope, by_kappa) = (by_speed * self.slope, by_speed * self.kappa_slope);
+        let kappa_slope = by_kappa + square.by_kappa / twice;
+        // Three roundings of each slope, and the rounding of these bounds.
+        let sizes = (slope * self.radius).abs()
+            + (by_kappa.abs() + (square.by_kappa / twice).abs()) * self.kappa_radius;
+        let rounding = square.rounding / twice + by_speed.abs() * self.rounding;
         OrbitTangent {
-            slope: slope * self.slope,
-            // Two roundings of the slope, and the rounding of these bounds.
-            rounding: ROUND_UP * (rounding + 2.0 * f64::EPSILON * (slope * self.slope).abs()),
-            second: ROUND_UP * (bend + slope.abs() * self.second),
-            radius: self.radius,
+            slope,
+            kappa_slope,
+            rounding: ROUND_UP * (rounding + 3.0 * f64::EPSILON * sizes),
+            second: ROUND_UP * (bend + by_speed.abs() * self.second),
+            ..*self
         }
     }
 }
@@ -186,7 +202,7 @@ trait Orbit: Debug + Send {
     fn minus(&self, other: f64) -> f64;
     fn offset_from(&self, n: u64) -> (f64, f64);
     fn long_offset_from(&self, n: u64) -> (f64, f64, f64);
-    fn set_radius(&mut self, radius: f64);
+    fn set_radii(&mut self, radius: f64, kappa_radius: f64);
     fn tangent(&self) -> Option<OrbitTangent>;
     fn move_to(&mut self, n: u64, delta: f64, error: f64);
 }
@@ -217,15 +233,18 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
     fn hop(&mut self) -> Result<ExtendedStep, Error> {
         let speed = self.speed.nearest();
         // The start of the orbit is exact, and the solver decides its first landing on the bits of α*_n and nπ.
-        let within = self.error + self.tangent.map_or(0.0, |tangent| tangent.reach());
-        if within > 0.0 && !on_one_side_in(self.speed, within) {
+        let reach = |tangent: OrbitTangent| Changes { speed: tangent.reach(), kappa: tangent.kappa_radius };
+        let beside = self.tangent.map_or(Changes::of_speed(0.0), reach);
+        let within = Changes { speed: self.error + beside.speed, ..beside };
+        if within.speed > 0.0 && !on_one_side_in(self.speed, within.speed) {
             return Ok(ExtendedStep::Inconclusive);
         }
         let start = StartIn::at_speed(self.speed, self.masses);
         let Some(hop) = start.hop(within, self.masses, |_, _| ())? else {
             return Ok(ExtendedStep::Inconclusive);
         };
-        let change = change_of_square(speed, self.error, &hop.landings, self.factors);
+        let own = Changes::of_speed(self.error);
+        let change = change_of_square(speed, own, &hop.landings, self.factors);
         let (true, Some(change)) = (hop.decided, change) else {
             return Ok(ExtendedStep::Inconclusive);
         };
@@ -243,10 +262,10 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
             else {
                 return Ok(ExtendedStep::Inconclusive);
             };
-            if !(square > of_square.change(within) + error) {
+            if !(square > of_square.change() + error) {
                 return Ok(ExtendedStep::Inconclusive);
             }
-            *tangent = tangent.after(&of_square, next.nearest(), within);
+            *tangent = tangent.after(&of_square, next.nearest());
         }
         // As in `BoundedSquare::next`.
         let least = (square - error).max(0.0).sqrt();
@@ -282,8 +301,8 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
         (nearest, rest, self.error + rounding)
     }
 
-    fn set_radius(&mut self, radius: f64) {
-        self.tangent = Some(OrbitTangent { radius, ..OrbitTangent::START });
+    fn set_radii(&mut self, radius: f64, kappa_radius: f64) {
+        self.tangent = Some(OrbitTangent::start(radius, kappa_radius));
     }
 
     fn tangent(&self) -> Option<OrbitTangent> {

@@ -10,8 +10,9 @@ use crate::landing::fixed_point_interval::FixedPointInterval;
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::map::plain_landings::PlainLandings;
-use crate::map::speed_error::change_of_square;
+use crate::map::speed_error::{Changes, change_of_square};
 use crate::model::fixed_points::n_pi;
+use crate::model::mass_ratio::MassRatio;
 
 /// The hop of every speed within an error of a given speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,12 +66,48 @@ impl LiftOffMap {
     /// As [`hop_within`](Self::hop_within), with the signs of the derivative: the error hardly grows where the map's slope
     /// is near 1. It takes some microseconds.
     pub fn signed_hop_within(&self, alpha: f64, error: f64) -> HopWithin {
-        self.signed_square_within(alpha, error)
+        self.signed_square_within(alpha, Changes::of_speed(error))
             .and_then(|found| HopWithin::from_kernel(found.next()))
             .unwrap_or(HopWithin::Inconclusive)
     }
 
-    fn signed_square_within(&self, alpha: f64, error: f64) -> Option<BoundedSquare> {
+    /// As [`signed_hop_within`](Self::signed_hop_within), for all mass ratios from `first` to `last` as well, which contain that of the
+    /// map.
+    ///
+    /// ```
+    /// use passive_hopper::{HopWithin, LiftOffMap, MassRatio};
+    /// let [first, middle, last] = [0.1999, 0.2, 0.2001].map(|m| MassRatio::new(m).unwrap());
+    /// let map = LiftOffMap::new(middle);
+    /// let HopWithin::Next { speed, error } = map.hop_within_masses(5.5, 1e-6, (first, last)) else { panic!() };
+    /// for ratio in [first, last] {
+    ///     let next = LiftOffMap::new(ratio).image(5.5 + 1e-6)?.unwrap();
+    ///     assert!((next - speed).abs() <= error);
+    /// }
+    /// assert!(error < 2e-3);
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    ///
+    /// A wrong speed or mass ratio gives [`HopWithin::Inconclusive`].
+    pub fn hop_within_masses(
+        &self,
+        alpha: f64,
+        error: f64,
+        (first, last): (MassRatio, MassRatio),
+    ) -> HopWithin {
+        let kappa = self.factors.kappa;
+        let (below, above) = (kappa - first.kappa(), last.kappa() - kappa);
+        if !(below >= 0.0 && above >= 0.0) {
+            return HopWithin::Inconclusive;
+        }
+        // Each κ has two roundings.
+        let changes = Changes { speed: error, kappa: below.max(above) + 4.0 * f64::EPSILON * kappa };
+        self.signed_square_within(alpha, changes)
+            .and_then(|found| HopWithin::from_kernel(found.next()))
+            .unwrap_or(HopWithin::Inconclusive)
+    }
+
+    fn signed_square_within(&self, alpha: f64, changes: Changes) -> Option<BoundedSquare> {
+        let error = changes.speed;
         if check_speed(alpha).is_err() || alpha > LARGEST_PLAIN_SPEED || !on_one_side(alpha, error)
         {
             return None;
@@ -85,13 +122,14 @@ impl LiftOffMap {
             ratios_squared += ratio * ratio;
             rounding.add_flight(&landing, kappa);
             with_start.add_flight(&landing, kappa);
+            with_start.add_kappa_error(changes.kappa, landing.closing_speed);
             if with_start.landing_inconclusive() {
                 return None;
             }
             found.push(landing);
         }
         let (mu, square) = (self.factors.mu, alpha * alpha);
-        let propagated = change_of_square(alpha, error, &found, self.factors)?;
+        let propagated = change_of_square(alpha, changes, &found, self.factors)?;
         Some(BoundedSquare {
             square: square * (1.0 - mu * ratios_squared),
             error: square * rounding.ratio_error(mu, alpha) + propagated,

@@ -1,4 +1,4 @@
-//! How far α′² moves if the lift-off speed moves by at most a given error.
+//! How far α′² moves if the lift-off speed and the mass ratio move by at most given errors.
 //!
 //! The derivative of α′² = α² − μ Σ Γ² along the flights of a hop keeps its signs, so that the parts of a chain of flights
 //! cancel as they do in the map. An orbit that leaves a fixed point slowly then loses a factor near 1 at each hop. A sum of
@@ -7,6 +7,8 @@
 //! ```text
 //!   |F(ξ) − F(α)| ≤ |∂F/∂α| g + g² + second order          |ξ − α| ≤ g
 //! ```
+//!
+//! The mass ratio enters by κ = M/(1+M) alone, as μ = κ (1 − κ). A change of κ adds Γ dκ to dV at each landing.
 //!
 //! docs/theory.md, Lemma 78: the first order is proved, the second is an estimate.
 
@@ -24,6 +26,10 @@ const SECOND_ORDER: f64 = 64.0;
 /// Largest q. Beyond it the expansion is not used, and the orbit is followed in longer arithmetic.
 const LARGEST_CHANGE: f64 = 1.0 / 64.0;
 
+/// Bound on the change of Σ Γ² in units of Σ Γ |dΓ|: 2, and the second order, for the product with the change of μ. With relative changes
+/// of at most 1/64 the second order is below the first.
+const CHANGES_OF_BOTH: f64 = 4.0;
+
 /// Rounding error of the slope, in ulps of the sizes of its terms, for each flight. The coefficients of a flight's derivative
 /// err by less than 32 ulps (docs/theory.md, Theorem 60); 64 leaves room for the sums. It is an estimate as well. It does
 /// not contain the error of the phase in the sines, 4ετ. In `f64` the second order is larger than that, because the error of
@@ -31,79 +37,127 @@ const LARGEST_CHANGE: f64 = 1.0 / 64.0;
 /// 4ετ of its terms. A larger value makes no visible difference: this term is 10⁻¹⁴ of the bound, unless the slope cancels.
 const SLOPE_ULPS: f64 = 64.0;
 
-/// Bound on |F(ξ) − F(α)| for |ξ − α| ≤ `error`, to second order, from the `landings` of the hop from `alpha`. `None` if
-/// the error is too large for the expansion.
+/// The largest changes of a speed and of κ.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Changes {
+    pub(crate) speed: f64,
+    pub(crate) kappa: f64,
+}
+
+impl Changes {
+    /// No change of κ.
+    pub(crate) fn of_speed(speed: f64) -> Self {
+        Changes { speed, kappa: 0.0 }
+    }
+}
+
+/// Bound on |F(ξ, κ′) − F(α, κ)| for all ξ and κ′ within `changes`, to second order, from the `landings` of the hop from `alpha`.
+/// `None` if the changes are too large for the expansion.
 pub(crate) fn change_of_square(
     alpha: f64,
-    error: f64,
+    changes: Changes,
     landings: &[Landing],
     factors: MassFactors,
 ) -> Option<f64> {
-    if error == 0.0 {
+    if changes == Changes::of_speed(0.0) {
         return Some(0.0);
     }
-    tangent_of_square(alpha, error, landings, factors).map(|tangent| tangent.change(error))
+    tangent_of_square(alpha, changes, landings, factors).map(|tangent| tangent.change())
 }
 
-/// The tangent of F: |F(α + y) − F(α) − `slope` y| ≤ `rounding` |y| + `second` y².
+/// The tangent of F: |F(α + y, κ + k) − F(α, κ) − `by_speed` y − `by_kappa` k| ≤ `rounding` s + `second` s², where s ≤ 1 is the larger
+/// one of |y| and |k| in units of the largest changes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SquareTangent {
-    pub(crate) slope: f64,
-    /// Bound on the error of `slope`.
+    pub(crate) changes: Changes,
+    pub(crate) by_speed: f64,
+    pub(crate) by_kappa: f64,
+    /// Bound on the errors of the slopes, times the changes.
     pub(crate) rounding: f64,
     /// The second order.
     pub(crate) second: f64,
 }
 
 impl SquareTangent {
-    /// Bound on |F(α + y) − F(α)| for |y| ≤ `error`.
-    pub(crate) fn change(&self, error: f64) -> f64 {
-        error * (self.slope.abs() + self.rounding + self.second * error)
+    /// Bound on the change of F, for s = 1.
+    pub(crate) fn change(&self) -> f64 {
+        self.first_order() + self.rounding + self.second
+    }
+
+    /// Bound on the part of the slopes.
+    pub(crate) fn first_order(&self) -> f64 {
+        (self.changes.speed * self.by_speed).abs() + (self.changes.kappa * self.by_kappa).abs()
     }
 }
 
-/// The tangent of F at `alpha`, for |y| ≤ `error`; `None` if the error is too large for the expansion.
+/// The tangent of F at `alpha`; `None` if the changes are too large for the expansion.
 pub(crate) fn tangent_of_square(
     alpha: f64,
-    error: f64,
+    changes: Changes,
     landings: &[Landing],
     MassFactors { mu, kappa }: MassFactors,
 ) -> Option<SquareTangent> {
     let mut start = TakeOff { excess: 0.0, velocity: alpha };
     let mut by_speed = Variation { excess: 0.0, velocity: 1.0 };
-    // Σ Γ ∂Γ/∂α; its terms by absolute value; the part of the second order from a change of x′.
-    let (mut sum, mut sizes, mut bend) = (0.0, 0.0, 0.0);
-    let mut largest_rate = 0.0_f64;
+    let mut by_kappa = Variation { excess: 0.0, velocity: 0.0 };
+    // Σ Γ ∂Γ by the speed and by κ; Σ Γ².
+    let (mut speed_sum, mut kappa_sum, mut squares) = (0.0, 0.0, 0.0);
+    // For the largest changes: the terms of ΓdΓ by absolute value, and the part of the second order from a change of x′.
+    let (mut sizes, mut bend) = (0.0, 0.0);
+    let mut largest_change = 0.0_f64;
     for landing in landings {
         let gamma = landing.closing_speed;
         if !(gamma > 0.0) {
             return None;
         }
         let flight = FlightDerivative::new(start, landing, kappa);
-        let (after, closing) = flight.carry(by_speed);
-        let size = Variation { excess: by_speed.excess.abs(), velocity: by_speed.velocity.abs() };
+        let size = Variation {
+            excess: changes.speed * by_speed.excess.abs() + changes.kappa * by_kappa.excess.abs(),
+            velocity: changes.speed * by_speed.velocity.abs()
+                + changes.kappa * by_kappa.velocity.abs(),
+        };
         let (most, most_closing) = flight.bound(size);
-        // |∂τ/∂α|: the bound of V′ is |dV| + |dτ| + κ |dΓ|.
+        // |dτ|: the bound of V′ is |dV| + |dτ| + κ |dΓ|.
         let time = (most.velocity - size.velocity - kappa * most_closing).abs();
-        largest_rate = largest_rate.max(time / landing.time.min(1.0)).max(most_closing / gamma);
+        largest_change = largest_change.max(time / landing.time.min(1.0)).max(most_closing / gamma);
         if start.excess > 0.0 {
             // Just above nπ the stretch after a landing changes much faster than the times.
-            largest_rate = largest_rate.max(size.excess / start.excess);
+            largest_change = largest_change.max(size.excess / start.excess);
         }
-        sum += gamma * closing;
+        let (after, closing) = flight.carry(by_speed);
+        speed_sum += gamma * closing;
+        by_speed = after;
+        if changes.kappa > 0.0 {
+            let (mut after, closing) = flight.carry(by_kappa);
+            after.velocity += gamma;
+            kappa_sum += gamma * closing;
+            by_kappa = after;
+        }
+        squares += gamma * gamma;
         sizes += gamma * most_closing;
         bend += gamma * most.excess * time;
-        by_speed = after;
         start = landing.take_off();
     }
-    if !(error * largest_rate <= LARGEST_CHANGE) {
+    if !(largest_change <= LARGEST_CHANGE) {
         return None;
     }
     let flights = landings.len() as f64;
-    let second = 1.0 + 2.0 * mu * (SECOND_ORDER * flights * largest_rate * sizes + bend);
-    let rounding = SLOPE_ULPS * flights * f64::EPSILON * (alpha + mu * sizes);
-    let tangent = SquareTangent { slope: 2.0 * (alpha - mu * sum), rounding, second };
-    tangent.change(error).is_finite().then_some(tangent)
+    // dμ = (1 − 2κ) dκ − dκ²
+    let slope_of_mu = 1.0 - 2.0 * kappa;
+    let change_of_mu = (slope_of_mu.abs() + changes.kappa) * changes.kappa;
+    let second = changes.speed * changes.speed
+        + 2.0 * mu * (SECOND_ORDER * flights * largest_change * sizes + bend)
+        + changes.kappa * changes.kappa * squares
+        + CHANGES_OF_BOTH * change_of_mu * sizes;
+    let terms = alpha * changes.speed + mu * sizes + change_of_mu * squares;
+    let tangent = SquareTangent {
+        changes,
+        by_speed: 2.0 * (alpha - mu * speed_sum),
+        by_kappa: -(slope_of_mu * squares + 2.0 * mu * kappa_sum),
+        rounding: SLOPE_ULPS * flights * f64::EPSILON * terms,
+        second,
+    };
+    tangent.change().is_finite().then_some(tangent)
 }
 
 #[cfg(test)]
