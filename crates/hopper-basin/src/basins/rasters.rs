@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
+use crate::raster::common_circles::CommonCircles;
 use crate::raster::labels::labels_of_columns;
 use basin_of_attraction::{Grid, LabelImage, raster_by_strips};
 use passive_hopper::{MassRatio, alpha_star};
@@ -20,6 +21,8 @@ pub fn basin_raster(
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, Error> {
     check_speeds(&grid)?;
+    let common = common_circles(&grid)?;
+    let strip = |ratios: &[f64], speeds: &[f64]| strip(ratios, speeds, common.as_ref());
     raster_by_strips(grid, strip_width(&grid), strip, progress)
 }
 
@@ -32,6 +35,9 @@ const LARGEST_STRIP: usize = 16_384;
 
 /// A raster has at least this many strips, if it has as many columns, so that many threads have work.
 const FEWEST_STRIPS: usize = 16;
+
+/// A raster of fewer columns has no common circles: a circle for many mass ratios takes as long as those of some dozen columns.
+const FEWEST_COLUMNS: usize = 32;
 
 /// The number of columns whose orbits hop together. It affects the time only.
 fn strip_width(grid: &Grid) -> usize {
@@ -67,17 +73,30 @@ pub fn basin_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<u16>>
     let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();
     let ratios: Vec<f64> = columns.map(|column| grid.x_at(column)).collect();
     let mut found = Vec::with_capacity(ratios.len());
+    let common = common_circles(grid)?;
     for some in ratios.chunks(strip_width(grid)) {
-        found.extend(strip(some, &speeds)?);
+        found.extend(strip(some, &speeds, common.as_ref())?);
     }
     Ok(found)
 }
 
-/// The labels of `speeds` at every mass ratio.
-fn strip(ratios: &[f64], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
+/// The circles that all columns share.
+fn common_circles(grid: &Grid) -> Result<Option<CommonCircles>, Error> {
+    if grid.columns < FEWEST_COLUMNS {
+        return Ok(None);
+    }
+    CommonCircles::new(grid.x_at(0), grid.x_at(grid.columns - 1), grid.y.right)
+}
+
+/// The labels of `speeds` at every mass ratio, with circles that they share.
+fn strip(
+    ratios: &[f64],
+    speeds: &[f64],
+    common: Option<&CommonCircles>,
+) -> Result<Vec<Vec<u16>>, Error> {
     let fates = |&m: &f64| Fates::new(MassRatio::new(m)?);
     let fates = ratios.iter().map(fates).collect::<Result<Vec<_>, Error>>()?;
-    labels_of_columns(&fates.iter().collect::<Vec<_>>(), speeds)
+    labels_of_columns(&fates.iter().collect::<Vec<_>>(), speeds, common)
 }
 
 /// Returns an error if speeds of `grid` are negative, or their fixed points have no labels.

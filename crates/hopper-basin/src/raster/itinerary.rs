@@ -3,7 +3,7 @@
 //! If the exact orbits of two speeds have the same itinerary, every exact orbit that starts between them has their fate
 //! (docs/theory.md, Theorem 52). README.md has the proof; its invariants are cited here by name.
 
-use crate::raster::laps::{ID_BITS, Laps};
+use crate::raster::laps::ID_BITS;
 
 /// The end of an itinerary that is not complete. Indices of traps are smaller than this and [`GROUND`].
 const NO_END: u32 = u32::MAX - 1;
@@ -44,14 +44,14 @@ impl Itinerary {
         Itinerary { end: n, ..Itinerary::START }
     }
 
-    /// Adds a hop of an orbit that lies within `error` of `alpha`.
+    /// Adds a hop of an orbit that is on `lap`.
     #[inline]
-    pub(crate) fn hop(&mut self, (alpha, error): (f64, f64), laps: &Laps) {
+    pub(crate) fn hop(&mut self, lap: Option<u8>) {
         // If the bits are used up, the laps are unknown, and the raster follows the orbits beside this one. This is rare: an
         // orbit of Fig. 6's window hops 3.9 times on the average.
         let room = self.laps.leading_zeros();
         // LAP: the exact speed must be on one lap.
-        self.laps = match laps.lap(alpha, error) {
+        self.laps = match lap {
             Some(lap) if lap == self.last && room >= 1 && self.is_known() => self.laps << 1,
             Some(lap) if room > ID_BITS && self.is_known() => {
                 self.last = lap;
@@ -76,6 +76,18 @@ impl Itinerary {
         } else {
             self.slow = n << SLOW_BITS | hops;
         }
+    }
+
+    /// The itinerary without its first `hops` hops, if these and the hop after them are on one lap.
+    pub(crate) fn after(&self, hops: u32) -> Option<Self> {
+        const FIRST: u32 = ID_BITS + 1;
+        let below_first = (63 - self.laps.leading_zeros()).checked_sub(FIRST)?;
+        let rest = self.laps & ((1 << below_first) - 1);
+        // The zeros after the first lap's number are the hops that stay on it.
+        let zeros = below_first - (64 - rest.leading_zeros());
+        let first = self.laps >> below_first;
+        (self.is_known() && hops <= zeros)
+            .then(|| Itinerary { laps: first << (below_first - hops) | rest, ..*self })
     }
 
     /// True if the itinerary can agree with another.
@@ -134,7 +146,7 @@ mod tests {
             let (mut itinerary, mut orbit) = (Itinerary::START, vec![(start, 0.0)]);
             for _ in 0..6 {
                 let (alpha, error) = orbit[orbit.len() - 1];
-                itinerary.hop((alpha, error), &laps);
+                itinerary.hop(laps.lap(alpha, error));
                 match map.hop_within(alpha, error) {
                     HopWithin::Next { speed, error } => orbit.push((speed, error)),
                     HopWithin::Grounded => {

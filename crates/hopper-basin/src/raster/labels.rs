@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
+use crate::raster::common_circles::CommonCircles;
 use crate::raster::strip;
 
 /// Fewer speeds than this are classified one by one.
@@ -31,14 +32,15 @@ impl Fates {
     /// # Errors
     /// As [`fate`](Self::fate), for any of the speeds; [`Error::TooManySpeeds`] for more than 10⁹ speeds.
     pub fn labels(&self, speeds: &[f64]) -> Result<Vec<u16>, Error> {
-        Ok(labels_of_columns(&[self], speeds)?.pop().unwrap_or_default())
+        Ok(labels_of_columns(&[self], speeds, None)?.pop().unwrap_or_default())
     }
 }
 
-/// The labels of `speeds` at every mass ratio.
+/// The labels of `speeds` at every mass ratio, with circles that they share.
 pub(crate) fn labels_of_columns(
     columns: &[&Fates],
     speeds: &[f64],
+    common: Option<&CommonCircles>,
 ) -> Result<Vec<Vec<u16>>, Error> {
     if speeds.len() < FEWEST_SPEEDS {
         let one_by_one = |fates: &&Fates| {
@@ -53,7 +55,7 @@ pub(crate) fn labels_of_columns(
         }
     }
     if speeds.is_sorted() {
-        return strip::labels(columns, speeds);
+        return strip::labels(columns, speeds, common);
     }
     let mut order: Vec<usize> = (0..speeds.len()).collect();
     order.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
@@ -65,5 +67,5 @@ pub(crate) fn labels_of_columns(
         }
         all
     };
-    Ok(strip::labels(columns, &sorted)?.into_iter().map(in_given_order).collect())
+    Ok(strip::labels(columns, &sorted, common)?.into_iter().map(in_given_order).collect())
 }

@@ -13,6 +13,7 @@
 
 pub(crate) mod arcs;
 pub(crate) mod column;
+pub(crate) mod common_circles;
 pub(crate) mod itinerary;
 pub(crate) mod known_intervals;
 pub(crate) mod labels;

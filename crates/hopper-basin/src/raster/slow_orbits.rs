@@ -9,7 +9,7 @@ use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
 use crate::raster::strip::{Strip, is_inside};
 use crate::traps::trap::TrapSide;
-use hopper_asymptotics::{HopCount, SlowJump};
+use hopper_asymptotics::SlowJump;
 use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star};
 
 /// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
@@ -21,6 +21,9 @@ const LARGEST_ERROR: f64 = 1e-4;
 const FIRST_PHASES: u32 = 16;
 const BEYOND: f64 = 0.011;
 
+/// The least length of a gap between two orbits that is halved, as a part of the offset.
+const FINEST: f64 = 1e-10;
+
 /// The speeds of a column over the number of orbits that come to a slow side, too far for a jump, before its series is made. Next to
 /// an edge most orbits come there; in a whole window some do, for which the series would take longer than it saves. It affects the
 /// time only.
@@ -28,6 +31,10 @@ const SPEEDS_OVER_WALKERS: usize = 64;
 
 /// Most searches for edges of a column that find none. Then its orbits are labelled alone. It affects the time only.
 const MOST_MISSED_EDGES: usize = 4;
+
+/// The orbits of a strip that jump left of one fixed point, over its columns, before its circle is computed. Up to there each of them is
+/// followed alone: a circle takes as long as some dozen orbits. It affects the time only.
+const FIRST_JUMPS: usize = 2;
 
 /// Most hops of a followed phase: an orbit leaves the turn of jumps after some 15 hops. Beyond it the phase stays open.
 const MOST_HOPS: usize = 2048;
@@ -66,8 +73,7 @@ impl Strip<'_> {
             return Some(HopWithin::Next { speed, error });
         }
         if sides.is_beyond_jumps(n, offset) {
-            let known = self.follow_from(column, n, (offset, error));
-            self.end_with(at, known, 0, n);
+            self.end_behind_jumps(at, (n, offset, error));
             return None;
         }
         let jump = sides.jump(n, offset, error);
@@ -82,6 +88,32 @@ impl Strip<'_> {
         None
     }
 
+    /// Ends an orbit that has left the turn on which jumps end: as the orbit from the turn that comes there, or followed.
+    fn end_behind_jumps(&mut self, at: u32, (n, offset, error): (u64, f64, f64)) {
+        let column = self.orbits.all[at as usize].column as usize;
+        let mut known = None;
+        if self.use_circle(n)
+            && let Some((hops, start, error)) =
+                self.columns[column].fates.slow_sides().jump_back(n, offset, error)
+            && let Some(circle) = self.arc(column, n, (start, error))
+            && let Some(itinerary) = circle.itinerary.after(hops)
+        {
+            known = Some(KnownFate { itinerary, ..circle });
+        }
+        let known = known.or_else(|| self.follow_from(column, n, (offset, error)));
+        self.end_with(at, known, 0, n);
+    }
+
+    /// Counts a jump left of α*_n. True if so many orbits jump there that the circle pays.
+    fn use_circle(&mut self, n: u64) -> bool {
+        let n = n as usize; // below the number of humps with laps
+        if self.jumped.len() <= n {
+            self.jumped.resize(n + 1, 0);
+        }
+        self.jumped[n] += 1;
+        self.jumped[n] > FIRST_JUMPS * self.columns.len()
+    }
+
     /// Ends the orbit in a known fate, after `hops` hops left of α*_n that were jumped over; alone if the fate is not known.
     fn end_with(&mut self, at: u32, known: Option<KnownFate>, hops: u64, n: u64) {
         let Some(known) = known else { return self.end_alone(at) };
@@ -93,10 +125,15 @@ impl Strip<'_> {
         self.columns[followed.column as usize].labels[followed.at as usize] = known.label;
     }
 
-    /// Ends the orbit by its phase after a jump.
+    /// Ends the orbit by the point that it reaches after a jump.
     fn end_on_circle(&mut self, at: u32, n: u64, jump: SlowJump) {
         let column = self.orbits.all[at as usize].column as usize;
-        let known = self.arc(column, n, jump.count);
+        let reached = (jump.delta, jump.error);
+        let mut known = None;
+        if !self.use_circle(n) {
+            known = self.follow_from(column, n, reached);
+        }
+        let known = known.or_else(|| self.arc(column, n, reached));
         self.end_with(at, known, jump.hops, n);
     }
 
@@ -137,7 +174,7 @@ impl Strip<'_> {
             return false;
         }
         let mut itinerary = Itinerary::START;
-        let see = |speed: f64, reach: f64| itinerary.hop((speed, reach), laps);
+        let see = |speed: f64, reach: f64| itinerary.hop(laps.lap(speed, reach));
         let edge = BesideEdge::new(column.fates.map(), start, (n, hops), see);
         match edge {
             Some(edge) => column.edges.push((edge, itinerary)),
@@ -146,40 +183,57 @@ impl Strip<'_> {
         edge.is_some()
     }
 
-    /// The fate of the phases of `count` left of α*_n, from the known arcs, and from as many more orbits as it needs.
-    fn arc(&mut self, column: usize, n: u64, count: HopCount) -> Option<KnownFate> {
+    /// The fate within an error of an offset on the turn of jumps left of α*_n, from the known arcs, and from as many more orbits as it
+    /// needs.
+    fn arc(&mut self, column: usize, n: u64, (offset, error): (f64, f64)) -> Option<KnownFate> {
         if self.columns[column].arcs(n).is_empty() {
-            let turn = self.columns[column].fates.slow_sides().turn(n)?;
-            for k in 0..=FIRST_PHASES {
-                let part = f64::from(k) / f64::from(FIRST_PHASES);
-                self.add_phase(column, n, turn - BEYOND + part * (1.0 + 2.0 * BEYOND));
-            }
+            self.begin_circle(column, n)?;
         }
+        let finest = error.max(FINEST * offset.abs());
         loop {
-            match self.columns[column].arcs(n).find(count.hops, count.error) {
+            match self.columns[column].arcs(n).find(offset, error) {
                 Arc::Known(known) => return Some(known),
-                // A smaller gap would not show more: the phases reach beyond it.
-                Arc::Open(left, right) if right - left > 2.0 * count.error.max(1e-9) => {
-                    self.add_phase(column, n, left.midpoint(right));
+                // A smaller gap would not show more: the offsets reach beyond it.
+                Arc::Open(left, right) if right - left > 2.0 * finest => {
+                    self.add_orbit(column, n, left.midpoint(right));
                 }
                 _ => return None,
             }
         }
     }
 
-    /// Follows the orbit of a phase and adds it to the arcs.
-    fn add_phase(&mut self, column: usize, n: u64, phase: f64) {
-        let known = self.columns[column]
-            .fates
-            .slow_sides()
-            .offset(n, phase)
-            .and_then(|offset| self.follow_from(column, n, offset))
-            .unwrap_or_else(|| {
+    /// The first orbits of a circle: those that all columns share, or some of this column.
+    fn begin_circle(&mut self, column: usize, n: u64) -> Option<()> {
+        let common = self.common.and_then(|common| common.arcs(n));
+        let parts = match common.filter(|arcs| !arcs.is_empty()) {
+            Some(arcs) => {
+                self.columns[column].arcs(n).clone_from(arcs);
+                1
+            }
+            None => FIRST_PHASES,
+        };
+        let sides = self.columns[column].fates.slow_sides();
+        let first = sides.turn(n)?;
+        for k in 0..=parts {
+            let part = f64::from(k) / f64::from(parts);
+            let sides = self.columns[column].fates.slow_sides();
+            let (offset, _) = sides.offset(n, first - BEYOND + part * (1.0 + 2.0 * BEYOND))?;
+            if !matches!(self.columns[column].arcs(n).find(offset, 0.0), Arc::Known(_)) {
+                self.add_orbit(column, n, offset);
+            }
+        }
+        Some(())
+    }
+
+    /// Follows the orbit from an offset and adds it to the arcs.
+    fn add_orbit(&mut self, column: usize, n: u64, offset: f64) {
+        let KnownFate { itinerary, label } =
+            self.follow_from(column, n, (offset, 0.0)).unwrap_or_else(|| {
                 let mut itinerary = Itinerary::START;
                 itinerary.give_up();
                 KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
             });
-        self.columns[column].arcs(n).add(phase, known.itinerary, known.label);
+        self.columns[column].arcs(n).add(offset, itinerary, label);
     }
 
     /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
@@ -188,7 +242,8 @@ impl Strip<'_> {
         let laps = laps.as_ref()?;
         let (mut itinerary, mut offset) = (Itinerary::START, offset);
         while let Some(next) = fates.slow_sides().walk(n, offset) {
-            itinerary.hop(speed_at(n, offset), laps);
+            let (speed, error) = speed_at(n, offset);
+            itinerary.hop(laps.lap(speed, error));
             offset = next;
         }
         let start = speed_at(n, offset);
@@ -227,7 +282,7 @@ impl Strip<'_> {
                     let jump = sides.jump(n, offset, error + f64::EPSILON * -offset)?;
                     if jump.hops > 0 {
                         // A circle inside the circle.
-                        let known = self.arc(column, n, jump.count)?;
+                        let known = self.arc(column, n, (jump.delta, jump.error))?;
                         itinerary.jump(n, jump.hops);
                         itinerary.end_in(&known.itinerary);
                         return Some(KnownFate { itinerary, label: known.label });
@@ -235,7 +290,7 @@ impl Strip<'_> {
                 }
             }
             let column = &self.columns[column];
-            itinerary.hop((speed, error), column.laps.as_ref()?);
+            itinerary.hop(column.laps.as_ref()?.lap(speed, error));
             let map = column.fates.map();
             match hop(map, speed, error) {
                 HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
@@ -251,7 +306,7 @@ impl Strip<'_> {
 }
 
 /// α*_n plus an offset, and the bound on the error of the sum: half an ulp each for α*_n and for the sum.
-fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
+pub(crate) fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
     let speed = alpha_star(n) + offset;
     (speed, error + f64::EPSILON * speed)
 }

@@ -15,6 +15,7 @@ use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::column::Column;
+use crate::raster::common_circles::CommonCircles;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
@@ -77,12 +78,20 @@ pub(crate) struct Strip<'a> {
     lower: usize,
     pub(crate) intervals: KnownIntervals,
     pub(crate) orbits: Orbits<'a>,
+    /// The circles that all columns share, if they are near enough to each other.
+    pub(crate) common: Option<&'a CommonCircles>,
+    /// For n = 0, 1, …: the number of orbits that jumped left of α*_n.
+    pub(crate) jumped: Vec<usize>,
     /// The last error of a fate that was computed for one speed alone.
     failed: Result<(), Error>,
 }
 
 /// The labels of `speeds` > 0, in increasing order, at every mass ratio.
-pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
+pub(crate) fn labels(
+    all: &[&Fates],
+    speeds: &[f64],
+    common: Option<&CommonCircles>,
+) -> Result<Vec<Vec<u16>>, Error> {
     let (speeds, lower) = with_lower_speeds(speeds);
     // Orbits and intervals are numbered by `u32`, at most one for each speed of each column.
     if speeds.len().saturating_mul(all.len()) > LARGEST_STRIP {
@@ -98,7 +107,8 @@ pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Er
         }
     }
     let orbits = Orbits::default();
-    let mut strip = Strip { columns, speeds, lower, intervals, orbits, failed: Ok(()) };
+    let (jumped, failed) = (Vec::new(), Ok(()));
+    let mut strip = Strip { columns, speeds, lower, intervals, orbits, common, jumped, failed };
     strip.label()?;
     strip.failed?;
     Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
@@ -202,7 +212,7 @@ impl Strip<'_> {
         for (&at, &alpha) in index.iter().zip(before.iter()) {
             let Followed { column, itinerary, .. } = &mut all[at as usize];
             match &self.columns[*column as usize].laps {
-                Some(laps) => itinerary.hop(alpha, laps),
+                Some(laps) => itinerary.hop(laps.lap(alpha.0, alpha.1)),
                 None => itinerary.give_up(),
             }
         }

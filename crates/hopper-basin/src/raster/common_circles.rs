@@ -1,0 +1,172 @@
+//! Circles of fates for all mass ratios of a narrow raster at once.
+//!
+//! Next to an edge every column needs the circle of the same fixed point, at nearly the same mass ratio. Here an orbit is followed for
+//! all mass ratios at once, with a bound on how far apart they are. Two offsets whose orbits agree for all mass ratios bound an arc of
+//! every column's circle.
+
+use crate::error::Error;
+use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::hopper_fate::HopperFate;
+use crate::raster::arcs::Arcs;
+use crate::raster::itinerary::Itinerary;
+use crate::raster::known_intervals::KnownFate;
+use crate::raster::laps::{HUMPS_WITH_LAPS, Laps};
+use crate::raster::slow_orbits::speed_at;
+use crate::raster::strip::is_inside;
+use crate::traps::trap_index::{Lookup, TrapIndex};
+use passive_hopper::{HopWithin, MassRatio};
+use std::collections::VecDeque;
+use std::sync::OnceLock;
+
+/// The largest width in M, as a part of M. The orbits from one offset end some 10 to 100 times as far apart as their mass ratios, and
+/// the ends of the arcs are open that far. It affects the time only, as do the next constants.
+const WIDEST: f64 = 2e-3;
+
+/// The first offsets on a circle, and the parts of a turn up to which a gap is halved: between two orbits that are known for all mass
+/// ratios, and beside one that is not.
+const FIRST: u32 = 16;
+const FINEST: f64 = 1.0 / 8192.0;
+const FINEST_BESIDE_UNKNOWN: f64 = 1.0 / 512.0;
+
+/// Most offsets on a circle. Each takes some 50 µs.
+const MOST: usize = 2000;
+
+/// Most hops of an orbit: those of a phase, and some dozen beside a lower fixed point.
+const MOST_HOPS: usize = 256;
+
+/// A turn of each column lies in the common turn with this margin, as a part of it.
+const MARGIN: f64 = 0.02;
+
+/// What is needed to follow orbits at one mass ratio.
+struct End {
+    fates: Fates,
+    traps: TrapIndex,
+    laps: Laps,
+}
+
+/// The circles of α*_1, α*_2, … for all mass ratios of a range, each computed at its first use.
+pub(crate) struct CommonCircles {
+    middle: Fates,
+    /// At the first and the last mass ratio.
+    ends: [End; 2],
+    circles: [OnceLock<Arcs>; HUMPS_WITH_LAPS as usize + 1],
+}
+
+/// An offset, and the fate of its orbits at all mass ratios.
+type Point = (f64, Option<KnownFate>);
+
+impl CommonCircles {
+    /// The circles for the mass ratios from `first` to `last` and speeds up to `largest`; `None` for a range that is too wide, for one
+    /// mass ratio alone, and where there are no laps.
+    pub(crate) fn new(first: f64, last: f64, largest: f64) -> Result<Option<Self>, Error> {
+        if !(last > first && last - first <= WIDEST * first) {
+            return Ok(None);
+        }
+        let end = |m: f64| {
+            let fates = Fates::new(MassRatio::new(m)?)?;
+            let traps = TrapIndex::new(largest, |n| fates.trap(n))?;
+            let laps = Laps::below(fates.map().mass_ratio(), largest)?;
+            Ok::<_, Error>(laps.map(|laps| End { fates, traps, laps }))
+        };
+        let (Some(lower), Some(upper)) = (end(first)?, end(last)?) else { return Ok(None) };
+        let middle = Fates::new(MassRatio::new(first.midpoint(last))?)?;
+        let circles = [const { OnceLock::new() }; HUMPS_WITH_LAPS as usize + 1];
+        Ok(Some(CommonCircles { middle, ends: [lower, upper], circles }))
+    }
+
+    /// The arcs of the circle of α*_n that all mass ratios share, by offset. They may be few.
+    pub(crate) fn arcs(&self, n: u64) -> Option<&Arcs> {
+        let slot = self.circles.get(usize::try_from(n).ok()?)?;
+        Some(slot.get_or_init(|| self.circle(n).unwrap_or_default()))
+    }
+
+    /// Follows orbits from the turn of jumps, and halves the gaps between those that do not agree.
+    fn circle(&self, n: u64) -> Option<Arcs> {
+        let (outer, inner) = self.turn(n)?;
+        let at = |part: f64| {
+            let offset = outer + part * (inner - outer);
+            (offset, self.follow(n, offset))
+        };
+        let first: Vec<Point> =
+            (0..=FIRST).map(|k| at(f64::from(k) / f64::from(FIRST))).collect();
+        // The range is too wide, and halving would not help.
+        if first.iter().filter(|point| point.1.is_some()).count() < first.len() / 2 {
+            return None;
+        }
+        let mut gaps: VecDeque<(Point, Point)> =
+            first.windows(2).map(|pair| (pair[0], pair[1])).collect();
+        let mut points = first;
+        while let Some((left, right)) = gaps.pop_front() {
+            let finest = match (left.1, right.1) {
+                (Some(left), Some(right)) if left.itinerary.agrees_with(&right.itinerary) => continue,
+                (Some(_), Some(_)) => FINEST,
+                (None, None) => continue,
+                _ => FINEST_BESIDE_UNKNOWN,
+            };
+            if right.0 - left.0 <= finest * (inner - outer) || points.len() >= MOST {
+                continue;
+            }
+            let offset = left.0.midpoint(right.0);
+            let middle = (offset, self.follow(n, offset));
+            points.push(middle);
+            gaps.extend([(left, middle), (middle, right)]);
+        }
+        let mut arcs = Arcs::default();
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (offset, known) in points {
+            if let Some(KnownFate { itinerary, label }) = known {
+                arcs.add(offset, itinerary, label);
+            }
+        }
+        Some(arcs)
+    }
+
+    /// Offsets between which all columns have their turn of jumps left of α*_n.
+    fn turn(&self, n: u64) -> Option<(f64, f64)> {
+        let (mut outer, mut inner) = (f64::INFINITY, f64::NEG_INFINITY);
+        for end in &self.ends {
+            let sides = end.fates.slow_sides();
+            let first = sides.turn(n)?;
+            outer = outer.min(sides.offset(n, first)?.0);
+            inner = inner.max(sides.offset(n, first + 1.0)?.0);
+        }
+        let margin = MARGIN * (inner - outer);
+        Some((outer - margin, inner + margin))
+    }
+
+    /// The fate from an offset left of α*_n at all mass ratios; `None` if they differ, or are not known.
+    fn follow(&self, n: u64, offset: f64) -> Option<KnownFate> {
+        let (mut speed, mut error) = speed_at(n, (offset, 0.0));
+        let mut itinerary = Itinerary::START;
+        let range = self.ends.each_ref().map(|end| end.fates.map().mass_ratio());
+        for _ in 0..MOST_HOPS {
+            if let Some(trap) = self.trap(speed, error) {
+                itinerary.end_in(&Itinerary::in_trap(trap));
+                return Some(KnownFate { itinerary, label: trap as u16 });
+            }
+            let [lower, upper] = self.ends.each_ref().map(|end| end.laps.lap(speed, error));
+            itinerary.hop(if lower == upper { lower } else { None });
+            let map = self.middle.map();
+            match map.hop_within_masses(speed, error, (range[0], range[1])) {
+                HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
+                HopWithin::Grounded => {
+                    itinerary.end_on_ground();
+                    return Some(KnownFate { itinerary, label: HopperFate::GROUNDED });
+                }
+                HopWithin::Inconclusive => return None,
+            }
+        }
+        None
+    }
+
+    /// The trap that contains all speeds within `error` of `speed` at all mass ratios. On the humps α′ falls with μ, so that the trap
+    /// of the largest μ is the shortest one, and μ rises with M where there are laps.
+    fn trap(&self, speed: f64, error: f64) -> Option<u32> {
+        let of = |end: &End| match end.traps.find(speed) {
+            Lookup::Trap(n, ends) if is_inside(speed, error, ends) => Some(n),
+            _ => None,
+        };
+        let [lower, upper] = self.ends.each_ref().map(of);
+        if lower == upper { lower } else { None }
+    }
+}
