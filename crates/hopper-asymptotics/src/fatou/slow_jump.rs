@@ -24,9 +24,6 @@ const LARGEST_PART: f64 = 0.05;
 /// The largest number of hops of one [`SlowJump`]: an `f64` up to it has its digit of one half.
 const LARGEST_JUMP: f64 = 4.5e15;
 
-/// The largest number of hops of a [`FatouCoordinate::jump_back`]. The series has a value for the last twenty or so.
-const LARGEST_RETURN: f64 = 64.0;
-
 impl FatouCoordinate {
     /// The point with the same fraction that an orbit on the left reaches later: the one of the last turn on which the series
     /// has an error below 10⁻⁸. `None` if the error of Ψ exceeds `largest`, or the offset is beyond this turn.
@@ -39,20 +36,6 @@ impl FatouCoordinate {
             return None;
         }
         Some(self.land(hops as u64, HopCount { hops: count.hops - hops, ..count }))
-    }
-
-    /// The inverse of a [`jump`](Self::jump) for an orbit on the left that is beyond the turn of jumps: the number of its last hops, the
-    /// offset of that turn from which it came, and a bound on the error of this offset. `None` if the error of Ψ exceeds `largest`, and
-    /// outside the range of [`count_within`](Self::count_within).
-    pub fn jump_back(&self, delta: f64, error: f64, largest: f64) -> Option<(u32, f64, f64)> {
-        let count = self.count_within(delta, error).ok()?;
-        let hops = (self.series.end_of_jump() - count.hops).ceil();
-        let known = self.side == Side::Left && count.error <= largest;
-        if !(known && (1.0..=LARGEST_RETURN).contains(&hops)) {
-            return None;
-        }
-        let (offset, error) = self.offset_at(HopCount { hops: count.hops + hops, ..count });
-        Some((hops as u32, offset, error))
     }
 
     /// The |δ| beyond which a [`jump`](Self::jump) has nothing to jump over.

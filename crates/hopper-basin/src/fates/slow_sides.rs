@@ -92,12 +92,6 @@ impl SlowSides {
         self.with(n, |side| (-offset > side.psi.jump_range()).then_some(())).is_some()
     }
 
-    /// The point on the turn of jumps from which an orbit comes within `error` of α*_n + `offset` after some hops: their number, its
-    /// offset, and a bound on its error.
-    pub(crate) fn jump_back(&self, n: u64, offset: f64, error: f64) -> Option<(u32, f64, f64)> {
-        self.with(n, |side| side.psi.jump_back(offset, error, LARGEST_ERROR))
-    }
-
     /// The number of hops, the offset and its error where the orbit within `error` of α*_n + `offset` leaves: after a jump, or after
     /// one hop; `None` where it has left, and for an error too large.
     pub(crate) fn leave(&self, n: u64, offset: f64, error: f64) -> Option<(u64, f64, f64)> {

@@ -4,13 +4,21 @@
 //! (docs/theory.md, Theorems 81 and 85). If the orbits of two offsets agree from there on, all offsets between them have their
 //! fate.
 
-use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
 
-/// The offsets of followed orbits, in increasing order, with what the orbits did from there.
+/// A point of an orbit left of a fixed point.
+#[derive(Debug, Clone, Copy)]
+struct Point {
+    /// All offsets at which it may be.
+    offsets: (f64, f64),
+    /// What the orbit does from there on.
+    known: KnownFate,
+}
+
+/// Points of followed orbits, in increasing order of their offsets.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Arcs {
-    points: Vec<(f64, KnownFate)>,
+    points: Vec<Point>,
 }
 
 /// What is known of some offsets.
@@ -28,20 +36,34 @@ impl Arcs {
     /// What is known of the offsets within `error` of `offset`.
     pub(crate) fn find(&self, offset: f64, error: f64) -> Arc {
         let (least, most) = (offset - error, offset + error);
-        // The last point at or below all of them, and the first one at or above them.
-        let first = self.points.partition_point(|point| point.0 <= least);
-        let last = self.points.partition_point(|point| point.0 < most);
+        // The last point that is at or below all of them, and the first one that is at or above them. As points may overlap, those
+        // next to the places found by one end are tried.
+        let mut first = self.points.partition_point(|point| point.offsets.1 <= least);
+        while first > 0 && !(self.points[first - 1].offsets.1 <= least) {
+            first -= 1;
+        }
+        let mut last = self.points.partition_point(|point| point.offsets.0 < most);
+        while last < self.points.len() && !(self.points[last].offsets.0 >= most) {
+            last += 1;
+        }
         let Some(around) = first.checked_sub(1).and_then(|first| self.points.get(first..=last))
         else {
             return Arc::Outside;
         };
-        let open =
-            around.windows(2).find(|pair| !pair[0].1.itinerary.agrees_with(&pair[1].1.itinerary));
-        match (open, around) {
-            (Some(pair), _) => Arc::Open(pair[0].0, pair[1].0),
+        let agree = |pair: &[Point]| pair[0].known.itinerary.agrees_with(&pair[1].known.itinerary);
+        match (around.windows(2).find(|pair| !agree(pair)), around) {
+            (Some(pair), _) => Arc::Open(pair[0].offsets.1, pair[1].offsets.0),
             // Without an error an offset may be a point, which has its own fate.
-            (None, [(_, known), ..]) => Arc::Known(*known),
+            (None, [point, ..]) => Arc::Known(point.known),
             (None, []) => Arc::Outside,
+        }
+    }
+
+    /// The fate of the offsets within `error` of `offset`, if it is known.
+    pub(crate) fn known(&self, offset: f64, error: f64) -> Option<KnownFate> {
+        match self.find(offset, error) {
+            Arc::Known(known) => Some(known),
+            Arc::Open(..) | Arc::Outside => None,
         }
     }
 
@@ -49,34 +71,72 @@ impl Arcs {
         self.points.is_empty()
     }
 
-    /// Adds the orbit of an offset.
-    pub(crate) fn add(&mut self, offset: f64, itinerary: Itinerary, label: u16) {
-        let at = self.points.partition_point(|point| point.0 < offset);
-        self.points.insert(at, (offset, KnownFate { itinerary, label }));
+    /// Adds a point of an orbit that is within `error` of `offset`.
+    pub(crate) fn add(&mut self, (offset, error): (f64, f64), known: KnownFate) {
+        let offsets = (offset - error, offset + error);
+        let at = self.points.partition_point(|point| point.offsets.0 < offsets.0);
+        self.points.insert(at, Point { offsets, known });
+    }
+
+    /// The arcs that these points show. Points that agree with both of their neighbours are left out: the same is known without them.
+    pub(crate) fn from_points(points: Vec<((f64, f64), KnownFate)>) -> Self {
+        let point = |((offset, error), known)| Point { offsets: (offset - error, offset + error), known };
+        let mut all: Vec<Point> = points.into_iter().map(point).collect();
+        all.sort_by(|a, b| a.offsets.0.total_cmp(&b.offsets.0));
+        let mut kept: Vec<Point> = Vec::new();
+        for (at, point) in all.iter().enumerate() {
+            let next = all.get(at + 1);
+            let same = |other: Option<&Point>| {
+                other.is_some_and(|other| other.known.itinerary.agrees_with(&point.known.itinerary))
+            };
+            if !(same(kept.last()) && same(next)) {
+                kept.push(*point);
+            }
+        }
+        Arcs { points: kept }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::itinerary::Itinerary;
+
+    fn known(n: u32) -> KnownFate {
+        KnownFate { itinerary: Itinerary::in_trap(n), label: n as u16 }
+    }
 
     #[test]
     fn only_offsets_between_agreeing_orbits_are_known() {
         let mut arcs = Arcs::default();
         assert_eq!(arcs.find(0.3, 0.0), Arc::Outside);
-        let (first, second) = (Itinerary::in_trap(1), Itinerary::in_trap(0));
-        for (offset, itinerary, label) in
-            [(0.4, first, 1), (0.2, first, 1), (0.6, second, 0), (0.3, first, 1)]
-        {
-            arcs.add(offset, itinerary, label);
+        let points = [(0.4, 1), (0.2, 1), (0.6, 0), (0.3, 1)].map(|(x, n)| ((x, 0.0), known(n)));
+        for (at, known) in points {
+            arcs.add(at, known);
         }
-        let known = Arc::Known(KnownFate { itinerary: first, label: 1 });
-        assert_eq!(arcs.find(0.3, 0.05), known);
-        assert_eq!(arcs.find(0.3, 0.1 - 1e-15), known);
-        assert_eq!(arcs.find(0.35, 0.1), Arc::Open(0.4, 0.6));
-        assert_eq!(arcs.find(0.5, 0.0), Arc::Open(0.4, 0.6));
-        for offset in [0.1, 0.7, f64::NAN] {
-            assert_eq!(arcs.find(offset, 0.0), Arc::Outside);
+        for (arcs, count) in [(arcs, 4), (Arcs::from_points(points.to_vec()), 3)] {
+            assert_eq!(arcs.find(0.3, 0.05), Arc::Known(known(1)));
+            assert_eq!(arcs.find(0.3, 0.1 - 1e-15), Arc::Known(known(1)));
+            assert_eq!(arcs.find(0.35, 0.1), Arc::Open(0.4, 0.6));
+            assert_eq!(arcs.find(0.5, 0.0), Arc::Open(0.4, 0.6));
+            for offset in [0.1, 0.7, f64::NAN] {
+                assert_eq!(arcs.find(offset, 0.0), Arc::Outside);
+            }
+            assert_eq!(arcs.points.len(), count);
         }
+    }
+
+    #[test]
+    fn offsets_within_the_error_of_a_point_are_open() {
+        let mut arcs = Arcs::default();
+        for (offset, error, n) in [(0.2, 0.01, 1), (0.4, 0.05, 1), (0.43, 0.001, 1), (0.6, 0.1, 0)] {
+            arcs.add((offset, error), known(n));
+        }
+        assert_eq!(arcs.find(0.3, 0.08), Arc::Known(known(1)));
+        assert_eq!(arcs.find(0.20, 0.0), Arc::Outside);
+        assert_eq!(arcs.find(0.4, 0.0), Arc::Known(known(1)));
+        // Right of 0.431 and left of 0.45 the orbit of 0.4 may be on either side.
+        assert_eq!(arcs.find(0.44, 0.0), Arc::Open(0.431, 0.5));
+        assert_eq!(arcs.find(0.55, 0.0), Arc::Outside);
     }
 }

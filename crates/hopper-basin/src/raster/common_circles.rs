@@ -52,8 +52,14 @@ pub(crate) struct CommonCircles {
     circles: [OnceLock<Arcs>; HUMPS_WITH_LAPS as usize + 1],
 }
 
-/// An offset, and the fate of its orbits at all mass ratios.
-type Point = (f64, Option<KnownFate>);
+/// The orbits from an offset on the turn of jumps at all mass ratios.
+struct Orbit {
+    offset: f64,
+    /// The offsets after each hop along the slow side, from the first one on, with bounds on their errors.
+    walk: Vec<(f64, f64)>,
+    /// Their fate; `None` if they differ, or are not known.
+    known: Option<KnownFate>,
+}
 
 impl CommonCircles {
     /// The circles for the mass ratios from `first` to `last` and speeds up to `largest`; `None` for a range that is too wide, for one
@@ -83,42 +89,40 @@ impl CommonCircles {
     /// Follows orbits from the turn of jumps, and halves the gaps between those that do not agree.
     fn circle(&self, n: u64) -> Option<Arcs> {
         let (outer, inner) = self.turn(n)?;
-        let at = |part: f64| {
-            let offset = outer + part * (inner - outer);
-            (offset, self.follow(n, offset))
-        };
-        let first: Vec<Point> =
+        let width = inner - outer;
+        let at = |part: f64| self.follow(n, outer + part * width);
+        let mut orbits: Vec<Orbit> =
             (0..=FIRST).map(|k| at(f64::from(k) / f64::from(FIRST))).collect();
         // The range is too wide, and halving would not help.
-        if first.iter().filter(|point| point.1.is_some()).count() < first.len() / 2 {
+        if orbits.iter().filter(|orbit| orbit.known.is_some()).count() < orbits.len() / 2 {
             return None;
         }
-        let mut gaps: VecDeque<(Point, Point)> =
-            first.windows(2).map(|pair| (pair[0], pair[1])).collect();
-        let mut points = first;
+        let mut gaps: VecDeque<(usize, usize)> = (1..orbits.len()).map(|k| (k - 1, k)).collect();
         while let Some((left, right)) = gaps.pop_front() {
-            let finest = match (left.1, right.1) {
-                (Some(left), Some(right)) if left.itinerary.agrees_with(&right.itinerary) => continue,
+            let (from, to) = (&orbits[left], &orbits[right]);
+            let finest = match (from.known, to.known) {
+                (Some(a), Some(b)) if a.itinerary.agrees_with(&b.itinerary) => continue,
                 (Some(_), Some(_)) => FINEST,
                 (None, None) => continue,
                 _ => FINEST_BESIDE_UNKNOWN,
             };
-            if right.0 - left.0 <= finest * (inner - outer) || points.len() >= MOST {
+            if to.offset - from.offset <= finest * width || orbits.len() >= MOST {
                 continue;
             }
-            let offset = left.0.midpoint(right.0);
-            let middle = (offset, self.follow(n, offset));
-            points.push(middle);
-            gaps.extend([(left, middle), (middle, right)]);
+            let middle = self.follow(n, from.offset.midpoint(to.offset));
+            gaps.extend([(left, orbits.len()), (orbits.len(), right)]);
+            orbits.push(middle);
         }
-        let mut arcs = Arcs::default();
-        points.sort_by(|a, b| a.0.total_cmp(&b.0));
-        for (offset, known) in points {
-            if let Some(KnownFate { itinerary, label }) = known {
-                arcs.add(offset, itinerary, label);
+        let mut points = Vec::new();
+        for Orbit { offset, walk, known } in orbits {
+            let Some(known) = known else { continue };
+            points.push(((offset, 0.0), known));
+            for (hops, &at) in (1..).zip(&walk) {
+                let Some(itinerary) = known.itinerary.after(hops) else { break };
+                points.push((at, KnownFate { itinerary, ..known }));
             }
         }
-        Some(arcs)
+        Some(Arcs::from_points(points))
     }
 
     /// Offsets between which all columns have their turn of jumps left of α*_n.
@@ -134,20 +138,50 @@ impl CommonCircles {
         Some((outer - margin, inner + margin))
     }
 
-    /// The fate from an offset left of α*_n at all mass ratios; `None` if they differ, or are not known.
-    fn follow(&self, n: u64, offset: f64) -> Option<KnownFate> {
-        let (mut speed, mut error) = speed_at(n, (offset, 0.0));
-        let mut itinerary = Itinerary::START;
-        let range = self.ends.each_ref().map(|end| end.fates.map().mass_ratio());
+    /// Follows the orbits from an offset left of α*_n at all mass ratios.
+    fn follow(&self, n: u64, offset: f64) -> Orbit {
+        let (mut walk, mut itinerary, mut at) = (Vec::new(), Itinerary::START, (offset, 0.0));
+        while let Some(next) = self.walk(n, at) {
+            itinerary.hop(self.lap(speed_at(n, at)));
+            walk.push(next);
+            at = next;
+        }
+        let known = self.follow_from(speed_at(n, at), itinerary);
+        Orbit { offset, walk, known }
+    }
+
+    /// The offset after a hop left of α*_n, and a bound on its error at all mass ratios; `None` where the orbits leave.
+    fn walk(&self, n: u64, at: (f64, f64)) -> Option<(f64, f64)> {
+        let (speed, error) = speed_at(n, at);
+        let (next, error_of_one) = self.middle.slow_sides().walk(n, at)?;
+        let spread = self.middle.map().spread_over_masses(speed, error, self.masses())?;
+        Some((next, error_of_one + spread))
+    }
+
+    fn masses(&self) -> (MassRatio, MassRatio) {
+        let [first, last] = self.ends.each_ref().map(|end| end.fates.map().mass_ratio());
+        (first, last)
+    }
+
+    /// The lap that contains all speeds within `error` of `speed` at all mass ratios. The ends of laps move in one direction with M.
+    fn lap(&self, (speed, error): (f64, f64)) -> Option<u8> {
+        let [lower, upper] = self.ends.each_ref().map(|end| end.laps.lap(speed, error));
+        if lower == upper { lower } else { None }
+    }
+
+    /// The fate at all mass ratios and all speeds within an error; `None` if they differ, or are not known.
+    fn follow_from(
+        &self,
+        (mut speed, mut error): (f64, f64),
+        mut itinerary: Itinerary,
+    ) -> Option<KnownFate> {
         for _ in 0..MOST_HOPS {
             if let Some(trap) = self.trap(speed, error) {
                 itinerary.end_in(&Itinerary::in_trap(trap));
                 return Some(KnownFate { itinerary, label: trap as u16 });
             }
-            let [lower, upper] = self.ends.each_ref().map(|end| end.laps.lap(speed, error));
-            itinerary.hop(if lower == upper { lower } else { None });
-            let map = self.middle.map();
-            match map.hop_within_masses(speed, error, (range[0], range[1])) {
+            itinerary.hop(self.lap((speed, error)));
+            match self.middle.map().hop_within_masses(speed, error, self.masses()) {
                 HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
                 HopWithin::Grounded => {
                     itinerary.end_on_ground();

@@ -92,13 +92,9 @@ impl Strip<'_> {
     fn end_behind_jumps(&mut self, at: u32, (n, offset, error): (u64, f64, f64)) {
         let column = self.orbits.all[at as usize].column as usize;
         let mut known = None;
-        if self.use_circle(n)
-            && let Some((hops, start, error)) =
-                self.columns[column].fates.slow_sides().jump_back(n, offset, error)
-            && let Some(circle) = self.arc(column, n, (start, error))
-            && let Some(itinerary) = circle.itinerary.after(hops)
-        {
-            known = Some(KnownFate { itinerary, ..circle });
+        if self.use_circle(n) && self.has_circle(column, n) {
+            // Where the circle has a gap, halving it would cost more than the orbit.
+            known = self.columns[column].arcs(n).known(offset, error);
         }
         let known = known.or_else(|| self.follow_from(column, n, (offset, error)));
         self.end_with(at, known, 0, n);
@@ -186,8 +182,8 @@ impl Strip<'_> {
     /// The fate within an error of an offset on the turn of jumps left of α*_n, from the known arcs, and from as many more orbits as it
     /// needs.
     fn arc(&mut self, column: usize, n: u64, (offset, error): (f64, f64)) -> Option<KnownFate> {
-        if self.columns[column].arcs(n).is_empty() {
-            self.begin_circle(column, n)?;
+        if !self.has_circle(column, n) {
+            return None;
         }
         let finest = error.max(FINEST * offset.abs());
         loop {
@@ -200,6 +196,11 @@ impl Strip<'_> {
                 _ => return None,
             }
         }
+    }
+
+    /// Whether there is a circle left of α*_n; begins it if there was none yet.
+    fn has_circle(&mut self, column: usize, n: u64) -> bool {
+        !self.columns[column].arcs(n).is_empty() || self.begin_circle(column, n).is_some()
     }
 
     /// The first orbits of a circle: those that all columns share, or some of this column.
@@ -233,7 +234,7 @@ impl Strip<'_> {
                 itinerary.give_up();
                 KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
             });
-        self.columns[column].arcs(n).add(offset, itinerary, label);
+        self.columns[column].arcs(n).add((offset, 0.0), KnownFate { itinerary, label });
     }
 
     /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
