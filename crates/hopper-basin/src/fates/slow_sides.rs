@@ -87,6 +87,11 @@ impl SlowSides {
         self.with(n, |side| side.walk.hop(offset, error))
     }
 
+    /// The largest |δ| from which a [`walk`](Self::walk) goes on.
+    pub(crate) fn walk_range(&self, n: u64) -> Option<f64> {
+        self.with(n, |side| Some(side.walk.range()))
+    }
+
     /// Whether the point is so far from α*_n that a jump would lead back.
     pub(crate) fn is_beyond_jumps(&self, n: u64, offset: f64) -> bool {
         self.with(n, |side| (-offset > side.psi.jump_range()).then_some(())).is_some()

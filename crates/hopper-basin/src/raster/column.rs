@@ -31,7 +31,7 @@ pub(crate) struct Column<'a> {
     closed: Vec<bool>,
     pub(crate) zones: SlowZones,
     /// The known arcs of the circles of α*_1, α*_2, …
-    arcs: Vec<Arcs>,
+    pub(crate) arcs: Vec<Arcs>,
     /// Starts that fall onto fixed points, with the itineraries of all starts beside them.
     pub(crate) edges: Vec<(BesideEdge, Itinerary)>,
     /// The number of orbits that came to a slow side, too far for a jump.

@@ -22,20 +22,29 @@ use std::sync::OnceLock;
 /// the ends of the arcs are open that far. It affects the time only, as do the next constants.
 const WIDEST: f64 = 2e-3;
 
-/// The first offsets on a circle, and the parts of a turn up to which a gap is halved: between two orbits that are known for all mass
-/// ratios, and beside one that is not.
+/// The first offsets on a turn, and the parts of it up to which a gap is halved: between two orbits that are known for all mass ratios,
+/// and beside one that is not.
 const FIRST: u32 = 16;
 const FINEST: f64 = 1.0 / 8192.0;
 const FINEST_BESIDE_UNKNOWN: f64 = 1.0 / 512.0;
 
-/// Most offsets on a circle. Each takes some 50 µs.
+/// Most offsets on a turn. Each takes some 10 to 50 µs.
 const MOST: usize = 2000;
 
-/// Most hops of an orbit: those of a phase, and some dozen beside a lower fixed point.
+/// Most hops of an orbit after its slow hops: those of a phase, and some dozen beside a lower fixed point.
 const MOST_HOPS: usize = 256;
 
-/// A turn of each column lies in the common turn with this margin, as a part of it.
+/// Most hops along the slow side from the turn of jumps.
+const MOST_SLOW_HOPS: usize = 256;
+
+/// The turn of every mass ratio lies in the common turn with this margin, as a part of it.
 const MARGIN: f64 = 0.02;
+
+/// The outer end of the outermost turn, as a part of the range of slow hops. From there one or two hops lead out.
+const OUTERMOST: f64 = 0.7;
+
+/// Halvings of an interval to the last bit.
+const HALVINGS: usize = 64;
 
 /// What is needed to follow orbits at one mass ratio.
 struct End {
@@ -44,15 +53,24 @@ struct End {
     laps: Laps,
 }
 
+/// A circle of fates for all mass ratios of a range.
+#[derive(Default)]
+pub(crate) struct CommonCircle {
+    /// Its arcs, by offset, on all turns from that of the jumps outwards.
+    pub(crate) arcs: Arcs,
+    /// Whether the turn of jumps is among them.
+    pub(crate) from_jumps: bool,
+}
+
 /// The circles of α*_1, α*_2, … for all mass ratios of a range, each computed at its first use.
 pub(crate) struct CommonCircles {
     middle: Fates,
     /// At the first and the last mass ratio.
     ends: [End; 2],
-    circles: [OnceLock<Arcs>; HUMPS_WITH_LAPS as usize + 1],
+    circles: [OnceLock<CommonCircle>; HUMPS_WITH_LAPS as usize + 1],
 }
 
-/// The orbits from an offset on the turn of jumps at all mass ratios.
+/// The orbits from an offset left of a fixed point at all mass ratios.
 struct Orbit {
     offset: f64,
     /// The offsets after each hop along the slow side, from the first one on, with bounds on their errors.
@@ -80,17 +98,33 @@ impl CommonCircles {
         Ok(Some(CommonCircles { middle, ends: [lower, upper], circles }))
     }
 
-    /// The arcs of the circle of α*_n that all mass ratios share, by offset. They may be few.
-    pub(crate) fn arcs(&self, n: u64) -> Option<&Arcs> {
+    /// The circle left of α*_n; `None` where orbits from one offset lie too far apart.
+    pub(crate) fn circle(&self, n: u64) -> Option<&CommonCircle> {
         let slot = self.circles.get(usize::try_from(n).ok()?)?;
-        Some(slot.get_or_init(|| self.circle(n).unwrap_or_default()))
+        let circle = slot.get_or_init(|| self.new_circle(n).unwrap_or_default());
+        (!circle.arcs.is_empty()).then_some(circle)
     }
 
-    /// Follows orbits from the turn of jumps, and halves the gaps between those that do not agree.
-    fn circle(&self, n: u64) -> Option<Arcs> {
-        let (outer, inner) = self.turn(n)?;
+    fn new_circle(&self, n: u64) -> Option<CommonCircle> {
+        let none = Arcs::default();
+        let points = self.turn(n, self.outermost_turn(n)?, &none)?;
+        let outermost = Arcs::from_points(points.clone());
+        let inner = self.turn_of_jumps(n).and_then(|turn| self.turn(n, turn, &outermost));
+        let from_jumps = inner.is_some();
+        let points = points.into_iter().chain(inner.unwrap_or_default()).collect();
+        Some(CommonCircle { arcs: Arcs::from_points(points), from_jumps })
+    }
+
+    /// Follows orbits from the offsets of a turn, outwards to `known` arcs, and halves the gaps between those that do not agree. Gives
+    /// the points of all known orbits.
+    fn turn(
+        &self,
+        n: u64,
+        (outer, inner): (f64, f64),
+        known: &Arcs,
+    ) -> Option<Vec<((f64, f64), KnownFate)>> {
         let width = inner - outer;
-        let at = |part: f64| self.follow(n, outer + part * width);
+        let at = |part: f64| self.follow(n, outer + part * width, known);
         let mut orbits: Vec<Orbit> =
             (0..=FIRST).map(|k| at(f64::from(k) / f64::from(FIRST))).collect();
         // The range is too wide, and halving would not help.
@@ -109,24 +143,15 @@ impl CommonCircles {
             if to.offset - from.offset <= finest * width || orbits.len() >= MOST {
                 continue;
             }
-            let middle = self.follow(n, from.offset.midpoint(to.offset));
+            let middle = self.follow(n, from.offset.midpoint(to.offset), known);
             gaps.extend([(left, orbits.len()), (orbits.len(), right)]);
             orbits.push(middle);
         }
-        let mut points = Vec::new();
-        for Orbit { offset, walk, known } in orbits {
-            let Some(known) = known else { continue };
-            points.push(((offset, 0.0), known));
-            for (hops, &at) in (1..).zip(&walk) {
-                let Some(itinerary) = known.itinerary.after(hops) else { break };
-                points.push((at, KnownFate { itinerary, ..known }));
-            }
-        }
-        Some(Arcs::from_points(points))
+        Some(orbits.iter().flat_map(Orbit::points).collect())
     }
 
-    /// Offsets between which all columns have their turn of jumps left of α*_n.
-    fn turn(&self, n: u64) -> Option<(f64, f64)> {
+    /// Offsets between which all mass ratios have their turn of jumps left of α*_n.
+    fn turn_of_jumps(&self, n: u64) -> Option<(f64, f64)> {
         let (mut outer, mut inner) = (f64::INFINITY, f64::NEG_INFINITY);
         for end in &self.ends {
             let sides = end.fates.slow_sides();
@@ -138,24 +163,52 @@ impl CommonCircles {
         Some((outer - margin, inner + margin))
     }
 
-    /// Follows the orbits from an offset left of α*_n at all mass ratios.
-    fn follow(&self, n: u64, offset: f64) -> Orbit {
+    /// Offsets between which all mass ratios have a turn from which orbits leave α*_n.
+    fn outermost_turn(&self, n: u64) -> Option<(f64, f64)> {
+        let sides = self.middle.slow_sides();
+        let outer = -OUTERMOST * sides.walk_range(n)?;
+        // The offset that hops to the outer end.
+        let (mut left, mut right) = (outer, 0.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (left + right);
+            if sides.walk(n, (middle, 0.0))?.0 < outer {
+                left = middle;
+            } else {
+                right = middle;
+            }
+        }
+        let margin = MARGIN * (right - outer);
+        Some((outer - margin, right + margin))
+    }
+
+    /// Follows the orbits from an offset left of α*_n at all mass ratios, up to `known` arcs.
+    fn follow(&self, n: u64, offset: f64, known: &Arcs) -> Orbit {
         let (mut walk, mut itinerary, mut at) = (Vec::new(), Itinerary::START, (offset, 0.0));
-        while let Some(next) = self.walk(n, at) {
+        while let Some(next) = self.walk(n, at)
+            && walk.len() < MOST_SLOW_HOPS
+        {
             itinerary.hop(self.lap(speed_at(n, at)));
             walk.push(next);
             at = next;
+            if let Some(known) = known.known(at.0, at.1) {
+                itinerary.end_in(&known.itinerary);
+                return Orbit { offset, walk, known: Some(KnownFate { itinerary, ..known }) };
+            }
         }
         let known = self.follow_from(speed_at(n, at), itinerary);
         Orbit { offset, walk, known }
     }
 
-    /// The offset after a hop left of α*_n, and a bound on its error at all mass ratios; `None` where the orbits leave.
-    fn walk(&self, n: u64, at: (f64, f64)) -> Option<(f64, f64)> {
-        let (speed, error) = speed_at(n, at);
-        let (next, error_of_one) = self.middle.slow_sides().walk(n, at)?;
-        let spread = self.middle.map().spread_over_masses(speed, error, self.masses())?;
-        Some((next, error_of_one + spread))
+    /// The offset after a hop left of α*_n, and a bound on its error at all mass ratios; `None` where an orbit leaves. α′ rises with
+    /// the offset, and falls with κ (docs/theory.md, Theorem 81 and Corollary 93).
+    fn walk(&self, n: u64, (offset, error): (f64, f64)) -> Option<(f64, f64)> {
+        let [first, last] = self.ends.each_ref().map(|end| end.fates.slow_sides());
+        let (least, below) = last.walk(n, (offset - error, 0.0))?;
+        let (most, above) = first.walk(n, (offset + error, 0.0))?;
+        let (least, most) = (least - below, most + above);
+        // The roundings of both ends and of the start.
+        let rounding = 4.0 * f64::EPSILON * least.abs();
+        Some((least.midpoint(most), 0.5 * (most - least) + rounding))
     }
 
     fn masses(&self) -> (MassRatio, MassRatio) {
@@ -202,5 +255,18 @@ impl CommonCircles {
         };
         let [lower, upper] = self.ends.each_ref().map(of);
         if lower == upper { lower } else { None }
+    }
+}
+
+impl Orbit {
+    /// Its points on the slow side, with what is known from there on.
+    fn points(&self) -> impl Iterator<Item = ((f64, f64), KnownFate)> {
+        let known = self.known.into_iter();
+        let later = |known: KnownFate| {
+            (1..).zip(&self.walk).map_while(move |(hops, &at)| {
+                Some((at, KnownFate { itinerary: known.itinerary.after(hops)?, ..known }))
+            })
+        };
+        known.flat_map(move |known| std::iter::once(((self.offset, 0.0), known)).chain(later(known)))
     }
 }

@@ -109,15 +109,22 @@ impl Itinerary {
             return self.give_up();
         }
         // The bits of the known laps, without their leading one.
-        let bits = 63 - known.laps.leading_zeros();
+        let mut bits = 63 - known.laps.leading_zeros();
+        let mut laps = known.laps ^ 1 << bits;
+        // They begin with a one bit and the number of a lap. If this orbit is on that lap, it goes on with a zero bit: the same hops
+        // have the same form, wherever the known laps begin.
+        if let Some(below) = bits.checked_sub(ID_BITS + 1)
+            && laps >> below == 1 << ID_BITS | u64::from(self.last)
+        {
+            (bits, laps) = (below + 1, laps & ((1 << below) - 1));
+        }
         // The laps of both must fit below bit 63.
         let one_jump = (self.slow == 0) | (known.slow == 0);
         let room = (self.laps.leading_zeros() >= bits) & (self.laps != NO_LAPS) & one_jump;
         self.slow |= known.slow;
         self.end = known.end;
-        // The known laps begin with a number: the same hops may have another form, which only hides an agreement.
         self.last = known.last;
-        self.laps = if room { self.laps << bits | (known.laps ^ 1 << bits) } else { NO_LAPS };
+        self.laps = if room { self.laps << bits | laps } else { NO_LAPS };
     }
 
     /// True if every orbit that starts between these two has their fate (README.md, the theorem).

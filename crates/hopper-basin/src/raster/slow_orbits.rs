@@ -205,21 +205,17 @@ impl Strip<'_> {
 
     /// The first orbits of a circle: those that all columns share, or some of this column.
     fn begin_circle(&mut self, column: usize, n: u64) -> Option<()> {
-        let common = self.common.and_then(|common| common.arcs(n));
-        let parts = match common.filter(|arcs| !arcs.is_empty()) {
-            Some(arcs) => {
-                self.columns[column].arcs(n).clone_from(arcs);
-                1
-            }
-            None => FIRST_PHASES,
-        };
-        let sides = self.columns[column].fates.slow_sides();
-        let first = sides.turn(n)?;
+        let common = self.common.and_then(|common| common.circle(n));
+        if let Some(circle) = common {
+            self.columns[column].arcs(n).clone_from(&circle.arcs);
+        }
+        let parts = if common.is_some_and(|circle| circle.from_jumps) { 1 } else { FIRST_PHASES };
+        let first = self.columns[column].fates.slow_sides().turn(n)?;
         for k in 0..=parts {
             let part = f64::from(k) / f64::from(parts);
             let sides = self.columns[column].fates.slow_sides();
             let (offset, _) = sides.offset(n, first - BEYOND + part * (1.0 + 2.0 * BEYOND))?;
-            if !matches!(self.columns[column].arcs(n).find(offset, 0.0), Arc::Known(_)) {
+            if self.columns[column].arcs(n).known(offset, 0.0).is_none() {
                 self.add_orbit(column, n, offset);
             }
         }
@@ -239,13 +235,17 @@ impl Strip<'_> {
 
     /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
     fn follow_from(&mut self, column: usize, n: u64, offset: (f64, f64)) -> Option<KnownFate> {
-        let Column { fates, laps, .. } = &self.columns[column];
-        let laps = laps.as_ref()?;
+        let Column { fates, laps, arcs, .. } = &self.columns[column];
+        let (laps, arcs) = (laps.as_ref()?, arcs.get(n as usize));
         let (mut itinerary, mut offset) = (Itinerary::START, offset);
         while let Some(next) = fates.slow_sides().walk(n, offset) {
             let (speed, error) = speed_at(n, offset);
             itinerary.hop(laps.lap(speed, error));
             offset = next;
+            if let Some(known) = arcs.and_then(|arcs| arcs.known(offset.0, offset.1)) {
+                itinerary.end_in(&known.itinerary);
+                return Some(KnownFate { itinerary, ..known });
+            }
         }
         let start = speed_at(n, offset);
         // The second bound takes ten times as long, and decides nearly all of the rest.

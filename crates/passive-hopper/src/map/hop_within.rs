@@ -3,15 +3,14 @@
 //! The kernel's bound is tried first. It adds absolute values, and costs little more than the hop. The bound of
 //! `speed_error.rs` has the signs of the true derivative, and costs several hops.
 
-use crate::kernel::scalar::bounded_next::{BoundedNext, BoundedSquare, ROUND_UP};
+use crate::kernel::scalar::bounded_next::{BoundedNext, BoundedSquare};
 use crate::kernel::scalar::hop_from_interval::kernel_hop_within;
 use crate::landing::error_bound::ErrorBound;
 use crate::landing::fixed_point_interval::FixedPointInterval;
-use crate::landing::flight_ends::Landing;
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::map::plain_landings::PlainLandings;
-use crate::map::speed_error::{Changes, SquareTangent, tangent_of_square};
+use crate::map::speed_error::{Changes, change_of_square};
 use crate::model::fixed_points::n_pi;
 use crate::model::mass_ratio::MassRatio;
 
@@ -101,24 +100,6 @@ impl LiftOffMap {
             .unwrap_or(HopWithin::Inconclusive)
     }
 
-    /// Bound on the distance of the next speed at any mass ratio from `first` to `last` from that at the map's own, from any speed
-    /// within `error` of `alpha`. `None` where [`hop_within_masses`](Self::hop_within_masses) is not `Next`.
-    ///
-    /// Next to a fixed point this is much less than the rounding of a speed: there the hop loses little.
-    pub fn spread_over_masses(
-        &self,
-        alpha: f64,
-        error: f64,
-        masses: (MassRatio, MassRatio),
-    ) -> Option<f64> {
-        let changes = Changes { speed: error, kappa: self.change_of_kappa(masses)? };
-        let (found, tangent) = self.square_and_tangent(alpha, changes)?;
-        let BoundedNext { speed, error } = found.next();
-        // |F(ξ, κ′) − F(ξ, κ)|: the second order of both.
-        let square = (tangent.by_kappa * changes.kappa).abs() + 2.0 * (tangent.rounding + tangent.second);
-        (speed > error).then(|| ROUND_UP * square / (2.0 * (speed - error)))
-    }
-
     /// The largest |Δκ| between the map and the mass ratios from the first to the last; `None` unless its own is among them.
     fn change_of_kappa(&self, (first, last): (MassRatio, MassRatio)) -> Option<f64> {
         let kappa = self.factors.kappa;
@@ -128,25 +109,6 @@ impl LiftOffMap {
     }
 
     fn signed_square_within(&self, alpha: f64, changes: Changes) -> Option<BoundedSquare> {
-        if changes == Changes::of_speed(0.0) {
-            return Some(self.square_from(alpha, changes)?.0);
-        }
-        self.square_and_tangent(alpha, changes).map(|(square, _)| square)
-    }
-
-    /// F within `changes`, and its tangent.
-    fn square_and_tangent(
-        &self,
-        alpha: f64,
-        changes: Changes,
-    ) -> Option<(BoundedSquare, SquareTangent)> {
-        let (BoundedSquare { square, error }, landings) = self.square_from(alpha, changes)?;
-        let tangent = tangent_of_square(alpha, changes, &landings, self.factors)?;
-        Some((BoundedSquare { square, error: error + tangent.change() }, tangent))
-    }
-
-    /// F at `alpha`, with the rounding error alone, and the landings, which are of the same kind within `changes`.
-    fn square_from(&self, alpha: f64, changes: Changes) -> Option<(BoundedSquare, Vec<Landing>)> {
         let error = changes.speed;
         if check_speed(alpha).is_err() || alpha > LARGEST_PLAIN_SPEED || !on_one_side(alpha, error)
         {
@@ -169,11 +131,11 @@ impl LiftOffMap {
             found.push(landing);
         }
         let (mu, square) = (self.factors.mu, alpha * alpha);
-        let bounded = BoundedSquare {
+        let propagated = change_of_square(alpha, changes, &found, self.factors)?;
+        Some(BoundedSquare {
             square: square * (1.0 - mu * ratios_squared),
-            error: square * rounding.ratio_error(mu, alpha),
-        };
-        Some((bounded, found))
+            error: square * rounding.ratio_error(mu, alpha) + propagated,
+        })
     }
 }
 
