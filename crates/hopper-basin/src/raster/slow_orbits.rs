@@ -36,6 +36,10 @@ const MOST_MISSED_EDGES: usize = 4;
 /// followed alone: a circle takes as long as some dozen orbits. It affects the time only.
 const FIRST_JUMPS: usize = 2;
 
+/// A hop along the slow side by its polynomials is given up for a plain one if it multiplies the error of the speed by more than this.
+/// Far from the fixed point the polynomials err more than a plain hop does.
+const PLAIN_GROWTH: f64 = 16.0;
+
 /// Most hops of a followed phase: an orbit leaves the turn of jumps after some 15 hops. Beyond it the phase stays open.
 const MOST_HOPS: usize = 2048;
 
@@ -240,6 +244,9 @@ impl Strip<'_> {
         let (mut itinerary, mut offset) = (Itinerary::START, offset);
         while let Some(next) = fates.slow_sides().walk(n, offset) {
             let (speed, error) = speed_at(n, offset);
+            if next.1 > PLAIN_GROWTH * error {
+                break;
+            }
             itinerary.hop(laps.lap(speed, error));
             offset = next;
             if let Some(known) = arcs.and_then(|arcs| arcs.known(offset.0, offset.1)) {

@@ -130,6 +130,12 @@ impl ErrorBound {
         self.error.velocity += CHANGE_OF_GAMMA * change * gamma;
     }
 
+    /// Adds an error of x′ and V′ after the last landing.
+    pub(crate) fn add_state_error(&mut self, error: f64) {
+        self.error.excess += error;
+        self.error.velocity += error;
+    }
+
     /// The same bound for a flight that starts after a sudden landing, in a state without error.
     pub(crate) fn starting_at(self, start: TakeOff) -> Self {
         ErrorBound { start, flights: 1.0, ..self }

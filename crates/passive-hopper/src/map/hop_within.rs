@@ -1,12 +1,15 @@
 //! A hop in `f64` from a speed that is known to within an error, with a bound on the error of the next speed.
 //!
 //! The kernel's bound is tried first. It adds absolute values, and costs little more than the hop. The bound of
-//! `speed_error.rs` has the signs of the true derivative, and costs several hops.
+//! `speed_error.rs` has the signs of the true derivative, and costs about three hops.
 
 use crate::kernel::scalar::bounded_next::{BoundedNext, BoundedSquare};
+use crate::kernel::scalar::ground_state::GroundState;
+use crate::kernel::scalar::hop::{MassFactors, watched_kernel_hop};
 use crate::kernel::scalar::hop_from_interval::kernel_hop_within;
 use crate::landing::error_bound::ErrorBound;
 use crate::landing::fixed_point_interval::FixedPointInterval;
+use crate::landing::flight_ends::Landing;
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::map::plain_landings::PlainLandings;
@@ -115,28 +118,65 @@ impl LiftOffMap {
             return None;
         }
         let kappa = self.factors.kappa;
+        let Landings { all, state_errors, square } =
+            self.kernel_landings(alpha).or_else(|| self.plain_landings(alpha))?;
+        let mut with_start = ErrorBound::of_f64(alpha).with_speed_error(error);
+        for (landing, &state_error) in all.iter().zip(&state_errors) {
+            with_start.add_flight(landing, kappa);
+            with_start.add_kappa_error(changes.kappa, landing.closing_speed);
+            with_start.add_state_error(state_error);
+            if with_start.landing_inconclusive() {
+                return None;
+            }
+        }
+        let propagated = change_of_square(alpha, changes, &all, self.factors)?;
+        Some(BoundedSquare { error: square.error + propagated, ..square })
+    }
+
+    /// The landings by the kernel; `None` if it leaves the hop undecided.
+    fn kernel_landings(&self, alpha: f64) -> Option<Landings> {
+        let (mut all, mut state_errors) = (Vec::with_capacity(USUAL), Vec::with_capacity(USUAL));
+        let decided = watched_kernel_hop(alpha, self.factors, |end| {
+            let GroundState { excess, velocity, error } = end.state;
+            let (time, closing_speed) = (2.0 * end.half_time, end.closing_speed_squared.sqrt());
+            all.push(Landing { time, closing_speed, excess, velocity, sudden: true });
+            state_errors.push(error);
+        })?;
+        all.last_mut()?.sudden = false;
+        let error = decided.sums.error_of_square(alpha, self.factors.mu);
+        let square = BoundedSquare { square: decided.next_speed_squared, error };
+        Some(Landings { all, state_errors, square })
+    }
+
+    /// The landings by the general solver; `None` if there are too many.
+    fn plain_landings(&self, alpha: f64) -> Option<Landings> {
+        let MassFactors { mu, kappa } = self.factors;
         let mut rounding = ErrorBound::of_f64(alpha);
-        let mut with_start = rounding.clone().with_speed_error(error);
-        let (mut found, mut ratios_squared) = (Vec::new(), 0.0);
+        let (mut all, mut ratios_squared) = (Vec::new(), 0.0);
         for landing in PlainLandings::new(alpha, kappa) {
             let landing = landing.ok()?;
             let ratio = landing.closing_speed / alpha;
             ratios_squared += ratio * ratio;
             rounding.add_flight(&landing, kappa);
-            with_start.add_flight(&landing, kappa);
-            with_start.add_kappa_error(changes.kappa, landing.closing_speed);
-            if with_start.landing_inconclusive() {
-                return None;
-            }
-            found.push(landing);
+            all.push(landing);
         }
-        let (mu, square) = (self.factors.mu, alpha * alpha);
-        let propagated = change_of_square(alpha, changes, &found, self.factors)?;
-        Some(BoundedSquare {
-            square: square * (1.0 - mu * ratios_squared),
-            error: square * rounding.ratio_error(mu, alpha) + propagated,
-        })
+        let square = alpha * alpha;
+        let error = square * rounding.ratio_error(mu, alpha);
+        let square = BoundedSquare { square: square * (1.0 - mu * ratios_squared), error };
+        // The bound of a landing contains the roundings of this solver.
+        Some(Landings { state_errors: vec![0.0; all.len()], all, square })
     }
+}
+
+/// Room for the landings of most hops.
+const USUAL: usize = 4;
+
+/// The landings of a hop, and α′² with the rounding error alone.
+struct Landings {
+    all: Vec<Landing>,
+    /// Bounds on the rounding errors of x′ and V′ beyond those that an [`ErrorBound`] contains.
+    state_errors: Vec<f64>,
+    square: BoundedSquare,
 }
 
 /// Whether all speeds within `error` of `alpha` lie on one side of every α*_n, n ≥ 1, and of every nπ. The kind of the
