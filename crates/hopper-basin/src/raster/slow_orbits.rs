@@ -26,7 +26,7 @@ const FINEST: f64 = 1e-10;
 
 /// The speeds of a column over the number of orbits that come to a slow side, too far for a jump, before its series is made. Next to
 /// an edge most orbits come there; in a whole window some do, for which the series would take longer than it saves. It affects the
-/// time only.
+/// time only. In a narrow window the series is made at once.
 const SPEEDS_OVER_WALKERS: usize = 64;
 
 /// Most searches for edges of a column that find none. Then its orbits are labelled alone. It affects the time only.
@@ -52,7 +52,7 @@ impl Strip<'_> {
         let SlowZone { n, jumps } = column.zones.find(speed)?;
         if !jumps {
             column.walkers += 1;
-            if column.walkers <= self.speeds.len() / SPEEDS_OVER_WALKERS {
+            if self.common.is_none() && column.walkers <= self.speeds.len() / SPEEDS_OVER_WALKERS {
                 return None;
             }
         }
