@@ -1,49 +1,60 @@
 //! The orbits beside a point that falls onto a fixed point, by one orbit in 106 bits.
 //!
-//! In `f64` an orbit that comes within 10⁻⁹ of α*_n has lost the digits of its offset. Here one reference orbit has them, and the
-//! orbits beside it follow from its tangent: the offset of each keeps its digits, however near it is.
+//! In `f64` an orbit that comes within 10⁻⁹ of α*_n has lost the digits of its offset. Here one reference orbit has them. The orbits
+//! of near starts, at near mass ratios, follow from its derivatives: the offset of each keeps its digits, however near it is.
 
 use passive_hopper::{
-    Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, OrbitTangent,
+    Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio, OrbitTangent,
 };
 
-/// The largest distance of a start from the reference, and the next ones that are tried where the orbits do not hop alike. At 10⁻⁶
-/// the bound on the third order moves a phase by some 10⁻⁴; an orbit in `f64` has a smaller error there.
+/// The largest distance of a start from the reference, and the next ones that are tried where the orbits do not hop alike. From a
+/// larger distance an orbit in `f64` has a smaller error.
 const RADII: [f64; 3] = [1e-6, 3e-8, 1e-9];
-
-/// The starts near one that falls onto α*_n.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BesideEdge {
-    /// The start of the reference orbit.
-    start: f64,
-    pub(crate) n: u64,
-    /// The offset of the reference orbit from α*_n, and a bound on its error.
-    offset: (f64, f64),
-    tangent: OrbitTangent,
-    /// The coefficient of the second order, and a bound on that of the third. The second is measured with two more orbits. The
-    /// third is estimated from the bound on the second, which is some hundred times the second itself: as that bound times its
-    /// ratio to the slope.
-    curvature: f64,
-    third: f64,
-}
 
 /// Two starts nearer to each other than this, both of which come next to the same fixed point, have one edge as a rule. Otherwise
 /// the second one is labelled alone.
 const SAME_EDGE: f64 = 1e-5;
 
+/// The steps of the differences, in units of the radii for the start and for κ: along both axes, and to the corners.
+const STEPS: [(i8, i8); 8] =
+    [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+
+/// A bound on the third order, over what the differences show of it. It is an estimate, and so is the bound.
+const OVER_SEEN: f64 = 2.0;
+
+/// The starts near one that falls onto α*_n, at mass ratios near to its own.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct BesideEdge {
+    /// The start of the reference orbit, and its mass ratio.
+    start: f64,
+    mass_ratio: MassRatio,
+    pub(crate) n: u64,
+    /// The offset of the reference orbit from α*_n, and a bound on its error.
+    offset: (f64, f64),
+    tangent: OrbitTangent,
+    /// The second order in units of the radii: of the start, of κ, and of both.
+    second: [f64; 3],
+    /// A bound on the third order, in the same units.
+    third: f64,
+}
+
 impl BesideEdge {
-    /// From a start whose orbit comes near α*_n after `hops` hops. `see` is given each speed of the reference orbit, with the
-    /// largest distance of the orbits beside it. `None` if they do not all hop alike.
+    /// From a start whose orbit comes near α*_n after `hops` hops, for all mass ratios within `kappa` in κ if that is less than the
+    /// radius, else for its own. `see` is given each speed of the reference orbit, with the largest distance of the orbits beside it.
+    /// `None` if they do not all hop alike.
     pub(crate) fn new(
         map: &LiftOffMap,
         near: f64,
         (n, hops): (u64, usize),
+        kappa: f64,
         mut see: impl FnMut(f64, f64),
     ) -> Option<Self> {
-        let start = edge(map, near, (n, hops))?;
+        let (start, mass_ratio) = (edge(map, near, (n, hops))?, map.mass_ratio());
         RADII.into_iter().find_map(|radius| {
             let orbit = ExtendedOrbit::new(map, start, Arithmetic::Bits106).ok()?;
-            let mut orbit = orbit.with_radii(radius, 0.0);
+            // With a smaller radius in κ the third order of all orbits far from it would count as that of a large step.
+            let kappa_radius = if kappa > 0.0 && kappa <= radius { radius } else { 0.0 };
+            let mut orbit = orbit.with_radii(radius, kappa_radius);
             let mut speeds = Vec::with_capacity(hops);
             for _ in 0..hops {
                 speeds.push((orbit.speed(), orbit.tangent()?.reach()));
@@ -51,40 +62,85 @@ impl BesideEdge {
                     return None;
                 }
             }
-            speeds.into_iter().for_each(|(speed, reach)| see(speed, reach));
             let (offset, tangent) = (orbit.offset_from(n), orbit.tangent()?);
-            // Slopes of two chords from the start.
-            let chord = |end: f64| {
-                let mut orbit = ExtendedOrbit::new(map, end, Arithmetic::Bits106).ok()?;
-                let lifts_off = (0..hops).all(|_| orbit.hop() == Ok(ExtendedStep::LiftsOff));
-                let moved = orbit.offset_from(n).0 - offset.0;
-                lifts_off.then(|| (end - start, moved / (end - start)))
-            };
-            let ((right, above), (left, below)) =
-                (chord(start + 0.5 * radius)?, chord(start - 0.5 * radius)?);
-            let curvature = (above - below) / (right - left);
-            let third = tangent.second * tangent.second / tangent.first_order() / (radius * radius * radius);
-            Some(BesideEdge { start, n, offset, tangent, curvature, third })
+            let mut edge =
+                BesideEdge { start, mass_ratio, n, offset, tangent, second: [0.0; 3], third: 0.0 };
+            edge.add_differences(hops)?;
+            speeds.into_iter().for_each(|(speed, reach)| see(speed, reach));
+            Some(edge)
         })
     }
 
-    /// Whether another search from `start` would find the same edge.
-    pub(crate) fn is_near(&self, n: u64, start: f64) -> bool {
-        self.n == n && (self.start - start).abs() <= SAME_EDGE
+    /// Measures the second and third order with orbits at the ends of the radii.
+    fn add_differences(&mut self, hops: usize) -> Option<()> {
+        let m = self.mass_ratio.value();
+        let radii = [self.tangent.radius, self.tangent.kappa_radius];
+        // The step in M for the step in κ, to first order: the true step is computed from M.
+        let mass_step = radii[1] * (1.0 + m) * (1.0 + m);
+        let mut rests = [(0.0, 0.0, 0.0); STEPS.len()];
+        for (rest, (i, j)) in rests.iter_mut().zip(STEPS) {
+            if j != 0 && radii[1] == 0.0 {
+                continue;
+            }
+            let start = self.start + f64::from(i) * radii[0];
+            let ratio = MassRatio::new(m + f64::from(j) * mass_step).ok()?;
+            let map = LiftOffMap::new(ratio);
+            let mut orbit = ExtendedOrbit::new(&map, start, Arithmetic::Bits106).ok()?;
+            if !(0..hops).all(|_| orbit.hop() == Ok(ExtendedStep::LiftsOff)) {
+                return None;
+            }
+            let (y, k) = (start - self.start, self.kappa_step(ratio));
+            let moved = orbit.offset_from(self.n).0 - self.offset.0;
+            let first = self.tangent.slope * y + self.tangent.kappa_slope * k;
+            let unit = |step: f64, radius: f64| if radius > 0.0 { step / radius } else { 0.0 };
+            *rest = (unit(y, radii[0]), unit(k, radii[1]), moved - first);
+        }
+        let [right, left, above, below, corners @ ..] = rests;
+        let even = |a: (f64, f64, f64), b: (f64, f64, f64)| 0.5 * (a.2 + b.2);
+        let cross = corners.map(|(s, t, rest)| s * t * rest).iter().sum::<f64>() / 4.0;
+        self.second = [even(right, left), even(above, below), cross];
+        let left_over = rests.map(|(s, t, rest)| (rest - self.second_order(s, t)).abs());
+        self.third = OVER_SEEN * left_over.into_iter().fold(0.0, f64::max);
+        self.third.is_finite().then_some(())
     }
 
-    /// The offset from α*_n to which the orbit of `alpha` comes, and a bound on its error; `None` for a start too far away.
-    pub(crate) fn offset(&self, alpha: f64) -> Option<(f64, f64)> {
-        let beside = alpha - self.start; // exact: both are near
-        if !(beside.abs() <= self.tangent.radius) {
+    /// The second order at a start and a κ in units of the radii.
+    fn second_order(&self, s: f64, t: f64) -> f64 {
+        let [by_start, by_kappa, by_both] = self.second;
+        by_start * s * s + by_kappa * t * t + by_both * s * t
+    }
+
+    /// κ at `mass_ratio` minus κ of the reference, to all digits.
+    fn kappa_step(&self, mass_ratio: MassRatio) -> f64 {
+        let (to, from) = (mass_ratio.value(), self.mass_ratio.value());
+        (to - from) / ((1.0 + to) * (1.0 + from))
+    }
+
+    /// Whether another search from `start` would find the same edge.
+    pub(crate) fn is_near(&self, n: u64, start: f64, mass_ratio: MassRatio) -> bool {
+        self.n == n && self.contains(mass_ratio) && (self.start - start).abs() <= SAME_EDGE
+    }
+
+    fn contains(&self, mass_ratio: MassRatio) -> bool {
+        self.kappa_step(mass_ratio).abs() <= self.tangent.kappa_radius
+    }
+
+    /// The offset from α*_n to which the orbit of `alpha` comes, and a bound on its error; `None` for a start or a mass ratio too far
+    /// away.
+    pub(crate) fn offset(&self, alpha: f64, mass_ratio: MassRatio) -> Option<(f64, f64)> {
+        let (y, k) = (alpha - self.start, self.kappa_step(mass_ratio)); // y is exact: both are near
+        let OrbitTangent { slope, kappa_slope, rounding, radius, kappa_radius, .. } = self.tangent;
+        if !(y.abs() <= radius && self.contains(mass_ratio)) {
             return None;
         }
-        let OrbitTangent { slope, rounding, .. } = self.tangent;
-        let size = beside.abs();
-        let offset = self.offset.0 + (slope + self.curvature * beside) * beside;
+        let s = y / radius;
+        let t = if k == 0.0 { 0.0 } else { k / kappa_radius };
+        let size = s.abs().max(t.abs());
+        let (by_start, by_kappa) = (slope * y, kappa_slope * k);
+        let offset = self.offset.0 + by_start + by_kappa + self.second_order(s, t);
         let error = self.offset.1
             + (rounding + self.third * size * size) * size
-            + 2.0 * f64::EPSILON * (offset.abs() + (slope * beside).abs());
+            + 4.0 * f64::EPSILON * (offset.abs() + by_start.abs() + by_kappa.abs());
         Some((offset, error))
     }
 }

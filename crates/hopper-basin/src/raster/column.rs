@@ -1,7 +1,6 @@
 //! One column of a raster: increasing speeds at one mass ratio, their labels and their itineraries.
 
 use crate::error::Error;
-use crate::fates::beside_edge::BesideEdge;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use crate::fates::slow_sides::SlowZones;
@@ -32,11 +31,9 @@ pub(crate) struct Column<'a> {
     pub(crate) zones: SlowZones,
     /// The known arcs of the circles of α*_1, α*_2, …
     pub(crate) arcs: Vec<Arcs>,
-    /// Starts that fall onto fixed points, with the itineraries of all starts beside them.
-    pub(crate) edges: Vec<(BesideEdge, Itinerary)>,
     /// The number of orbits that came to a slow side, too far for a jump.
     pub(crate) walkers: usize,
-    /// The number of searches for such starts that found none.
+    /// The number of searches for starts that fall onto a fixed point that found none.
     pub(crate) missed_edges: usize,
 }
 
@@ -54,7 +51,6 @@ impl<'a> Column<'a> {
             closed: vec![false; speeds.len()],
             zones: SlowZones::new(fates.map().mass_ratio(), slow_sides),
             arcs: Vec::new(),
-            edges: Vec::new(),
             walkers: 0,
             missed_edges: 0,
         })

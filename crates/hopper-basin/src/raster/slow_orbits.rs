@@ -9,7 +9,6 @@ use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
 use crate::raster::strip::{Strip, is_inside};
 use crate::traps::trap::TrapSide;
-use hopper_asymptotics::SlowJump;
 use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star};
 
 /// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
@@ -82,26 +81,44 @@ impl Strip<'_> {
         }
         let jump = sides.jump(n, offset, error);
         let near = jump.is_none_or(|jump| jump.count.error > LARGEST_ERROR);
-        if near && (self.end_beside_edge(at) || self.find_edge(at, n) && self.end_beside_edge(at)) {
+        if near && self.end_beside_edge(at, n) {
             return None;
         }
-        match jump {
-            Some(jump) => self.end_on_circle(at, n, jump),
-            None => self.end_alone(at),
+        let known = jump.and_then(|jump| self.on_circle(column, n, (jump.delta, jump.error)));
+        if known.is_some() || near || !self.end_beside_edge(at, n) {
+            self.end_with(at, known, jump.map_or(0, |jump| jump.hops), n);
         }
         None
     }
 
-    /// Ends an orbit that has left the turn on which jumps end: as the orbit from the turn that comes there, or followed.
+    /// Ends an orbit that has left the turn on which jumps end.
     fn end_behind_jumps(&mut self, at: u32, (n, offset, error): (u64, f64, f64)) {
         let column = self.orbits.all[at as usize].column as usize;
-        let mut known = None;
-        if self.use_circle(n) && self.has_circle(column, n) {
-            // Where the circle has a gap, halving it would cost more than the orbit.
-            known = self.columns[column].arcs(n).known(offset, error);
+        let known = self.behind_jumps(column, (n, offset, error));
+        if known.is_some() || !self.end_beside_edge(at, n) {
+            self.end_with(at, known, 0, n);
         }
-        let known = known.or_else(|| self.follow_from(column, n, (offset, error)));
-        self.end_with(at, known, 0, n);
+    }
+
+    /// The fate from an offset beyond the turn on which jumps end: from the known arcs, or followed. Where the circle has a gap, halving
+    /// it would cost more than the orbit.
+    fn behind_jumps(
+        &mut self,
+        column: usize,
+        (n, offset, error): (u64, f64, f64),
+    ) -> Option<KnownFate> {
+        let known = if self.use_circle(n) && self.has_circle(column, n) {
+            self.columns[column].arcs(n).known(offset, error)
+        } else {
+            None
+        };
+        known.or_else(|| self.follow_from(column, n, (offset, error)))
+    }
+
+    /// The fate from an offset on the turn of jumps: followed, if few orbits jump, or from the circle.
+    fn on_circle(&mut self, column: usize, n: u64, reached: (f64, f64)) -> Option<KnownFate> {
+        let known = if self.use_circle(n) { None } else { self.follow_from(column, n, reached) };
+        known.or_else(|| self.arc(column, n, reached))
     }
 
     /// Counts a jump left of α*_n. True if so many orbits jump there that the circle pays.
@@ -125,60 +142,72 @@ impl Strip<'_> {
         self.columns[followed.column as usize].labels[followed.at as usize] = known.label;
     }
 
-    /// Ends the orbit by the point that it reaches after a jump.
-    fn end_on_circle(&mut self, at: u32, n: u64, jump: SlowJump) {
-        let column = self.orbits.all[at as usize].column as usize;
-        let reached = (jump.delta, jump.error);
-        let mut known = None;
-        if !self.use_circle(n) {
-            known = self.follow_from(column, n, reached);
-        }
-        let known = known.or_else(|| self.arc(column, n, reached));
-        self.end_with(at, known, jump.hops, n);
+    /// Ends an orbit that starts beside an edge; false if there is none, or `f64` does not decide the orbit.
+    fn end_beside_edge(&mut self, at: u32, n: u64) -> bool {
+        self.end_beside_known_edge(at) || self.find_edge(at, n) && self.end_beside_known_edge(at)
     }
 
-    /// Ends an orbit that starts beside a known edge; false if it does not, or `f64` does not decide it.
-    fn end_beside_edge(&mut self, at: u32) -> bool {
+    fn end_beside_known_edge(&mut self, at: u32) -> bool {
         let followed = self.orbits.all[at as usize];
-        let column = &self.columns[followed.column as usize];
+        let column = followed.column as usize;
+        let fates = self.columns[column].fates;
         let start = self.speeds[followed.at as usize];
-        let found = column.edges.iter().find_map(|(edge, itinerary)| {
-            edge.offset(start).map(|offset| (edge.n, offset, *itinerary))
+        let found = self.edges.iter().find_map(|(edge, itinerary)| {
+            let offset = edge.offset(start, fates.map().mass_ratio())?;
+            Some((edge.n, offset, *itinerary))
         });
         let Some((n, (offset, error), itinerary)) = found else { return false };
-        let in_trap = column
-            .fates
+        let in_trap = fates
             .trap(n)
             .is_ok_and(|trap| trap.side_of_offset(offset, error) == TrapSide::Inside);
-        if in_trap {
+        let (known, hops) = if in_trap {
+            let itinerary = Itinerary::in_trap(n as u32);
+            (Some(KnownFate { itinerary, label: n as u16 }), 0)
+        } else if !(offset < -error) {
+            return false;
+        } else if fates.slow_sides().is_beyond_jumps(n, offset) {
+            (self.behind_jumps(column, (n, offset, error)), 0)
+        } else {
+            let Some(jump) = fates.slow_sides().jump(n, offset, error) else { return false };
+            (self.on_circle(column, n, (jump.delta, jump.error)), jump.hops)
+        };
+        if known.is_some() {
             self.orbits.all[at as usize].itinerary = itinerary;
-            let known = KnownFate { itinerary: Itinerary::in_trap(n as u32), label: n as u16 };
-            self.end_with(at, Some(known), 0, n);
-            return true;
+            self.end_with(at, known, hops, n);
         }
-        let Some(jump) = column.fates.slow_sides().jump(n, offset, error) else { return false };
-        self.orbits.all[at as usize].itinerary = itinerary;
-        self.end_on_circle(at, n, jump);
-        true
+        known.is_some()
     }
 
     /// Finds the edge beside the start of an orbit that has come next to α*_n; false if there is none, or it is known.
     fn find_edge(&mut self, at: u32, n: u64) -> bool {
         let followed = self.orbits.all[at as usize];
         let hops = self.orbits.count.saturating_sub(followed.since);
-        let column = &mut self.columns[followed.column as usize];
-        let Some(laps) = &column.laps else { return false };
+        let column = &self.columns[followed.column as usize];
+        let map = column.fates.map();
         let start = self.speeds[followed.at as usize];
-        let searched = column.edges.iter().any(|(known, _)| known.is_near(n, start));
+        let ratio = map.mass_ratio();
+        let searched = self.edges.iter().any(|(known, _)| known.is_near(n, start, ratio));
         if searched || column.missed_edges >= MOST_MISSED_EDGES {
             return false;
         }
+        // For all columns, if they are near enough.
+        let kappas = [self.columns.first(), self.columns.last()]
+            .map(|column| column.map_or(0.0, |column| column.fates.map().mass_ratio().kappa()));
+        let own = map.mass_ratio().kappa();
+        let radius = kappas.map(|kappa| (kappa - own).abs()).into_iter().fold(0.0, f64::max);
         let mut itinerary = Itinerary::START;
-        let see = |speed: f64, reach: f64| itinerary.hop(laps.lap(speed, reach));
-        let edge = BesideEdge::new(column.fates.map(), start, (n, hops), see);
+        let lap = |speed: f64, reach: f64| {
+            let of = |column: Option<&Column>| column?.laps.as_ref()?.lap(speed, reach);
+            match radius > 0.0 {
+                true => of(self.columns.first()).filter(|lap| of(self.columns.last()) == Some(*lap)),
+                false => of(Some(column)),
+            }
+        };
+        let see = |speed: f64, reach: f64| itinerary.hop(lap(speed, reach));
+        let edge = BesideEdge::new(map, start, (n, hops), radius, see);
         match edge {
-            Some(edge) => column.edges.push((edge, itinerary)),
-            None => column.missed_edges += 1,
+            Some(edge) => self.edges.push((edge, itinerary)),
+            None => self.columns[followed.column as usize].missed_edges += 1,
         }
         edge.is_some()
     }

@@ -12,6 +12,7 @@
 //! A strip has several columns because one column has too few orbits at a time to fill the vectors of a processor.
 
 use crate::error::Error;
+use crate::fates::beside_edge::BesideEdge;
 use crate::fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::column::Column;
@@ -80,6 +81,8 @@ pub(crate) struct Strip<'a> {
     pub(crate) orbits: Orbits<'a>,
     /// The circles that all columns share, if they are near enough to each other.
     pub(crate) common: Option<&'a CommonCircles>,
+    /// Starts that fall onto fixed points, with the itineraries of all starts beside them.
+    pub(crate) edges: Vec<(BesideEdge, Itinerary)>,
     /// For n = 0, 1, …: the number of orbits that jumped left of α*_n.
     pub(crate) jumped: Vec<usize>,
     /// The last error of a fate that was computed for one speed alone.
@@ -107,8 +110,9 @@ pub(crate) fn labels(
         }
     }
     let orbits = Orbits::default();
-    let (jumped, failed) = (Vec::new(), Ok(()));
-    let mut strip = Strip { columns, speeds, lower, intervals, orbits, common, jumped, failed };
+    let (edges, jumped, failed) = (Vec::new(), Vec::new(), Ok(()));
+    let mut strip =
+        Strip { columns, speeds, lower, intervals, orbits, common, edges, jumped, failed };
     strip.label()?;
     strip.failed?;
     Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
