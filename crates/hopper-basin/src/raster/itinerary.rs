@@ -140,6 +140,7 @@ impl Itinerary {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::laps::Laps;
     use passive_hopper::{HopWithin, LiftOffMap, MassRatio, alpha_star};
 
     /// Every orbit that starts between two with the same itinerary has that itinerary, and lies between them at every

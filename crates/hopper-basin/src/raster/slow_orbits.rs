@@ -7,9 +7,9 @@ use crate::raster::arcs::Arc;
 use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
-use crate::raster::strip::{Strip, is_inside};
+use crate::raster::strip::{Strip, is_inside, with_signs};
 use crate::traps::trap::TrapSide;
-use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star};
+use passive_hopper::{FixedPointSpeed, HopWithin, alpha_star};
 
 /// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
 /// tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It affects the time only.
@@ -283,10 +283,7 @@ impl Strip<'_> {
                 return Some(KnownFate { itinerary, ..known });
             }
         }
-        let start = speed_at(n, offset);
-        // The second bound takes ten times as long, and decides nearly all of the rest.
-        self.follow(column, start, itinerary, LiftOffMap::hop_within)
-            .or_else(|| self.follow(column, start, itinerary, LiftOffMap::signed_hop_within))
+        self.follow(column, speed_at(n, offset), itinerary)
     }
 
     /// The fate of all speeds within `error` of `speed`, hop by hop; `None` if `f64` does not decide it.
@@ -295,7 +292,6 @@ impl Strip<'_> {
         column: usize,
         (mut speed, mut error): (f64, f64),
         mut itinerary: Itinerary,
-        hop: fn(&LiftOffMap, f64, f64) -> HopWithin,
     ) -> Option<KnownFate> {
         for hops in 0..MOST_HOPS {
             let found = self.intervals.find(column, speed);
@@ -329,7 +325,7 @@ impl Strip<'_> {
             let column = &self.columns[column];
             itinerary.hop(column.laps.as_ref()?.lap(speed, error));
             let map = column.fates.map();
-            match hop(map, speed, error) {
+            match with_signs(map, (speed, error), map.hop_within(speed, error)) {
                 HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
                 HopWithin::Grounded => {
                     itinerary.end_on_ground();

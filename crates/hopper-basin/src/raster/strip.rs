@@ -253,9 +253,9 @@ impl Strip<'_> {
                 // Not jumped: the budget of hops and repeated speeds count here too.
                 Some(_) => {
                     let before = self.orbits.before[from];
-                    if hop.1 == HopWithin::Inconclusive {
-                        // The second bound takes some microseconds, a fate alone some hundred.
-                        hop.1 = hop.0.signed_hop_within(before.0, before.1);
+                    // In a narrow window many orbits come near to fixed points, where the first bound grows fastest.
+                    if self.common.is_some() || hop.1 == HopWithin::Inconclusive {
+                        hop.1 = with_signs(hop.0, before, hop.1);
                     }
                     self.ends(at, (before.0, hop.1), self.orbits.found[from - first])
                 }
@@ -370,6 +370,28 @@ impl Strip<'_> {
             // A started orbit may be in an interval of known fate already.
             self.retire(first);
         }
+    }
+}
+
+/// A hop whose error is larger than the first number, and grows by more than the second, is computed with the second bound, which has
+/// the signs of the derivative. It takes about a microsecond, and a fate alone, where an error grows too large, some hundred.
+const LARGE_ERROR: f64 = 1e-10;
+const LARGE_GROWTH: f64 = 8.0;
+
+/// The `hop` that was made from a speed with its error; with the second bound if its error has grown much.
+#[inline]
+pub(crate) fn with_signs(map: &LiftOffMap, before: (f64, f64), hop: HopWithin) -> HopWithin {
+    let error = match hop {
+        HopWithin::Next { error, .. } => error,
+        HopWithin::Grounded => return hop,
+        HopWithin::Inconclusive => f64::INFINITY,
+    };
+    if error <= LARGE_ERROR || error <= LARGE_GROWTH * before.1 {
+        return hop;
+    }
+    match map.signed_hop_within(before.0, before.1) {
+        HopWithin::Inconclusive => hop,
+        found => found,
     }
 }
 
