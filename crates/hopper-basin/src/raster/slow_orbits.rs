@@ -13,7 +13,7 @@ use passive_hopper::{FixedPointSpeed, HopWithin, alpha_star};
 
 /// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
 /// tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It affects the time only.
-const LARGEST_ERROR: f64 = 1e-4;
+const SMALL_ERROR: f64 = 1e-4;
 
 /// The first phases that are followed on a circle, beyond both ends of a turn by the largest error of a phase. It affects the
 /// time only.
@@ -75,29 +75,32 @@ impl Strip<'_> {
             let (speed, error) = speed_at(n, (offset, error));
             return Some(HopWithin::Next { speed, error });
         }
-        if sides.is_beyond_jumps(n, offset) {
-            self.end_behind_jumps(at, (n, offset, error));
-            return None;
-        }
-        let jump = sides.jump(n, offset, error);
-        let near = jump.is_none_or(|jump| jump.count.error > LARGEST_ERROR);
-        if near && self.end_beside_edge(at, n) {
-            return None;
-        }
-        let known = jump.and_then(|jump| self.on_circle(column, n, (jump.delta, jump.error)));
-        if known.is_some() || near || !self.end_beside_edge(at, n) {
-            self.end_with(at, known, jump.map_or(0, |jump| jump.hops), n);
+        if let Some((known, hops)) = self.fate_from(column, n, (offset, error), SMALL_ERROR) {
+            self.end_with(at, known, hops, n);
+        } else if !self.end_beside_known_edge(at)
+            && !(self.find_edge(at, n) && self.end_beside_known_edge(at))
+            && !self.end_with_signs(at, n)
+        {
+            self.end_alone(at);
         }
         None
     }
 
-    /// Ends an orbit that has left the turn on which jumps end.
-    fn end_behind_jumps(&mut self, at: u32, (n, offset, error): (u64, f64, f64)) {
-        let column = self.orbits.all[at as usize].column as usize;
-        let known = self.behind_jumps(column, (n, offset, error));
-        if known.is_some() || !self.end_beside_edge(at, n) {
-            self.end_with(at, known, 0, n);
+    /// The fate from an offset left of α*_n, after a number of hops that are jumped over; `None` if it is not decided, or if the phase
+    /// has an error above `largest`.
+    fn fate_from(
+        &mut self,
+        column: usize,
+        n: u64,
+        (offset, error): (f64, f64),
+        largest: f64,
+    ) -> Option<(KnownFate, u64)> {
+        let sides = self.columns[column].fates.slow_sides();
+        if sides.is_beyond_jumps(n, offset) {
+            return Some((self.behind_jumps(column, (n, offset, error))?, 0));
         }
+        let jump = sides.jump(n, offset, error).filter(|jump| jump.count.error <= largest)?;
+        Some((self.on_circle(column, n, (jump.delta, jump.error))?, jump.hops))
     }
 
     /// The fate from an offset beyond the turn on which jumps end: from the known arcs, or followed. Where the circle has a gap, halving
@@ -131,9 +134,8 @@ impl Strip<'_> {
         self.jumped[n] > FIRST_JUMPS * self.columns.len()
     }
 
-    /// Ends the orbit in a known fate, after `hops` hops left of α*_n that were jumped over; alone if the fate is not known.
-    fn end_with(&mut self, at: u32, known: Option<KnownFate>, hops: u64, n: u64) {
-        let Some(known) = known else { return self.end_alone(at) };
+    /// Ends the orbit in a known fate, after `hops` hops left of α*_n that were jumped over.
+    fn end_with(&mut self, at: u32, known: KnownFate, hops: u64, n: u64) {
         let followed = &mut self.orbits.all[at as usize];
         if hops > 0 {
             followed.itinerary.jump(n, hops);
@@ -142,11 +144,28 @@ impl Strip<'_> {
         self.columns[followed.column as usize].labels[followed.at as usize] = known.label;
     }
 
-    /// Ends an orbit that starts beside an edge; false if there is none, or `f64` does not decide the orbit.
-    fn end_beside_edge(&mut self, at: u32, n: u64) -> bool {
-        self.end_beside_known_edge(at) || self.find_edge(at, n) && self.end_beside_known_edge(at)
+    /// Follows an orbit that has come next to α*_n once more, with smaller errors, and ends it; false if they do not suffice.
+    fn end_with_signs(&mut self, at: u32, n: u64) -> bool {
+        let followed = self.orbits.all[at as usize];
+        let column = followed.column as usize;
+        let map = self.columns[column].fates.map();
+        let (mut speed, mut error) = (self.speeds[followed.at as usize], 0.0);
+        for _ in followed.since..self.orbits.count {
+            match map.signed_hop_within(speed, error) {
+                HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
+                HopWithin::Grounded | HopWithin::Inconclusive => return false,
+            }
+        }
+        let offset = FixedPointSpeed::new(n).offset_of(speed);
+        let offset = (offset, error + f64::EPSILON * offset.abs());
+        let Some((known, hops)) = self.fate_from(column, n, offset, f64::INFINITY) else {
+            return false;
+        };
+        self.end_with(at, known, hops, n);
+        true
     }
 
+    /// Ends an orbit that starts beside a known edge; false if it does not, or the orbit is not decided.
     fn end_beside_known_edge(&mut self, at: u32) -> bool {
         let followed = self.orbits.all[at as usize];
         let column = followed.column as usize;
@@ -160,22 +179,18 @@ impl Strip<'_> {
         let in_trap = fates
             .trap(n)
             .is_ok_and(|trap| trap.side_of_offset(offset, error) == TrapSide::Inside);
-        let (known, hops) = if in_trap {
+        let found = if in_trap {
             let itinerary = Itinerary::in_trap(n as u32);
-            (Some(KnownFate { itinerary, label: n as u16 }), 0)
-        } else if !(offset < -error) {
-            return false;
-        } else if fates.slow_sides().is_beyond_jumps(n, offset) {
-            (self.behind_jumps(column, (n, offset, error)), 0)
+            Some((KnownFate { itinerary, label: n as u16 }, 0))
+        } else if offset < -error {
+            self.fate_from(column, n, (offset, error), f64::INFINITY)
         } else {
-            let Some(jump) = fates.slow_sides().jump(n, offset, error) else { return false };
-            (self.on_circle(column, n, (jump.delta, jump.error)), jump.hops)
+            None
         };
-        if known.is_some() {
-            self.orbits.all[at as usize].itinerary = itinerary;
-            self.end_with(at, known, hops, n);
-        }
-        known.is_some()
+        let Some((known, hops)) = found else { return false };
+        self.orbits.all[at as usize].itinerary = itinerary;
+        self.end_with(at, known, hops, n);
+        true
     }
 
     /// Finds the edge beside the start of an orbit that has come next to α*_n; false if there is none, or it is known.
