@@ -34,8 +34,8 @@ pub(crate) struct BesideEdge {
     tangent: OrbitTangent,
     /// The second order in units of the radii: of the start, of κ, and of both.
     second: [f64; 3],
-    /// A bound on the third order, in the same units.
-    third: f64,
+    /// Bounds on the third order in the same way.
+    third: [f64; 3],
 }
 
 impl BesideEdge {
@@ -64,7 +64,7 @@ impl BesideEdge {
             }
             let (offset, tangent) = (orbit.offset_from(n), orbit.tangent()?);
             let mut edge =
-                BesideEdge { start, mass_ratio, n, offset, tangent, second: [0.0; 3], third: 0.0 };
+                BesideEdge { start, mass_ratio, n, offset, tangent, second: [0.0; 3], third: [0.0; 3] };
             edge.add_differences(hops)?;
             speeds.into_iter().for_each(|(speed, reach)| see(speed, reach));
             Some(edge)
@@ -100,8 +100,11 @@ impl BesideEdge {
         let cross = corners.map(|(s, t, rest)| s * t * rest).iter().sum::<f64>() / 4.0;
         self.second = [even(right, left), even(above, below), cross];
         let left_over = rests.map(|(s, t, rest)| (rest - self.second_order(s, t)).abs());
-        self.third = OVER_SEEN * left_over.into_iter().fold(0.0, f64::max);
-        self.third.is_finite().then_some(())
+        let most = |of: &[f64]| OVER_SEEN * of.iter().copied().fold(0.0, f64::max);
+        let (by_start, by_both) = left_over.split_at(2);
+        let (by_kappa, by_both) = by_both.split_at(2);
+        self.third = [most(by_start), most(by_kappa), most(by_both)];
+        self.third.iter().all(|third| third.is_finite()).then_some(())
     }
 
     /// The second order at a start and a κ in units of the radii.
@@ -135,11 +138,14 @@ impl BesideEdge {
         }
         let s = y / radius;
         let t = if k == 0.0 { 0.0 } else { k / kappa_radius };
-        let size = s.abs().max(t.abs());
+        let (size, both) = (s.abs().max(t.abs()), (s * t).abs());
+        let [of_start, of_kappa, of_both] = self.third;
+        let third = of_start * (s * s * s).abs() + of_kappa * (t * t * t).abs() + of_both * both * size;
         let (by_start, by_kappa) = (slope * y, kappa_slope * k);
         let offset = self.offset.0 + by_start + by_kappa + self.second_order(s, t);
         let error = self.offset.1
-            + (rounding + self.third * size * size) * size
+            + rounding * size
+            + third
             + 4.0 * f64::EPSILON * (offset.abs() + by_start.abs() + by_kappa.abs());
         Some((offset, error))
     }
