@@ -7,6 +7,7 @@ use crate::fates::slow_sides::SlowZones;
 use crate::raster::arcs::Arcs;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
+use crate::raster::rising_windows::trap_with_window;
 use crate::raster::laps::Laps;
 use crate::traps::trap_index::{Lookup, TrapIndex};
 use basin_of_attraction::Traps;
@@ -44,7 +45,7 @@ impl<'a> Column<'a> {
         let slow_sides = (index_below(largest)? + 1).min(SLOW_SIDES);
         Ok(Column {
             fates,
-            traps: TrapIndex::new(largest, |n| fates.trap(n))?,
+            traps: TrapIndex::new(largest, |n| trap_with_window(fates, n))?,
             laps: Laps::below(fates.map().mass_ratio(), largest)?,
             labels: vec![HopperFate::UNDECIDED; speeds.len()],
             itineraries: vec![None; speeds.len()],

@@ -10,6 +10,7 @@ use crate::fates::hopper_fate::HopperFate;
 use crate::raster::arcs::Arcs;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
+use crate::raster::rising_windows::trap_with_window;
 use crate::raster::laps::{HUMPS_WITH_LAPS, Laps};
 use crate::raster::slow_orbits::speed_at;
 use crate::raster::strip::is_inside;
@@ -88,7 +89,7 @@ impl CommonCircles {
         }
         let end = |m: f64| {
             let fates = Fates::new(MassRatio::new(m)?)?;
-            let traps = TrapIndex::new(largest, |n| fates.trap(n))?;
+            let traps = TrapIndex::new(largest, |n| trap_with_window(&fates, n))?;
             let laps = Laps::below(fates.map().mass_ratio(), largest)?;
             Ok::<_, Error>(laps.map(|laps| End { fates, traps, laps }))
         };

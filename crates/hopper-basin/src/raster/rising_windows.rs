@@ -3,6 +3,9 @@
 //! The proof (docs/theory.md, Theorem 48) is a test at the end of this file. It encloses the derivative over the plane
 //! of h and M with intervals.
 
+use crate::error::Error;
+use crate::fates::fates_at_mass_ratio::Fates;
+use crate::traps::trap::{Trap, TrapEdge};
 use basin_of_attraction::Interval;
 use passive_hopper::alpha_star;
 use std::f64::consts::PI;
@@ -38,6 +41,20 @@ pub(crate) fn rising_window(n: u64) -> Option<RisingWindow> {
     let &largest_mass_ratio = PROVED.get(at)?;
     let part = Interval { left: n as f64 * PI, right: alpha_star(n) - DISTANCE_FROM_STAR };
     Some(RisingWindow { part, largest_mass_ratio })
+}
+
+/// The trap of α*_n, with the window beyond it if f stays above α*_n there.
+///
+/// If f ≥ α*_n on the whole contact part of hump n, and f is continuous at (n+1)π and rises from there to α*_{n+1} (docs/theory.md,
+/// Theorems 23, 48 and 81), f ≥ α*_n on the whole window.
+pub(crate) fn trap_with_window(fates: &Fates, n: u64) -> Result<Trap, Error> {
+    let trap = fates.trap(n)?;
+    let ratio = fates.map().mass_ratio().value();
+    let rises = rising_window(n + 1).is_some_and(|window| ratio <= window.largest_mass_ratio);
+    match trap.edge {
+        TrapEdge::ContactEnd if rises => Ok(Trap { edge: TrapEdge::NextFixedPoint, ..trap }),
+        _ => Ok(trap),
+    }
 }
 
 #[cfg(test)]
