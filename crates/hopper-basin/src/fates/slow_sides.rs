@@ -36,27 +36,20 @@ const LARGEST_ERROR: f64 = 0.01;
 #[derive(Debug, Clone)]
 pub(crate) struct SlowSides {
     mass_ratio: MassRatio,
-    /// The coordinates of α*_1, α*_2, …, each computed at its first use; `None` inside where there is none.
-    first: [OnceLock<Option<Box<SlowSide>>>; KEPT],
+    /// Those of α*_1, α*_2, …; `None` inside where there is none.
+    first: [SlowSide; KEPT],
 }
 
-/// The slow side of one fixed point.
-#[derive(Debug, Clone)]
+/// The slow side of one fixed point. Many orbits need the coordinate alone, so that each part is computed at its first use.
+#[derive(Debug, Clone, Default)]
 struct SlowSide {
-    psi: FatouCoordinate,
-    walk: OutwardWalk,
-}
-
-impl SlowSide {
-    fn new(n: u64, mass_ratio: MassRatio) -> Option<Box<Self>> {
-        let psi = FatouCoordinate::new(n, mass_ratio, Side::Left).ok()?;
-        Some(Box::new(SlowSide { psi, walk: OutwardWalk::new(n, mass_ratio).ok()? }))
-    }
+    psi: OnceLock<Option<Box<FatouCoordinate>>>,
+    walk: OnceLock<Option<Box<OutwardWalk>>>,
 }
 
 impl SlowSides {
     pub(crate) fn new(mass_ratio: MassRatio) -> Self {
-        SlowSides { mass_ratio, first: [const { OnceLock::new() }; KEPT] }
+        SlowSides { mass_ratio, first: std::array::from_fn(|_| SlowSide::default()) }
     }
 
     /// The offset of an orbit at `speed` from α*_n, n ≥ 1, if it may be near enough to jump along the slow side.
@@ -69,32 +62,32 @@ impl SlowSides {
 
     /// The end of the slow hops of the orbit within `error` of α*_n + `offset`.
     pub(crate) fn jump(&self, n: u64, offset: f64, error: f64) -> Option<SlowJump> {
-        self.with(n, |side| side.psi.jump(offset, error, LARGEST_ERROR))
+        self.with(n, |psi| psi.jump(offset, error, LARGEST_ERROR))
     }
 
     /// The smallest Ψ of the turn on which jumps left of α*_n end.
     pub(crate) fn turn(&self, n: u64) -> Option<f64> {
-        self.with(n, |side| Some(side.psi.turn_of_jumps()))
+        self.with(n, |psi| Some(psi.turn_of_jumps()))
     }
 
     /// The offset left of α*_n at which Ψ is `hops`, on or next to the turn of jumps, and a bound on its error.
     pub(crate) fn offset(&self, n: u64, hops: f64) -> Option<(f64, f64)> {
-        self.with(n, |side| Some(side.psi.offset_at(HopCount { hops, error: 0.0 })))
+        self.with(n, |psi| Some(psi.offset_at(HopCount { hops, error: 0.0 })))
     }
 
     /// The offset after a hop left of α*_n, and a bound on its error; `None` where the orbit leaves.
     pub(crate) fn walk(&self, n: u64, (offset, error): (f64, f64)) -> Option<(f64, f64)> {
-        self.with(n, |side| side.walk.hop(offset, error))
+        self.with_walk(n, |walk| walk.hop(offset, error))
     }
 
     /// The largest |δ| from which a [`walk`](Self::walk) goes on.
     pub(crate) fn walk_range(&self, n: u64) -> Option<f64> {
-        self.with(n, |side| Some(side.walk.range()))
+        self.with_walk(n, |walk| Some(walk.range()))
     }
 
     /// Whether the point is so far from α*_n that a jump would lead back.
     pub(crate) fn is_beyond_jumps(&self, n: u64, offset: f64) -> bool {
-        self.with(n, |side| (-offset > side.psi.jump_range()).then_some(())).is_some()
+        self.with(n, |psi| (-offset > psi.jump_range()).then_some(())).is_some()
     }
 
     /// The number of hops, the offset and its error where the orbit within `error` of α*_n + `offset` leaves: after a jump, or after
@@ -109,17 +102,29 @@ impl SlowSides {
 
     /// As [`jump`](Self::jump), from an offset in two parts.
     pub(crate) fn long_jump(&self, n: u64, offset: (f64, f64), error: f64) -> Option<SlowJump> {
-        self.with(n, |side| side.psi.long_jump(offset, error, LARGEST_ERROR))
+        self.with(n, |psi| psi.long_jump(offset, error, LARGEST_ERROR))
     }
 
     /// The result of `use_it` with the coordinate of α*_n.
-    fn with<T>(&self, n: u64, use_it: impl FnOnce(&SlowSide) -> Option<T>) -> Option<T> {
-        let make = || SlowSide::new(n, self.mass_ratio);
-        let slot = n.checked_sub(1).and_then(|index| self.first.get(usize::try_from(index).ok()?));
-        match slot {
-            Some(slot) => use_it(slot.get_or_init(make).as_ref()?),
+    fn with<T>(&self, n: u64, use_it: impl FnOnce(&FatouCoordinate) -> Option<T>) -> Option<T> {
+        let make = || Some(Box::new(FatouCoordinate::new(n, self.mass_ratio, Side::Left).ok()?));
+        match self.side(n) {
+            Some(side) => use_it(side.psi.get_or_init(make).as_ref()?),
             None => use_it(&*make()?),
         }
+    }
+
+    /// The result of `use_it` with the hops left of α*_n.
+    fn with_walk<T>(&self, n: u64, use_it: impl FnOnce(&OutwardWalk) -> Option<T>) -> Option<T> {
+        let make = || Some(Box::new(OutwardWalk::new(n, self.mass_ratio).ok()?));
+        match self.side(n) {
+            Some(side) => use_it(side.walk.get_or_init(make).as_ref()?),
+            None => use_it(&*make()?),
+        }
+    }
+
+    fn side(&self, n: u64) -> Option<&SlowSide> {
+        self.first.get(usize::try_from(n.checked_sub(1)?).ok()?)
     }
 }
 

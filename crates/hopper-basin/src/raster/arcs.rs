@@ -35,9 +35,21 @@ pub(crate) enum Arc {
 impl Arcs {
     /// What is known of the offsets within `error` of `offset`.
     pub(crate) fn find(&self, offset: f64, error: f64) -> Arc {
+        let around = self.around(offset, error);
+        let agree = |pair: &[Point]| pair[0].known.itinerary.agrees_with(&pair[1].known.itinerary);
+        match (around.windows(2).find(|pair| !agree(pair)), around) {
+            (Some(pair), _) => Arc::Open(pair[0].offsets.1, pair[1].offsets.0),
+            // Without an error an offset may be a point, which has its own fate.
+            (None, [point, ..]) => Arc::Known(point.known),
+            (None, []) => Arc::Outside,
+        }
+    }
+
+    /// The points from the last one that is at or below all offsets within `error` of `offset` to the first one at or above them; none
+    /// if there is no such pair.
+    fn around(&self, offset: f64, error: f64) -> &[Point] {
         let (least, most) = (offset - error, offset + error);
-        // The last point that is at or below all of them, and the first one that is at or above them. As points may overlap, those
-        // next to the places found by one end are tried.
+        // As points may overlap, those next to the places found by one end are tried.
         let mut first = self.points.partition_point(|point| point.offsets.1 <= least);
         while first > 0 && !(self.points[first - 1].offsets.1 <= least) {
             first -= 1;
@@ -46,16 +58,21 @@ impl Arcs {
         while last < self.points.len() && !(self.points[last].offsets.0 >= most) {
             last += 1;
         }
-        let Some(around) = first.checked_sub(1).and_then(|first| self.points.get(first..=last))
-        else {
-            return Arc::Outside;
-        };
-        let agree = |pair: &[Point]| pair[0].known.itinerary.agrees_with(&pair[1].known.itinerary);
-        match (around.windows(2).find(|pair| !agree(pair)), around) {
-            (Some(pair), _) => Arc::Open(pair[0].offsets.1, pair[1].offsets.0),
-            // Without an error an offset may be a point, which has its own fate.
-            (None, [point, ..]) => Arc::Known(point.known),
-            (None, []) => Arc::Outside,
+        let around = first.checked_sub(1).and_then(|first| self.points.get(first..=last));
+        around.unwrap_or_default()
+    }
+
+    /// Adds the two points of `other` around the offsets within `error` of `offset`, if it has them and the points here are farther
+    /// away.
+    pub(crate) fn add_around(&mut self, other: &Arcs, offset: f64, error: f64) {
+        let outer = |points: &[Point]| Some((*points.first()?, *points.last()?));
+        let Some((left, right)) = outer(other.around(offset, error)) else { return };
+        let here = outer(self.around(offset, error));
+        if here.is_none_or(|(first, _)| first.offsets.1 < left.offsets.1) {
+            self.insert(left);
+        }
+        if here.is_none_or(|(_, last)| last.offsets.0 > right.offsets.0) {
+            self.insert(right);
         }
     }
 
@@ -73,9 +90,12 @@ impl Arcs {
 
     /// Adds a point of an orbit that is within `error` of `offset`.
     pub(crate) fn add(&mut self, (offset, error): (f64, f64), known: KnownFate) {
-        let offsets = (offset - error, offset + error);
-        let at = self.points.partition_point(|point| point.offsets.0 < offsets.0);
-        self.points.insert(at, Point { offsets, known });
+        self.insert(Point { offsets: (offset - error, offset + error), known });
+    }
+
+    fn insert(&mut self, point: Point) {
+        let at = self.points.partition_point(|other| other.offsets.0 < point.offsets.0);
+        self.points.insert(at, point);
     }
 
     /// The arcs that these points show. Points that agree with both of their neighbours are left out: the same is known without them.

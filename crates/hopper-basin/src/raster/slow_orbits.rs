@@ -5,6 +5,7 @@ use crate::fates::hopper_fate::HopperFate;
 use crate::fates::slow_sides::SlowZone;
 use crate::raster::arcs::Arc;
 use crate::raster::column::Column;
+use crate::raster::common_circles::CommonCircle;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
 use crate::raster::strip::{Strip, is_inside, with_signs};
@@ -42,7 +43,7 @@ const PLAIN_GROWTH: f64 = 16.0;
 /// Most hops of a followed phase: an orbit leaves the turn of jumps after some 15 hops. Beyond it the phase stays open.
 const MOST_HOPS: usize = 2048;
 
-impl Strip<'_> {
+impl<'a> Strip<'a> {
     /// Where the orbit is on the slow side of a fixed point, if it may be: n, its offset, and the error of the offset.
     #[inline]
     pub(crate) fn slow_side(&mut self, at: u32, hop: HopWithin) -> Option<(u64, f64, f64)> {
@@ -110,12 +111,9 @@ impl Strip<'_> {
         column: usize,
         (n, offset, error): (u64, f64, f64),
     ) -> Option<KnownFate> {
-        let known = if self.use_circle(n) && self.has_circle(column, n) {
-            self.columns[column].arcs(n).known(offset, error)
-        } else {
-            None
-        };
-        known.or_else(|| self.follow_from(column, n, (offset, error)))
+        self.use_circle(n);
+        self.known_arc(column, n, (offset, error))
+            .or_else(|| self.follow_from(column, n, (offset, error)))
     }
 
     /// The fate from an offset on the turn of jumps: followed, if few orbits jump, or from the circle.
@@ -230,8 +228,14 @@ impl Strip<'_> {
     /// The fate within an error of an offset on the turn of jumps left of α*_n, from the known arcs, and from as many more orbits as it
     /// needs.
     fn arc(&mut self, column: usize, n: u64, (offset, error): (f64, f64)) -> Option<KnownFate> {
-        if !self.has_circle(column, n) {
-            return None;
+        if let Some(known) = self.known_arc(column, n, (offset, error)) {
+            return Some(known);
+        }
+        if let Some(circle) = self.common_circle(n) {
+            self.columns[column].arcs(n).add_around(&circle.arcs, offset, error);
+        }
+        if self.columns[column].arcs(n).find(offset, error) == Arc::Outside {
+            self.begin_circle(column, n)?;
         }
         let finest = error.max(FINEST * offset.abs());
         loop {
@@ -246,26 +250,28 @@ impl Strip<'_> {
         }
     }
 
-    /// Whether there is a circle left of α*_n; begins it if there was none yet.
-    fn has_circle(&mut self, column: usize, n: u64) -> bool {
-        !self.columns[column].arcs(n).is_empty() || self.begin_circle(column, n).is_some()
+    /// The fate within an error of an offset left of α*_n, if the arcs that all columns share show it, or those of this column.
+    fn known_arc(&self, column: usize, n: u64, (offset, error): (f64, f64)) -> Option<KnownFate> {
+        let common = self.common_circle(n).and_then(|circle| circle.arcs.known(offset, error));
+        let own = || self.columns[column].arcs.get(n as usize)?.known(offset, error);
+        common.or_else(own)
     }
 
-    /// The first orbits of a circle: those that all columns share, or some of this column.
+    /// The circle that all columns share, if so many orbits have jumped that it pays.
+    fn common_circle(&self, n: u64) -> Option<&'a CommonCircle> {
+        let jumped = self.jumped.get(n as usize).copied().unwrap_or(0);
+        let common = self.common.filter(|_| jumped > FIRST_JUMPS * self.columns.len())?;
+        common.circle(n)
+    }
+
+    /// The first orbits of the circle of one column.
     fn begin_circle(&mut self, column: usize, n: u64) -> Option<()> {
-        let common = self.common.and_then(|common| common.circle(n));
-        if let Some(circle) = common {
-            self.columns[column].arcs(n).clone_from(&circle.arcs);
-        }
-        let parts = if common.is_some_and(|circle| circle.from_jumps) { 1 } else { FIRST_PHASES };
         let first = self.columns[column].fates.slow_sides().turn(n)?;
-        for k in 0..=parts {
-            let part = f64::from(k) / f64::from(parts);
+        for k in 0..=FIRST_PHASES {
+            let part = f64::from(k) / f64::from(FIRST_PHASES);
             let sides = self.columns[column].fates.slow_sides();
             let (offset, _) = sides.offset(n, first - BEYOND + part * (1.0 + 2.0 * BEYOND))?;
-            if self.columns[column].arcs(n).known(offset, 0.0).is_none() {
-                self.add_orbit(column, n, offset);
-            }
+            self.add_orbit(column, n, offset);
         }
         Some(())
     }
@@ -283,8 +289,8 @@ impl Strip<'_> {
 
     /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
     fn follow_from(&mut self, column: usize, n: u64, offset: (f64, f64)) -> Option<KnownFate> {
-        let Column { fates, laps, arcs, .. } = &self.columns[column];
-        let (laps, arcs) = (laps.as_ref()?, arcs.get(n as usize));
+        let Column { fates, laps, .. } = &self.columns[column];
+        let laps = laps.as_ref()?;
         let (mut itinerary, mut offset) = (Itinerary::START, offset);
         while let Some(next) = fates.slow_sides().walk(n, offset) {
             let (speed, error) = speed_at(n, offset);
@@ -293,7 +299,7 @@ impl Strip<'_> {
             }
             itinerary.hop(laps.lap(speed, error));
             offset = next;
-            if let Some(known) = arcs.and_then(|arcs| arcs.known(offset.0, offset.1)) {
+            if let Some(known) = self.known_arc(column, n, offset) {
                 itinerary.end_in(&known.itinerary);
                 return Some(KnownFate { itinerary, ..known });
             }
