@@ -54,21 +54,12 @@ struct End {
     laps: Laps,
 }
 
-/// A circle of fates for all mass ratios of a range.
-#[derive(Default)]
-pub(crate) struct CommonCircle {
-    /// Its arcs, by offset, on all turns from that of the jumps outwards.
-    pub(crate) arcs: Arcs,
-    /// Whether the turn of jumps is among them.
-    pub(crate) from_jumps: bool,
-}
-
 /// The circles of α*_1, α*_2, … for all mass ratios of a range, each computed at its first use.
 pub(crate) struct CommonCircles {
     middle: Fates,
     /// At the first and the last mass ratio.
     ends: [End; 2],
-    circles: [OnceLock<CommonCircle>; HUMPS_WITH_LAPS as usize + 1],
+    circles: [OnceLock<Arcs>; HUMPS_WITH_LAPS as usize + 1],
 }
 
 /// The orbits from an offset left of a fixed point at all mass ratios.
@@ -99,21 +90,21 @@ impl CommonCircles {
         Ok(Some(CommonCircles { middle, ends: [lower, upper], circles }))
     }
 
-    /// The circle left of α*_n; `None` where orbits from one offset lie too far apart.
-    pub(crate) fn circle(&self, n: u64) -> Option<&CommonCircle> {
+    /// The circle left of α*_n, on all turns from that of the jumps outwards; `None` where orbits from one offset lie too far apart.
+    pub(crate) fn circle(&self, n: u64) -> Option<&Arcs> {
         let slot = self.circles.get(usize::try_from(n).ok()?)?;
-        let circle = slot.get_or_init(|| self.new_circle(n).unwrap_or_default());
-        (!circle.arcs.is_empty()).then_some(circle)
+        let arcs = slot.get_or_init(|| self.new_circle(n).unwrap_or_default());
+        (!arcs.is_empty()).then_some(arcs)
     }
 
-    fn new_circle(&self, n: u64) -> Option<CommonCircle> {
+    fn new_circle(&self, n: u64) -> Option<Arcs> {
         let none = Arcs::default();
-        let points = self.turn(n, self.outermost_turn(n)?, &none)?;
+        let mut points = self.turn(n, self.outermost_turn(n)?, &none)?;
         let outermost = Arcs::from_points(points.clone());
-        let inner = self.turn_of_jumps(n).and_then(|turn| self.turn(n, turn, &outermost));
-        let from_jumps = inner.is_some();
-        let points = points.into_iter().chain(inner.unwrap_or_default()).collect();
-        Some(CommonCircle { arcs: Arcs::from_points(points), from_jumps })
+        if let Some(inner) = self.turn_of_jumps(n) {
+            points.extend(self.turn(n, inner, &outermost).unwrap_or_default());
+        }
+        Some(Arcs::from_points(points))
     }
 
     /// Follows orbits from the offsets of a turn, outwards to `known` arcs, and halves the gaps between those that do not agree. Gives

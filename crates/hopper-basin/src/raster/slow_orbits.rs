@@ -3,9 +3,8 @@
 use crate::fates::beside_edge::BesideEdge;
 use crate::fates::hopper_fate::HopperFate;
 use crate::fates::slow_sides::SlowZone;
-use crate::raster::arcs::Arc;
+use crate::raster::arcs::{Arc, Arcs};
 use crate::raster::column::Column;
-use crate::raster::common_circles::CommonCircle;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
 use crate::raster::strip::{Strip, is_inside, with_signs};
@@ -35,6 +34,9 @@ const MOST_MISSED_EDGES: usize = 4;
 /// The orbits of a strip that jump left of one fixed point, over its columns, before its circle is computed. Up to there each of them is
 /// followed alone: a circle takes as long as some dozen orbits. It affects the time only.
 const FIRST_JUMPS: usize = 2;
+
+/// The same for a circle that all columns of a raster share, in all columns of a strip.
+const FIRST_JUMPS_TOGETHER: usize = 8;
 
 /// A hop along the slow side by its polynomials is given up for a plain one if it multiplies the error of the speed by more than this.
 /// Far from the fixed point the polynomials err more than a plain hop does.
@@ -124,12 +126,18 @@ impl<'a> Strip<'a> {
 
     /// Counts a jump left of α*_n. True if so many orbits jump there that the circle pays.
     fn use_circle(&mut self, n: u64) -> bool {
-        let n = n as usize; // below the number of humps with laps
-        if self.jumped.len() <= n {
-            self.jumped.resize(n + 1, 0);
+        let at = n as usize; // below the number of humps with laps
+        if self.jumped.len() <= at {
+            self.jumped.resize(at + 1, 0);
         }
-        self.jumped[n] += 1;
-        self.jumped[n] > FIRST_JUMPS * self.columns.len()
+        self.jumped[at] += 1;
+        self.uses_circle(n)
+    }
+
+    fn uses_circle(&self, n: u64) -> bool {
+        let own = FIRST_JUMPS * self.columns.len();
+        let least = if self.common.is_some() { FIRST_JUMPS_TOGETHER } else { own };
+        self.jumped.get(n as usize).is_some_and(|&jumped| jumped > least)
     }
 
     /// Ends the orbit in a known fate, after `hops` hops left of α*_n that were jumped over.
@@ -231,8 +239,8 @@ impl<'a> Strip<'a> {
         if let Some(known) = self.known_arc(column, n, (offset, error)) {
             return Some(known);
         }
-        if let Some(circle) = self.common_circle(n) {
-            self.columns[column].arcs(n).add_around(&circle.arcs, offset, error);
+        if let Some(arcs) = self.common_circle(n) {
+            self.columns[column].arcs(n).add_around(arcs, offset, error);
         }
         if self.columns[column].arcs(n).find(offset, error) == Arc::Outside {
             self.begin_circle(column, n)?;
@@ -252,16 +260,14 @@ impl<'a> Strip<'a> {
 
     /// The fate within an error of an offset left of α*_n, if the arcs that all columns share show it, or those of this column.
     fn known_arc(&self, column: usize, n: u64, (offset, error): (f64, f64)) -> Option<KnownFate> {
-        let common = self.common_circle(n).and_then(|circle| circle.arcs.known(offset, error));
+        let common = self.common_circle(n).and_then(|arcs| arcs.known(offset, error));
         let own = || self.columns[column].arcs.get(n as usize)?.known(offset, error);
         common.or_else(own)
     }
 
     /// The circle that all columns share, if so many orbits have jumped that it pays.
-    fn common_circle(&self, n: u64) -> Option<&'a CommonCircle> {
-        let jumped = self.jumped.get(n as usize).copied().unwrap_or(0);
-        let common = self.common.filter(|_| jumped > FIRST_JUMPS * self.columns.len())?;
-        common.circle(n)
+    fn common_circle(&self, n: u64) -> Option<&'a Arcs> {
+        self.common.filter(|_| self.uses_circle(n))?.circle(n)
     }
 
     /// The first orbits of the circle of one column.
