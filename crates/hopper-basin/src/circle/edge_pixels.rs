@@ -15,6 +15,13 @@ pub(crate) const CHART: f64 = 1e-5;
 /// Speeds of a pixel farther away: a share is known to about an eighth.
 const SPEEDS: usize = 8;
 
+/// Bounds of the chart that leave more of a pixel undecided are wide because the pixel reaches to the edge itself, or to the end of
+/// the trap. Single speeds then tell more.
+const UNDECIDED: f64 = 0.02;
+
+/// Offsets below this part of p have fewer than a thousand `f64` beside them: single speeds tell less than the bounds.
+const SPACING: f64 = 1e-13;
+
 /// The shares of the fates from p + `from` to p + `to` for each pair; p is the point of `chart`. The pair is in any order.
 ///
 /// Where the chart and its circle tell the share, it is that of all speeds ([`EdgeChart::share`]); over the mass ratios of a pixel ln Ψ
@@ -47,7 +54,7 @@ pub(crate) fn edge_pixels(
         .collect())
 }
 
-/// The share by the chart; `None` where its circle has no phase, or its trap ends.
+/// The share by the chart; `None` where single speeds tell more: its circle has no phase, its trap ends, or the bounds are wide.
 fn by_chart(
     chart: &EdgeChart,
     circle: &PhaseBasins,
@@ -55,8 +62,10 @@ fn by_chart(
     to: Offset,
     moved: f64,
 ) -> Result<Option<LocalFractions>, Error> {
+    let far = from.nearest().abs().max(to.nearest().abs());
+    let too_near = far < SPACING * chart.point().0;
     match chart.share_moved(circle, from, to, moved) {
-        Ok(share) if share.undecided() < 0.5 => Ok(Some(share)),
+        Ok(share) if share.undecided() <= UNDECIDED || too_near => Ok(Some(share)),
         Ok(_)
         | Err(Error::OutsideChart { .. })
         | Err(Error::Asymptotics(hopper_asymptotics::Error::OutsideRange { .. })) => Ok(None),

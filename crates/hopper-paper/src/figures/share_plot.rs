@@ -37,7 +37,7 @@ pub(crate) fn draw_shares(n: u64, raster: &ShareRaster) -> Result<Svg, Error> {
     if (0..grid.columns).any(|column| raster.is_blank(column)) {
         svg.fill_rect(end, 18.0, 12.0, 12.0, BLANK.css);
         svg.rect(end, 18.0, 12.0, 12.0, Pen::solid("#000", 0.6));
-        svg.text(end + 17.0, 28.5, Anchor::Start, 11.5, "preimage not there");
+        svg.text(end + 17.0, 28.5, Anchor::Start, 11.5, "no preimage");
     }
     let note = "colours mixed by shares";
     svg.text(frame.left + frame.width, 28.5, Anchor::End, 11.5, note);
