@@ -66,8 +66,7 @@ fn frames_of_the_chart_have_the_fates_of_their_points() {
         let (fates, chart, edge) = edge(m, n, guess);
         let circle = PhaseBasins::new(&fates, n, CircleLimits::default()).unwrap();
         let (depth, half) = (6.0, 1e-6);
-        let frame =
-            edge_frame(&fates, (&chart, &edge), &circle, depth, (PIXELS, PIXELS)).unwrap();
+        let frame = edge_frame(&fates, (&chart, &edge), &circle, depth, (PIXELS, PIXELS)).unwrap();
         // 8 × 8 fates a pixel.
         let about = |middle: f64, half: f64| Interval::new(middle - half, middle + half).unwrap();
         let grid = Grid {
@@ -109,7 +108,8 @@ fn deep_frames_are_alike_at_any_depth() {
         }
     }
     assert!(frame(0.0).labels().len() >= 3);
-    for (depth, pixels) in [(-1.0, (4, 4)), (f64::NAN, (4, 4)), (3.0, (0, 4)), (3.0, (4, 1 << 20))] {
+    for (depth, pixels) in [(-1.0, (4, 4)), (f64::NAN, (4, 4)), (3.0, (0, 4)), (3.0, (4, 1 << 20))]
+    {
         let error = edge_frame(&fates, (&chart, &edge), &circle, depth, pixels).unwrap_err();
         assert!(matches!(error, Error::EdgeFrame { .. }), "{depth} {pixels:?}");
     }

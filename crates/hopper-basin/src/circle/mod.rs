@@ -19,6 +19,7 @@
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
 //!   gap_count.rs            the number of gaps between boundary points, at any scale
+//!   upwards.rs              the vertical axis of a raster of shares
 //!   share_column.rs         one column of a raster of shares: left of α*_n, or about an edge
 //!   share_raster.rs         columns side by side: the circle over M, unrolled by phase or by distance
 //! ```
@@ -41,3 +42,4 @@ pub(crate) mod phase_basins;
 pub(crate) mod phase_shares;
 pub(crate) mod share_column;
 pub(crate) mod share_raster;
+pub(crate) mod upwards;

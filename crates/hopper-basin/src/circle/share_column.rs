@@ -6,7 +6,7 @@ use crate::circle::edge_path::FollowedEdge;
 use crate::circle::edge_pixels::edge_pixels;
 use crate::circle::local_fractions::LocalFractions;
 use crate::circle::phase_basins::PhaseBasins;
-use crate::circle::share_raster::Upwards;
+use crate::circle::upwards::Upwards;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use basin_of_attraction::Grid;

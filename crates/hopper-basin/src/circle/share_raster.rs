@@ -2,23 +2,10 @@
 
 use crate::circle::circle_limits::CircleLimits;
 use crate::circle::share_column::ShareColumn;
+use crate::circle::upwards::Upwards;
 use crate::error::Error;
 use basin_of_attraction::{Grid, columns_in_parallel};
 use std::ops::ControlFlow;
-
-/// The meaning of the vertical axis of a [`ShareRaster`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Upwards {
-    /// −log₁₀ |δ|: the point y is α*_n − 10^{−y}. α*_n is above.
-    Depth,
-    /// Ψ, in turns of the circle. α*_n is above.
-    Phase,
-    /// −log₁₀ of the distance from an edge p, on both sides: the lower half of the rows are the speeds p − 10^{−y}, y upwards; the
-    /// upper half are the speeds p + 10^{−y}, y downwards. So speeds increase upwards, and p is in the middle.
-    BothSides,
-    /// The speed, in half heights from the edge in the middle.
-    Speed,
-}
 
 /// The share of every fate in each pixel of a raster.
 #[derive(Debug, Clone, PartialEq)]
