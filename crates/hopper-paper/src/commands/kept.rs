@@ -37,3 +37,41 @@ pub(super) fn pieces(
     bar.finish();
     Ok((kept, all))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    /// A run that was interrupted leaves its finished pieces, and the next run computes the others only.
+    #[test]
+    fn an_interrupted_run_goes_on() {
+        let path = std::env::temp_dir().join(format!("hopper_kept_{}", std::process::id()));
+        let folder = Folder::open(&path).unwrap();
+        let lock = Lock::take(folder.path(), "kept").unwrap();
+        let whole = |at: usize| vec![at as u8; at];
+        let breaks = |at: usize| match at {
+            5 => Err(Error::CheckFailed("broken off".into())),
+            _ => Ok(whole(at)),
+        };
+        let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let name = ("pieces", "a picture");
+        assert!(threads.install(|| pieces(&folder, &lock, name, 8, breaks)).is_err());
+        let kept = Pieces::open(&path.join("pieces"), "a picture").unwrap();
+        let finished: Vec<usize> = (0..8).filter(|&at| kept.read(at).unwrap().is_some()).collect();
+        assert!(finished.starts_with(&[0, 1, 2, 3, 4]), "{finished:?}");
+        let computed = Mutex::new(Vec::new());
+        let again = pieces(&folder, &lock, name, 8, |at| {
+            computed.lock().unwrap().push(at);
+            Ok(whole(at))
+        });
+        let (kept, all) = again.unwrap();
+        assert_eq!(all, (0..8).map(whole).collect::<Vec<_>>());
+        assert_eq!(computed.into_inner().unwrap().len(), 8 - finished.len());
+        // Another picture in the same folder is an error that names the folder.
+        let other = pieces(&folder, &lock, ("pieces", "another picture"), 8, |at| Ok(whole(at)));
+        assert!(other.unwrap_err().to_string().contains("pieces"));
+        kept.remove(8).unwrap();
+        std::fs::remove_dir_all(&path).unwrap();
+    }
+}

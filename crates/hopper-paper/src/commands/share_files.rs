@@ -278,6 +278,35 @@ mod tests {
         }
     }
 
+    /// The preimage near 11.9206 at M = 0.12 meets its twin between M = 0.1169 and 0.1175; columns below are blank.
+    #[test]
+    fn a_preimage_is_followed_as_far_as_it_exists() {
+        let nowhere = std::path::Path::new("/nowhere");
+        let about = |near, mass_ratio: [f64; 2]| {
+            let good = options(nowhere, Some(["1e-2", "1e-300"]), None);
+            let mass_ratio = mass_ratio.to_vec();
+            let options = Shares { preimage: Some(near), mass_ratio, pixels: vec![20, 5], ..good };
+            let (grid, upwards) = grid(&options).unwrap();
+            assert_eq!((upwards, grid.rows), (Upwards::BothSides, 6));
+            followed(2, near, &grid).map(|edges| (grid, edges))
+        };
+        let (grid, edges) = about([0.12, 11.9206], [0.11, 0.13]).unwrap();
+        for (at, edge) in edges.iter().enumerate() {
+            assert_eq!(edge.is_some(), grid.x_at(at) > 0.1174, "{}", grid.x_at(at));
+        }
+        for (near, words) in [
+            ([0.12, 7.725], "is near α*_2 itself"),
+            ([0.12, 4.6], "no speed within"),
+            ([0.12, f64::NAN], "NaN"),
+            ([-0.12, 11.9206], "-0.12"),
+        ] {
+            let error = about(near, [0.11, 0.13]).unwrap_err().to_string();
+            assert!(error.contains(words), "{error}");
+        }
+        let error = about([0.12, 11.9206], [0.01, 0.02]).unwrap_err().to_string();
+        assert!(error.contains("at no mass ratio of the raster, 0.01 to 0.02"), "{error}");
+    }
+
     /// The arrays of all labels have the sum 1 in every pixel, and the legend names them.
     #[test]
     fn the_files_have_all_shares() {
