@@ -102,11 +102,11 @@ impl ShareRaster {
 ///
 /// A pixel has the shares of all phases that it covers, so that no structure between its middle and its edges is missed. In a column
 /// the circle is that of its middle. The phases at an offset move with M, by the leading order 1/(A |δ|^{1/3}) of Ψ; with
-/// [`Upwards::Depth`] a pixel covers the phases of its whole width. Offsets beyond the [domain](PhaseBasins::domain) are undecided; it
+/// [`Upwards::Depth`] a pixel covers the phases of its whole width. Offsets beyond the [domain](crate::PhaseBasins::domain) are undecided; it
 /// begins some tenths below α*_n.
 ///
 /// `progress` is called with the number of finished columns, and may stop the work. The result does not depend on the number of
-/// threads. A column takes as long as [`PhaseBasins::new`].
+/// threads. A column takes as long as [`PhaseBasins::new`](crate::PhaseBasins::new).
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval};
@@ -122,7 +122,7 @@ impl ShareRaster {
 /// ```
 ///
 /// # Errors
-/// Those of [`PhaseBasins::new`], [`MassRatio::new`] and [`Offset::new`];
+/// Those of [`PhaseBasins::new`](crate::PhaseBasins::new), [`MassRatio::new`](passive_hopper::MassRatio::new) and [`Offset::new`](hopper_asymptotics::Offset::new);
 /// [`Error::BasinOfAttraction`] for an empty grid, and if `progress` stops the work.
 pub fn share_raster(
     n: u64,
