@@ -151,4 +151,31 @@ pub enum Error {
         /// The mass ratio of the given circle.
         other_ratio: f64,
     },
+    /// A boundary point at one mass ratio, and fates at another.
+    #[error(
+        "the edge belongs to M = {own}, and the fates to M = {other}; make both at one mass ratio"
+    )]
+    OtherMassRatio {
+        /// The mass ratio of the boundary point.
+        own: f64,
+        /// The mass ratio of the fates.
+        other: f64,
+    },
+    /// A depth at which no window about an edge is drawn.
+    #[error(
+        "a window about an edge needs a depth of at least 0 that is finite, and 1 to {most} pixels each way, not {depth}, {columns} and {rows}"
+    )]
+    EdgeFrame {
+        /// −log₁₀ of the half height.
+        depth: f64,
+        /// Pixels across.
+        columns: usize,
+        /// Pixels up.
+        rows: usize,
+        /// The largest number of pixels each way.
+        most: usize,
+    },
+    /// A vertical axis that counts from an edge, for a raster left of a fixed point.
+    #[error("left of a fixed point the axis upwards is Upwards::Depth or Upwards::Phase")]
+    Upwards,
 }

@@ -22,9 +22,10 @@
 //! | [`PhaseBasins`], [`CircleLimits`] | the circle of fates left of α*_n: the basins as intervals of phase, at every scale |
 //! | [`BoundaryPhase`], [`UndecidedPhases`], [`FallsOnto`] | its boundary points and what they come to; what is undecided |
 //! | [`LocalFractions`], [`Ground`] | the shares of the fates next to α*_n, with bounds, and what the bounds stand on |
-//! | [`share_raster`], [`ShareRaster`], [`Upwards`] | the shares over mass ratio and phase, or over mass ratio and log |δ| |
+//! | [`share_raster`], [`ShareRaster`], [`ShareColumn`], [`Upwards`] | the shares over mass ratio and phase, or over mass ratio and log |δ| |
 //! | [`GapCount`] | how many boundary points are seen left of α*_n at a given scale, and the law of their number |
 //! | [`EdgeChart`], [`edge_window`] | windows of any width about a speed that comes to α*_n exactly, and their pixels |
+//! | [`FollowedEdge`], [`edge_frame`], [`frame_slant`] | such a speed over the mass ratio, and windows of (M, α) about it |
 //! | [`first_humps`] | the lift-off speeds [α*_1, α*_{k+1}]; the paper's window has k = 5 |
 //! | [`FIG_8`], [`FIG_9`] | the (M, α) windows of these figures of the paper |
 //!
@@ -65,13 +66,16 @@ pub use basins::rasters::{basin_columns, basin_raster};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use circle::circle_limits::{CircleLimits, Ground};
 pub use circle::edge_chart::EdgeChart;
-pub use circle::edge_window::edge_window;
+pub use circle::edge_path::FollowedEdge;
+pub use circle::edge_window::{edge_frame, edge_window, frame_slant};
 pub use circle::falls_onto::FallsOnto;
 pub use circle::gap_count::GapCount;
 pub use circle::local_fractions::LocalFractions;
 pub use circle::phase_basins::{BoundaryPhase, PhaseBasins, UndecidedPhases};
 pub use circle::phase_shares::PhasePart;
-pub use circle::share_raster::{ShareRaster, Upwards, share_raster};
+pub use circle::share_column::ShareColumn;
+pub use circle::share_raster::{ShareRaster, share_raster};
+pub use circle::upwards::Upwards;
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;

@@ -92,7 +92,7 @@ impl EdgeChart {
     }
 
     /// The chart about the exact point next to the one in `f64`.
-    fn about(fates: &Fates, Approach { n, hops, mut point }: Approach) -> Option<Self> {
+    pub(crate) fn about(fates: &Fates, Approach { n, hops, mut point }: Approach) -> Option<Self> {
         let trap = fates.trap(n).ok()?;
         let mass_ratio = fates.map().mass_ratio();
         let trap = trap.delta - trap.error;
@@ -216,6 +216,14 @@ impl EdgeChart {
         Ok(Phase::new(phase.whole().clone(), phase.fraction(), error))
     }
 
+    /// As [`phase`](Self::phase), on all of the circle's domain.
+    fn phase_on(&self, circle: &PhaseBasins, y: Offset) -> Result<Phase, Error> {
+        let (delta, relative) = self.offset(y)?;
+        let phase = circle.phase(delta)?;
+        let error = phase.error() + phase_error(circle.coordinate(), delta, relative);
+        Ok(Phase::new(phase.whole().clone(), phase.fraction(), error))
+    }
+
     /// The label of p + `y`; `None` if the circle does not have one for all phases within the error.
     ///
     /// # Errors
@@ -248,10 +256,21 @@ impl EdgeChart {
         from: Offset,
         to: Offset,
     ) -> Result<LocalFractions, Error> {
+        self.share_moved(circle, from, to, 0.0)
+    }
+
+    /// As [`share`](Self::share), over mass ratios between which ln Ψ moves by `moved`.
+    pub(crate) fn share_moved(
+        &self,
+        circle: &PhaseBasins,
+        from: Offset,
+        to: Offset,
+        moved: f64,
+    ) -> Result<LocalFractions, Error> {
         self.check(circle)?;
         let (a, b) = (self.offset(from)?.0, self.offset(to)?.0);
         match (a.mantissa() < 0.0, b.mantissa() < 0.0) {
-            (true, true) => self.share_of_phases(circle, from, to),
+            (true, true) => self.share_of_phases(circle, from, to, moved),
             (false, false) => Ok(self.basin_share(a, b)),
             (true, false) => self.share_across(circle, a, b),
             (false, true) => self.share_across(circle, b, a),
@@ -264,10 +283,21 @@ impl EdgeChart {
         circle: &PhaseBasins,
         from: Offset,
         to: Offset,
+        moved: f64,
     ) -> Result<LocalFractions, Error> {
+        let (one, other) = (self.phase_on(circle, from)?, self.phase_on(circle, to)?);
         let coordinate = circle.coordinate();
-        let (one, other) = (self.phase(coordinate, from)?, self.phase(coordinate, to)?);
+        let one_moves = moved * turns_to_leave(coordinate, self.offset(from)?.0);
+        let other_moves = moved * turns_to_leave(coordinate, self.offset(to)?.0);
+        // A part of a turn more or less does not change a digit of the share of so many turns.
+        if moved > 0.0 && !(one_moves.max(other_moves) < MOST_TURNS) {
+            return Ok(circle.fractions());
+        }
         if one.error() + other.error() < LARGEST_PHASE_ERROR {
+            let low_first = (one.whole(), one.fraction()) < (other.whole(), other.fraction());
+            let sign = if low_first { 0.5 } else { -0.5 };
+            let (one, other) =
+                (shifted(&one, -sign * one_moves), shifted(&other, sign * other_moves));
             return Ok(circle.share_between(&one, &other));
         }
         // The slope is the same for both ends: the number of turns has its relative error, and only the start is not known.
@@ -313,6 +343,14 @@ impl EdgeChart {
 
 /// Sum of the errors of two phases up to which a share is that of its own phases. Chosen: the error widens the bounds.
 const LARGEST_PHASE_ERROR: f64 = 1e-3;
+
+/// More turns than the mantissa of an `f64` counts one by one.
+pub(crate) const MOST_TURNS: f64 = (1_u64 << 60) as f64;
+
+/// The phase some turns later.
+pub(crate) fn shifted(phase: &Phase, turns: f64) -> Phase {
+    Phase::new(phase.whole().clone(), phase.fraction() + turns, phase.error())
+}
 
 /// 1/(A |δ|^{1/3}): Ψ to leading order; infinite beyond the largest `f64`.
 pub(crate) fn turns_to_leave(coordinate: &FatouCoordinate, delta: Offset) -> f64 {

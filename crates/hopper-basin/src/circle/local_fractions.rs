@@ -65,6 +65,11 @@ impl LocalFractions {
         found.map_or(Bounds { lower: 0.0, upper: self.undecided }, |&(_, bounds)| bounds)
     }
 
+    /// The certain share of `label`.
+    pub(crate) fn certain(&self, label: u16) -> f64 {
+        self.of(label).lower
+    }
+
     /// The share without a label.
     pub fn undecided(&self) -> f64 {
         self.undecided

@@ -13,11 +13,15 @@
 //!   phase_shares.rs         sums over an interval of phases
 //!   edge_chart.rs           windows about a speed that comes to α*_n exactly
 //!   edge_derivatives.rs     the derivatives of many hops there, from differences in longer arithmetic
-//!   edge_window.rs          the pixels of a window about such a speed
+//!   edge_path.rs            such a speed over the mass ratio, by continuation
+//!   edge_pixels.rs          the shares between pairs of speeds near it
+//!   edge_window.rs          the pixels of windows about it, at one mass ratio and in the (M, α) plane
 //!   edge_search.rs          the speeds near a given one that come to a fixed point
 //!   local_fractions.rs      p_{n,k}: the share of every fate, with bounds
 //!   gap_count.rs            the number of gaps between boundary points, at any scale
-//!   share_raster.rs         the circle over M, unrolled by phase or by distance from α*_n
+//!   upwards.rs              the vertical axis of a raster of shares
+//!   share_column.rs         one column of a raster of shares: left of α*_n, or about an edge
+//!   share_raster.rs         columns side by side: the circle over M, unrolled by phase or by distance
 //! ```
 //!
 //! This room uses `basins`, `fates` and `traps`.
@@ -25,6 +29,8 @@
 pub(crate) mod circle_limits;
 pub(crate) mod edge_chart;
 pub(crate) mod edge_derivatives;
+pub(crate) mod edge_path;
+pub(crate) mod edge_pixels;
 pub(crate) mod edge_search;
 pub(crate) mod edge_window;
 pub(crate) mod falls_onto;
@@ -34,4 +40,6 @@ pub(crate) mod labelled_speeds;
 pub(crate) mod local_fractions;
 pub(crate) mod phase_basins;
 pub(crate) mod phase_shares;
+pub(crate) mod share_column;
 pub(crate) mod share_raster;
+pub(crate) mod upwards;

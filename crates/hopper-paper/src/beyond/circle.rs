@@ -45,7 +45,7 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
         let frame = Frame::linear(left, 50.0, 258.0, 230.0, RATIOS, (0.0, 1.0));
         svg.image(frame.left, frame.top, frame.width, frame.height, &png(&raster)?);
         let label = if at == 0 { "phase $Ψ$ mod 1" } else { "" };
-        frame.axes(&mut svg, &ticks(RATIOS, 5), &ticks(frame.y, 5), "", label);
+        frame.axes(&mut svg, &ticks(RATIOS, 5), &shared(ticks(frame.y, 5), at), "", label);
         let title = format!("left of $α$^{{∗}}_{{{n}}}");
         svg.text(left + 129.0, 42.0, Anchor::Middle, 12.5, &title);
         let below = Frame::linear(left, 304.0, 258.0, 170.0, RATIOS, (LEAST, 1.3)).log_y();
@@ -69,7 +69,8 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
         }
         let label = if at == 0 { "share $p$_{n,k}" } else { "" };
         let x_label = "mass ratio $M$";
-        below.axes(&mut svg, &ticks(RATIOS, 5), &decades(below.y, 1), x_label, label);
+        let y_ticks = shared(decades(below.y, 1), at);
+        below.axes(&mut svg, &ticks(RATIOS, 5), &y_ticks, x_label, label);
     }
     legend(&mut svg);
     for (n, m) in [(1, 0.2), (2, 0.12), (2, 0.2), (3, 0.2), (1, 0.8), (2, 0.8), (3, 0.8)] {
@@ -99,6 +100,12 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
         },
         table,
     })
+}
+
+/// Ticks whose labels stand at the first panel only: the panels share their axis.
+fn shared(ticks: Vec<(f64, String)>, panel: usize) -> Vec<(f64, String)> {
+    let label = |text: String| if panel == 0 { text } else { String::new() };
+    ticks.into_iter().map(|(at, text)| (at, label(text))).collect()
 }
 
 fn raster(n: u64) -> Result<ShareRaster, Error> {

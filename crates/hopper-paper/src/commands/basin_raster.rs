@@ -32,28 +32,48 @@ pub struct Options {
     /// Lift-off speeds from and to [default: the first and the sixth fixed point]
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"], allow_negative_numbers = true)]
     speed: Option<Vec<f64>>,
-    /// Pixels across and up
-    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], default_values_t = [1024, 1024])]
-    pixels: Vec<usize>,
+    /// Pixels across and up [default: 1024 1024; with --zoom 320 320]
+    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"])]
+    pixels: Option<Vec<usize>>,
     /// Show the speeds below this fixed point at all scales: each pixel has the shares of the basins that it covers
     #[arg(long, value_name = "N", conflicts_with = "speed")]
     about: Option<u64>,
     /// With --about: distances below the fixed point, on a logarithmic scale [default: 1e-2 1e-300]
     #[arg(long, num_args = 2, value_names = ["FAR", "NEAR"], requires = "about", allow_negative_numbers = true)]
     offset: Option<Vec<Offset>>,
+    /// With --about: distances from a preimage of the fixed point instead, on both sides. It is the one next to this speed at
+    /// this mass ratio, followed over the mass ratios of the raster
+    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], requires = "about", conflicts_with = "turns", allow_negative_numbers = true)]
+    preimage: Option<Vec<f64>>,
     /// With --about: the phase instead of the distance, so many turns of the circle of fates
-    #[arg(long, value_name = "TURNS", requires = "about", conflicts_with = "offset")]
+    #[arg(
+        long,
+        value_name = "TURNS",
+        requires = "about",
+        conflicts_with = "offset",
+        allow_negative_numbers = true
+    )]
     turns: Option<f64>,
     /// Make a sequence of frames into the edge of a basin next to this speed, at this mass ratio
-    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], conflicts_with_all = ["about", "speed"])]
+    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], conflicts_with_all = ["about", "speed"], allow_negative_numbers = true)]
     zoom: Option<Vec<f64>>,
     /// With --zoom: the number of frames; the first has the half height 1
     #[arg(long, value_name = "COUNT", requires = "zoom", default_value_t = 101)]
     frames: usize,
     /// With --zoom: decades from one frame to the next
-    #[arg(long, value_name = "DECADES", requires = "zoom", default_value_t = 1.0)]
+    #[arg(
+        long,
+        value_name = "DECADES",
+        requires = "zoom",
+        default_value_t = 1.0,
+        allow_negative_numbers = true
+    )]
     step: f64,
 }
+
+/// Pixels across and up unless others are given.
+const PIXELS_OF_RASTER: [usize; 2] = [1024, 1024];
+const PIXELS_OF_FRAME: [usize; 2] = [320, 320];
 
 /// Columns of a tile. A killed run loses one unfinished tile for each thread: with wider tiles more work is lost.
 /// Narrower tiles share less work between columns, and are more files to flush.
@@ -76,14 +96,17 @@ const LEGEND: &str = "legend.json";
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
     if let Some(n) = options.about {
-        let Options { out, mass_ratio, pixels, offset, turns, .. } = options.clone();
-        return share_files::run(&Shares { n, out, mass_ratio, pixels, offset, turns });
+        let Options { out, mass_ratio, offset, turns, .. } = options.clone();
+        let pixels = options.pixels.clone().unwrap_or(PIXELS_OF_RASTER.to_vec());
+        let preimage = options.preimage.as_deref().and_then(|pair| pair.try_into().ok());
+        return share_files::run(&Shares { n, out, mass_ratio, pixels, offset, turns, preimage });
     }
-    if let (Some(&[mass_ratio, speed]), &[_, rows]) =
-        (options.zoom.as_deref(), options.pixels.as_slice())
-    {
+    if let Some(&[mass_ratio, speed]) = options.zoom.as_deref() {
         let Options { out, frames, step, .. } = options.clone();
-        return zoom_files::run(&Zoom { out, mass_ratio, speed, frames, step, rows });
+        let &[columns, rows] = options.pixels.as_deref().unwrap_or(&PIXELS_OF_FRAME) else {
+            return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
+        };
+        return zoom_files::run(&Zoom { out, mass_ratio, speed, frames, step, columns, rows });
     }
     let grid = grid(options)?;
     let folder = Folder::open(&options.out)?;
@@ -166,7 +189,7 @@ fn grid(options: &Options) -> Result<Grid, Error> {
         _ => Err(Error::CheckFailed("two numbers are needed, from and to".into())),
     };
     let default = [first_humps(5).left, first_humps(5).right];
-    let [columns, rows] = options.pixels[..] else {
+    let &[columns, rows] = options.pixels.as_deref().unwrap_or(&PIXELS_OF_RASTER) else {
         return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
     };
     if columns.max(rows) > MOST_ALONG {
@@ -252,10 +275,11 @@ mod tests {
             out: PathBuf::from("/nowhere"),
             mass_ratio: mass_ratio.to_vec(),
             speed: Some(speed.to_vec()),
-            pixels: pixels.to_vec(),
+            pixels: Some(pixels.to_vec()),
             about: None,
             offset: None,
             turns: None,
+            preimage: None,
             zoom: None,
             frames: 1,
             step: 1.0,

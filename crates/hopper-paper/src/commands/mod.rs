@@ -1,9 +1,12 @@
 //! The commands, one file each.
 
+mod animation;
 pub mod basin_raster;
 pub mod beyond_paper;
 mod claim_lines;
+mod column_bytes;
 mod figure_files;
+mod kept;
 pub mod model_figures;
 pub mod reproduce_paper;
 mod share_files;

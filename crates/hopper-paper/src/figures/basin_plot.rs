@@ -91,8 +91,8 @@ pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Er
     Ok(svg)
 }
 
-/// The legend, with one entry for each colour: fixed points beyond the last colour share it.
-pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = u16>) {
+/// The legend, with one entry for each colour: fixed points beyond the last colour share it. Returns where the next entry begins.
+pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = u16>) -> f64 {
     let mut x = left;
     let mut last = "";
     for label in labels {
@@ -106,6 +106,7 @@ pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = u16>
         svg.text(x + 17.0, 28.5, Anchor::Start, 11.5, &fate_colors::name(label));
         x += if (1..60_000).contains(&label) { 58.0 } else { 84.0 };
     }
+    x
 }
 
 /// The fraction of every label, in words.
