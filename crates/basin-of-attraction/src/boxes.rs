@@ -4,6 +4,7 @@
 use crate::entropy::entropy;
 use crate::error::Error;
 use crate::interval_basins::IntervalBasins;
+use crate::label::Label;
 use crate::raster::LabelImage;
 use std::collections::BTreeMap;
 
@@ -102,7 +103,7 @@ impl IntervalBasins {
             while self.intervals().get(first).is_some_and(|part| part.interval.right <= left) {
                 first += 1;
             }
-            let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();
+            let mut lengths: BTreeMap<Label, f64> = BTreeMap::new();
             for part in self.intervals()[first..].iter().take_while(|p| p.interval.left < right) {
                 let inside = part.interval.right.min(right) - part.interval.left.max(left);
                 *lengths.entry(part.label).or_insert(0.0) += inside.max(0.0);
@@ -162,7 +163,7 @@ impl LabelImage {
         };
         for corner in 0..across * up {
             let (column, row) = (side * (corner % across), side * (corner / across));
-            let mut found: BTreeMap<u16, usize> = BTreeMap::new();
+            let mut found: BTreeMap<Label, usize> = BTreeMap::new();
             for line in row..row + side {
                 let from = line * columns + column;
                 for &label in &self.labels[from..from + side] {

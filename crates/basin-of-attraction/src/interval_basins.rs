@@ -5,6 +5,7 @@ use crate::branches::Branch;
 use crate::error::Error;
 use crate::fate::TrapSet;
 use crate::interval::{Interval, IntervalSet};
+use crate::label::Label;
 use crate::refinement::{Refinement, StopReason};
 use crate::scalar_map::ScalarMap;
 use rayon::prelude::*;
@@ -16,7 +17,7 @@ pub struct LabelledInterval {
     /// The interval.
     pub interval: Interval,
     /// The label of the trap that its orbits enter.
-    pub label: u16,
+    pub label: Label,
     /// The number of steps after which the orbits enter the trap.
     pub level: usize,
 }
@@ -39,15 +40,15 @@ pub struct IntervalBasins {
 /// trap once, so that intervals of different levels are disjoint.
 ///
 /// ```
-/// use basin_of_attraction::{Branch, Interval, Refinement, interval_basins};
+/// use basin_of_attraction::{Branch, Interval, Label, Refinement, interval_basins};
 /// // x + x²: every orbit from (−1, 0) approaches 0, more and more slowly.
 /// let map = |x: f64| Some(x + x * x);
-/// let trap = (Interval::new(-0.1, 0.0)?, 1);
+/// let trap = (Interval::new(-0.1, 0.0)?, Label::from(1));
 /// let left = Branch { domain: Interval::new(-1.0, -0.5)?, at_left: 0.0, at_right: -0.25 };
 /// let right = Branch { domain: Interval::new(-0.5, 0.0)?, at_left: -0.25, at_right: 0.0 };
 /// let window = Interval::new(-1.0, 0.0)?;
 /// let basins = interval_basins(&map, &[trap], &[left, right], window, Refinement::default())?;
-/// assert!(basins.undecided() < 1e-6 && basins.basin_length(1).covers(1.0));
+/// assert!(basins.undecided() < 1e-6 && basins.basin_length(Label::from(1)).covers(1.0));
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
@@ -55,7 +56,7 @@ pub struct IntervalBasins {
 /// [`Error::OverlappingTraps`] if two traps have a point in common.
 pub fn interval_basins(
     map: &(impl ScalarMap + Sync),
-    traps: &[(Interval, u16)],
+    traps: &[(Interval, Label)],
     branches: &[Branch],
     window: Interval,
     refinement: Refinement,
@@ -183,21 +184,21 @@ impl IntervalBasins {
     }
 
     /// The labels that occur.
-    pub fn labels(&self) -> Vec<u16> {
-        let mut labels: Vec<u16> = self.parts.iter().map(|part| part.label).collect();
+    pub fn labels(&self) -> Vec<Label> {
+        let mut labels: Vec<Label> = self.parts.iter().map(|part| part.label).collect();
         labels.sort_unstable();
         labels.dedup();
         labels
     }
 
     /// The basin with a label, as a set of intervals.
-    pub fn set(&self, label: u16) -> IntervalSet {
+    pub fn set(&self, label: Label) -> IntervalSet {
         let own = self.parts.iter().filter(|part| part.label == label);
         IntervalSet::union(own.map(|part| part.interval).collect())
     }
 
     /// The label of a point; `None` if it is undecided or outside the window.
-    pub fn label(&self, x: f64) -> Option<u16> {
+    pub fn label(&self, x: f64) -> Option<Label> {
         let at = self.parts.partition_point(|part| part.interval.right < x);
         self.parts.get(at).filter(|part| part.interval.contains(x)).map(|part| part.label)
     }
@@ -210,12 +211,12 @@ impl IntervalBasins {
     }
 
     /// The length of the intervals found so far with this label.
-    pub fn resolved_length(&self, label: u16) -> f64 {
+    pub fn resolved_length(&self, label: Label) -> f64 {
         self.resolved_length_of(|other| other == label)
     }
 
     /// The length of the intervals found so far whose label fulfils a condition.
-    pub fn resolved_length_of(&self, condition: impl Fn(u16) -> bool) -> f64 {
+    pub fn resolved_length_of(&self, condition: impl Fn(Label) -> bool) -> f64 {
         let own = self.parts.iter().filter(|part| condition(part.label));
         own.map(|part| part.interval.length()).sum()
     }
@@ -225,12 +226,12 @@ impl IntervalBasins {
     /// The lower bound is the [resolved length](Self::resolved_length), less the rounding of the ends. The upper
     /// bound adds all of the undecided length. The bounds hold if the branches are complete and each end is
     /// right to an ulp of the window's larger end. (Where the map is flat, its rounding moves ends by more.)
-    pub fn basin_length(&self, label: u16) -> Bounds {
+    pub fn basin_length(&self, label: Label) -> Bounds {
         self.basin_length_of(|other| other == label)
     }
 
     /// Bounds on the total length of the basins whose label fulfils a condition.
-    pub fn basin_length_of(&self, condition: impl Fn(u16) -> bool) -> Bounds {
+    pub fn basin_length_of(&self, condition: impl Fn(Label) -> bool) -> Bounds {
         let resolved = self.resolved_length_of(condition);
         // For every part of any label: one ulp for each of its two ends, and one ulp for the rounding of the sum.
         let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
@@ -240,7 +241,7 @@ impl IntervalBasins {
     }
 
     /// The number and the total length of the intervals with a label, by level.
-    pub fn levels(&self, label: u16) -> BTreeMap<usize, (usize, f64)> {
+    pub fn levels(&self, label: Label) -> BTreeMap<usize, (usize, f64)> {
         let mut levels = BTreeMap::new();
         for part in self.parts.iter().filter(|part| part.label == label) {
             let (count, length) = levels.entry(part.level).or_insert((0, 0.0));
@@ -278,7 +279,7 @@ mod tests {
         Some(1.5 * x - 0.5 * x * x * x)
     }
 
-    fn branches_and_traps() -> (Vec<Branch>, Vec<(Interval, u16)>) {
+    fn branches_and_traps() -> (Vec<Branch>, Vec<(Interval, Label)>) {
         let at = |x: f64| 1.5 * x - 0.5 * x * x * x;
         let branch = |left: f64, right: f64| Branch {
             domain: Interval { left, right },
@@ -287,8 +288,8 @@ mod tests {
         };
         let branches = vec![branch(-2.2, -1.0), branch(-1.0, 1.0), branch(1.0, 2.2)];
         let traps = vec![
-            (Interval { left: -1.2, right: -0.8 }, 1),
-            (Interval { left: 0.8, right: 1.2 }, 2),
+            (Interval { left: -1.2, right: -0.8 }, Label::from(1)),
+            (Interval { left: 0.8, right: 1.2 }, Label::from(2)),
         ];
         (branches, traps)
     }
@@ -304,8 +305,8 @@ mod tests {
         };
         let branches = [branch(-1.0, -1e-300, 9.0, 10.0), branch(0.0, 16.0, 0.0, 8.0)];
         let traps = [
-            (Interval { left: 0.0, right: 0.25 }, 1),
-            (Interval { left: 0.25f64.next_up(), right: 0.3 }, 2),
+            (Interval { left: 0.0, right: 0.25 }, Label::from(1)),
+            (Interval { left: 0.25f64.next_up(), right: 0.3 }, Label::from(2)),
         ];
         let window = Interval { left: -1.0, right: 1.0 };
         let basins =
@@ -346,7 +347,11 @@ mod tests {
             let basins = found(refinement);
             assert_eq!(basins.stop_reason(), reason);
             assert!(basins.undecided() > 1e-9);
-            assert!(basins.basin_length(1).covers(resolved.resolved_length(1)));
+            assert!(
+                basins
+                    .basin_length(Label::from(1))
+                    .covers(resolved.resolved_length(Label::from(1)))
+            );
         }
     }
 
@@ -359,7 +364,8 @@ mod tests {
         for pair in basins.intervals().windows(2) {
             assert!(pair[0].interval.right <= pair[1].interval.left);
         }
-        assert!((basins.resolved_length(1) - basins.resolved_length(2)).abs() < 1e-12);
+        let [one, two] = [1, 2].map(|n| basins.resolved_length(Label::from(n)));
+        assert!((one - two).abs() < 1e-12);
         assert!(basins.undecided() < 1e-6);
         let set = TrapSet::new(traps).unwrap();
         for k in 0..1000 {

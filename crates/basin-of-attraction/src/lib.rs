@@ -7,6 +7,7 @@
 //! | item | role |
 //! |---|---|
 //! | [`ScalarMap`], [`Image`] | a map of the line; closures `Fn(f64) -> Option<f64>` are maps |
+//! | [`Label`] | the number of a basin, or undecided, or outside the region of interest |
 //! | [`TrapSet`], [`Traps`] | sets that orbits do not leave, with labels |
 //! | [`classify`], [`Fate`], [`UndecidedReason`] | the fate of a point: trapped, stopped, or undecided for a reason |
 //! | [`Interval`], [`IntervalSet`] | disjoint intervals: union, difference, measure |
@@ -26,12 +27,16 @@
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
 //!
 //! ```
-//! use basin_of_attraction::{Fate, Interval, TrapSet, classify};
+//! use basin_of_attraction::{Fate, Interval, Label, TrapSet, classify};
 //! // Newton's method for x² − 2 converges to √2 from the right of 0, and to −√2 from the left.
 //! let newton = |x: f64| Some(0.5 * (x + 2.0 / x));
-//! let traps = TrapSet::new(vec![(Interval::new(1.4142, 1.5)?, 1), (Interval::new(-1.5, -1.4142)?, 2)])?;
-//! assert_eq!(classify(&newton, &traps, 100.0, 50).0, Fate::Trapped(1));
-//! assert_eq!(classify(&newton, &traps, -0.01, 50).0, Fate::Trapped(2));
+//! let (positive, negative) = (Label::from(1), Label::from(2));
+//! let traps = TrapSet::new(vec![
+//!     (Interval::new(1.4142, 1.5)?, positive),
+//!     (Interval::new(-1.5, -1.4142)?, negative),
+//! ])?;
+//! assert_eq!(classify(&newton, &traps, 100.0, 50).0, Fate::Trapped(positive));
+//! assert_eq!(classify(&newton, &traps, -0.01, 50).0, Fate::Trapped(negative));
 //! # Ok::<(), basin_of_attraction::Error>(())
 //! ```
 //!
@@ -61,6 +66,7 @@ mod fate;
 mod golden_section;
 mod interval;
 mod interval_basins;
+mod label;
 mod least_squares;
 mod power_law;
 mod preimage;
@@ -71,6 +77,7 @@ mod sampling;
 mod scalar_map;
 mod split_mix;
 mod uncertainty;
+mod undecided_reason;
 mod wada;
 
 pub use bounds::Bounds;
@@ -79,9 +86,10 @@ pub use branches::{Branch, monotone_branches};
 pub use confidence_interval::{ConfidenceInterval, student_interval, wilson_interval};
 pub use entropy::entropy;
 pub use error::Error;
-pub use fate::{Fate, TrapSet, Traps, UndecidedReason, classify};
+pub use fate::{Fate, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
 pub use interval_basins::{IntervalBasins, LabelledInterval, interval_basins};
+pub use label::Label;
 pub use power_law::{PowerLaw, Warning, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
@@ -94,4 +102,5 @@ pub use sampling::{
 pub use scalar_map::{Image, ScalarMap};
 pub use split_mix::SplitMix64;
 pub use uncertainty::uncertain_fraction;
+pub use undecided_reason::UndecidedReason;
 pub use wada::WadaTest;

@@ -5,6 +5,7 @@ use crate::confidence_interval::{ConfidenceInterval, student_interval, wilson_in
 use crate::error::Error;
 use crate::golden_section::INVERSE_GOLDEN_RATIO;
 use crate::interval::Interval;
+use crate::label::Label;
 use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -27,10 +28,10 @@ pub(crate) fn check_count(samples: usize) -> Result<(), Error> {
 /// equal parts of the window.
 ///
 /// ```
-/// use basin_of_attraction::{Interval, equally_spaced_counts};
+/// use basin_of_attraction::{Interval, Label, equally_spaced_counts};
 /// let window = Interval::new(-1.0, 3.0)?;
-/// let counts = equally_spaced_counts(window, 1000, |x| u16::from(x > 0.0))?;
-/// assert_eq!(counts, [(0, 250), (1, 750)].into());
+/// let counts = equally_spaced_counts(window, 1000, |x| Label::from(x > 0.0))?;
+/// assert_eq!(counts, [(Label::from(0), 250), (Label::from(1), 750)].into());
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
@@ -39,8 +40,8 @@ pub(crate) fn check_count(samples: usize) -> Result<(), Error> {
 pub fn equally_spaced_counts(
     window: Interval,
     count: usize,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, usize>, Error> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Result<BTreeMap<Label, usize>, Error> {
     check_count(count)?;
     Ok(tally(&labels(count, |k| middle(window, count, k), label)))
 }
@@ -65,15 +66,15 @@ pub struct EquallySpacedFraction {
 pub fn equally_spaced_fractions(
     window: Interval,
     count: usize,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, EquallySpacedFraction>, Error> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Result<BTreeMap<Label, EquallySpacedFraction>, Error> {
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
     check_count(count)?;
     let labels = labels(count, |k| middle(window, count, k), label);
     // The number of ends of runs of each label.
-    let mut ends: BTreeMap<u16, usize> = BTreeMap::new();
+    let mut ends: BTreeMap<Label, usize> = BTreeMap::new();
     for pair in labels.windows(2).filter(|pair| pair[0] != pair[1]) {
         pair.iter().for_each(|&label| *ends.entry(label).or_insert(0) += 1);
     }
@@ -81,7 +82,7 @@ pub fn equally_spaced_fractions(
     for label in [labels.first(), labels.last()].into_iter().flatten() {
         *ends.entry(*label).or_insert(0) += 1;
     }
-    let fraction = |(label, found): (u16, usize)| {
+    let fraction = |(label, found): (Label, usize)| {
         let value = found as f64 / count as f64;
         // Each end of a run is known to half a spacing on either side.
         let open = 0.5 * ends.get(&label).copied().unwrap_or(0) as f64 / count as f64;
@@ -102,8 +103,8 @@ pub fn random_fractions(
     window: Interval,
     count: usize,
     seed: u64,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, ConfidenceInterval>, Error> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Result<BTreeMap<Label, ConfidenceInterval>, Error> {
     check_count(count)?;
     let random = SplitMix64::from_seed(seed);
     let at = |k| window.left + window.length() * random.uniform(k as u64);
@@ -127,8 +128,8 @@ pub fn low_discrepancy_fractions(
     count: usize,
     replicates: usize,
     seed: u64,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, ConfidenceInterval>, Error> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Result<BTreeMap<Label, ConfidenceInterval>, Error> {
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
@@ -137,7 +138,7 @@ pub fn low_discrepancy_fractions(
     }
     check_count(count.saturating_mul(replicates))?;
     let random = SplitMix64::from_seed(seed);
-    let tallies: Vec<BTreeMap<u16, usize>> = (0..replicates)
+    let tallies: Vec<BTreeMap<Label, usize>> = (0..replicates)
         .map(|replicate| {
             let start = random.uniform(replicate as u64);
             let at = |k| {
@@ -149,7 +150,7 @@ pub fn low_discrepancy_fractions(
         .collect();
     let mut fractions = BTreeMap::new();
     for label in tallies.iter().flat_map(BTreeMap::keys) {
-        let fraction = |tally: &BTreeMap<u16, usize>| {
+        let fraction = |tally: &BTreeMap<Label, usize>| {
             tally.get(label).map_or(0.0, |&n| n as f64 / count as f64)
         };
         let estimate = student_interval(&tallies.iter().map(fraction).collect::<Vec<_>>())?;
@@ -187,12 +188,12 @@ fn middle(window: Interval, count: usize, k: usize) -> f64 {
 fn labels(
     count: usize,
     at: impl Fn(usize) -> f64 + Sync,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Vec<u16> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Vec<Label> {
     (0..count).into_par_iter().map(|k| label(at(k))).collect()
 }
 
-fn tally(labels: &[u16]) -> BTreeMap<u16, usize> {
+fn tally(labels: &[Label]) -> BTreeMap<Label, usize> {
     let mut counts = BTreeMap::new();
     for &label in labels {
         *counts.entry(label).or_insert(0) += 1;

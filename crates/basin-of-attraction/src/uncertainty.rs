@@ -5,6 +5,7 @@ use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
 use crate::error::Error;
 use crate::interval::{Interval, IntervalSet};
 use crate::interval_basins::IntervalBasins;
+use crate::label::Label;
 use crate::sampling::check_count;
 use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
@@ -23,7 +24,7 @@ pub fn uncertain_fraction(
     epsilon: f64,
     count: usize,
     seed: u64,
-    label: impl Fn(f64) -> u16 + Sync,
+    label: impl Fn(f64) -> Label + Sync,
 ) -> Result<ConfidenceInterval, Error> {
     check_perturbation(epsilon)?;
     check_count(count)?;

@@ -4,6 +4,7 @@
 //! and the union of all others is the same for each basin.
 
 use crate::error::Error;
+use crate::label::Label;
 use crate::raster::LabelImage;
 
 /// The largest distance between the boundaries of the basins.
@@ -25,7 +26,7 @@ impl LabelImage {
     /// # Errors
     /// [`Error::TooFewLabels`] for fewer than three labels.
     pub fn wada(&self, distance: usize) -> Result<WadaTest, Error> {
-        let labels: Vec<u16> = self.counts().into_iter().map(|(label, _)| label).collect();
+        let labels: Vec<Label> = self.counts().into_iter().map(|(label, _)| label).collect();
         if labels.len() < 3 {
             return Err(Error::TooFewLabels { labels: labels.len() });
         }
@@ -51,7 +52,7 @@ impl LabelImage {
     }
 
     /// The pixels on either side of the border of a label: of the pixel and a neighbour exactly one has the label.
-    fn boundary_of(&self, label: u16) -> Vec<bool> {
+    fn boundary_of(&self, label: Label) -> Vec<bool> {
         let inside = |at: usize| self.labels[at] == label;
         let borders = |at: usize| self.neighbours(at).any(|next| inside(next) != inside(at));
         (0..self.labels.len()).map(borders).collect()

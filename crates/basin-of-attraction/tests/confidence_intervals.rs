@@ -5,7 +5,7 @@
 mod cantor;
 
 use basin_of_attraction::{
-    ConfidenceInterval, Error, Interval, equally_spaced_counts, equally_spaced_fractions,
+    ConfidenceInterval, Error, Interval, Label, equally_spaced_counts, equally_spaced_fractions,
     low_discrepancy_fractions, random_fractions, uncertain_fraction, wilson_interval,
 };
 use cantor::{cantor_label, interval};
@@ -14,12 +14,12 @@ use cantor::{cantor_label, interval};
 #[test]
 fn intervals_contain_the_true_fraction_as_often_as_stated() {
     let unit = interval(0.0, 1.0);
-    let step = |x: f64| u16::from((-1.0..=0.0).contains(&x));
+    let step = |x: f64| Label::from((-1.0..=0.0).contains(&x));
     let wide = interval(-1.5, 0.5);
-    type Label<'a> = &'a (dyn Fn(f64) -> u16 + Sync);
-    let cases: [(&str, Interval, Label<'_>, u16, f64); 2] = [
-        ("Cantor basin", unit, &|x| cantor_label(x, 2), 0, 0.6),
-        ("one-sided fixed point", wide, &step, 1, 0.5),
+    type Labelling<'a> = &'a (dyn Fn(f64) -> Label + Sync);
+    let cases: [(&str, Interval, Labelling<'_>, Label, f64); 2] = [
+        ("Cantor basin", unit, &|x| cantor_label(x, 2), Label::from(0), 0.6),
+        ("one-sided fixed point", wide, &step, Label::from(1), 0.5),
     ];
     for (name, window, label, basin, truth) in cases {
         let covered = |fraction: &dyn Fn(u64) -> ConfidenceInterval| {
@@ -41,10 +41,10 @@ fn intervals_of_rare_labels_contain_the_true_fraction_as_often_as_stated() {
     let truth = 2e-5;
     let covered = (0..300u64)
         .filter(|&seed| {
-            let label = |x: f64| u16::from(x > 0.3 && x < 0.3 + truth);
+            let label = |x: f64| Label::from(x > 0.3 && x < 0.3 + truth);
             let fractions = low_discrepancy_fractions(unit, 1000, 16, seed, label).unwrap();
             let none = wilson_interval(0, 16_000).unwrap();
-            fractions.get(&1).copied().unwrap_or(none).covers(truth)
+            fractions.get(&Label::from(1)).copied().unwrap_or(none).covers(truth)
         })
         .count();
     assert!(covered >= 279, "{covered} of 300");
@@ -53,9 +53,9 @@ fn intervals_of_rare_labels_contain_the_true_fraction_as_often_as_stated() {
 #[test]
 fn low_discrepancy_intervals_are_shorter_than_random_ones() {
     let window = interval(-1.5, 0.5);
-    let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
-    let random = random_fractions(window, 20_000, 1, label).unwrap()[&1];
-    let low = low_discrepancy_fractions(window, 1000, 20, 1, label).unwrap()[&1];
+    let label = |x: f64| Label::from((-1.0..=0.0).contains(&x));
+    let random = random_fractions(window, 20_000, 1, label).unwrap()[&Label::from(1)];
+    let low = low_discrepancy_fractions(window, 1000, 20, 1, label).unwrap()[&Label::from(1)];
     assert!(low.half_width() < 0.1 * random.half_width());
 }
 
@@ -63,7 +63,7 @@ fn low_discrepancy_intervals_are_shorter_than_random_ones() {
 #[test]
 fn counts_beyond_all_memory_are_errors() {
     let window = Interval::new(0.0, 1.0).unwrap();
-    let label = |_: f64| -> u16 { panic!("no point is labelled") };
+    let label = |_: f64| -> Label { panic!("no point is labelled") };
     for count in [1_000_000_001, 1_000_000_000_000, usize::MAX] {
         let errors = [
             equally_spaced_counts(window, count, label).unwrap_err(),

@@ -6,7 +6,7 @@
 mod cantor;
 
 use basin_of_attraction::{
-    BoxCount, Branch, Fate, Grid, IntervalBasins, LabelImage, PreimageTree, Refinement,
+    BoxCount, Branch, Fate, Grid, IntervalBasins, Label, LabelImage, PreimageTree, Refinement,
     ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
     interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
 };
@@ -20,7 +20,7 @@ fn cantor_levels(depth: usize) -> IntervalBasins {
         Branch { domain: interval(0.0, THIRD), at_left: 0.0, at_right: 1.0 },
         Branch { domain: interval(2.0 * THIRD, 1.0), at_left: 0.0, at_right: 1.0 },
     ];
-    let gap = (interval(THIRD, 2.0 * THIRD), 0);
+    let gap = (interval(THIRD, 2.0 * THIRD), Label::from(0));
     let refinement =
         Refinement { shortest: 0.0, undecided: 0.0, levels: depth, intervals: 1 << 20 };
     interval_basins(&map, &[gap], &branches, interval(0.0, 1.0), refinement).unwrap()
@@ -28,7 +28,8 @@ fn cantor_levels(depth: usize) -> IntervalBasins {
 
 /// Length of all levels k ≡ label (mod colours), extrapolated: each level has 2/3 of the length of the level before.
 fn extrapolated(levels: &IntervalBasins, colours: usize, label: usize) -> f64 {
-    let lengths: Vec<f64> = levels.levels(0).values().map(|(_, length)| *length).collect();
+    let lengths: Vec<f64> =
+        levels.levels(Label::from(0)).values().map(|(_, length)| *length).collect();
     // Twelve levels: the rounding errors of further ones exceed their length.
     let own: Vec<f64> = lengths.into_iter().take(12).skip(label).step_by(colours).collect();
     let (value, error) = geometric_limit(&own).unwrap();
@@ -119,7 +120,7 @@ fn coloured(levels: &IntervalBasins, colours: usize) -> IntervalBasins {
     let traps: Vec<_> = levels
         .intervals()
         .iter()
-        .map(|part| (part.interval, (part.level % colours) as u16))
+        .map(|part| (part.interval, Label::from((part.level % colours) as u8)))
         .collect();
     let no_map = |_: f64| None;
     interval_basins(&no_map, &traps, &[], levels.window(), Refinement::default()).unwrap()
@@ -153,14 +154,15 @@ fn fractions_and_boxes_of_a_cantor_basin_of_three_colours_are_exact() {
 #[test]
 fn a_fixed_point_that_attracts_from_one_side_has_its_basin() {
     let map = |x: f64| (x.abs() < 10.0).then_some(x + x * x);
-    let traps = TrapSet::new(vec![(interval(-0.5, 0.0), 1)]).unwrap();
-    let label = |x: f64| u16::from(classify(&map, &traps, x, 100_000).0 == Fate::Trapped(1));
+    let traps = TrapSet::new(vec![(interval(-0.5, 0.0), Label::from(1))]).unwrap();
+    let label =
+        |x: f64| Label::from(classify(&map, &traps, x, 100_000).0 == Fate::Trapped(Label::from(1)));
     let window = interval(-1.5, 0.5);
     // The basin is [−1, 0]. Orbits that start right of 0 leave slowly.
-    assert_eq!(label(-1.0 + 1e-12), 1);
-    assert_eq!(label(-1.0 - 1e-12), 0);
-    assert_eq!((label(0.0), label(1e-4)), (1, 0));
-    let bounds = equally_spaced_fractions(window, 1000, label).unwrap()[&1].bounds;
+    assert_eq!(label(-1.0 + 1e-12), Label::from(true));
+    assert_eq!(label(-1.0 - 1e-12), Label::from(false));
+    assert_eq!([label(0.0), label(1e-4)], [true, false].map(Label::from));
+    let bounds = equally_spaced_fractions(window, 1000, label).unwrap()[&Label::from(1)].bounds;
     assert!(bounds.covers(0.5) && bounds.half_width() < 2e-3);
     // Pairs of a distance to 0 and the number of steps from −½ until the orbit is closer.
     let mut x = -0.5;
@@ -182,7 +184,7 @@ fn a_fixed_point_that_attracts_from_one_side_has_its_basin() {
 fn stripes() -> LabelImage {
     let window = interval(0.0, 12.0);
     let grid = Grid { x: window, y: window, columns: 12, rows: 12 };
-    raster(grid, |_| (), |(), y| (y / 4.0) as u16, |_| Continue(())).unwrap()
+    raster(grid, |_| (), |(), y| Label::from((y / 4.0) as u8), |_| Continue(())).unwrap()
 }
 
 #[test]
@@ -194,7 +196,7 @@ fn entropies_and_wada_fractions_of_stripes_are_exact() {
     let test = image.wada(1).unwrap();
     assert!((test.far_image_fraction - 1.0 / 6.0).abs() < 1e-15, "{test:?}");
     assert_eq!(image.wada(4).unwrap().far_image_fraction, 0.0);
-    let legend = image.legend(|label| format!("basin {label}"));
+    let legend = image.legend(|label| label.to_string());
     assert_eq!(legend.len(), 3);
     assert_eq!((legend[1].name.as_str(), legend[1].pixels), ("basin 1", 48));
 }
@@ -222,7 +224,10 @@ fn entropies_of_smooth_boundaries_are_exact() {
     let sum: f64 = (0..offsets)
         .map(|k| {
             let cut = 0.25 + 0.1 * (f64::from(k) + 0.5) / f64::from(offsets);
-            let traps = [(interval(0.0, cut), 1), (interval(cut.next_up(), 1.0), 2)];
+            let traps = [
+                (interval(0.0, cut), Label::from(1)),
+                (interval(cut.next_up(), 1.0), Label::from(2)),
+            ];
             let no_map = |_: f64| None;
             let window = interval(0.0, 1.0);
             let basins =
@@ -250,10 +255,10 @@ fn the_map_of_grebogi_mcdonald_ott_and_yorke_has_its_uncertainty_exponent() {
             theta = next.rem_euclid(std::f64::consts::TAU);
             // Both fixed points attract from a distance much larger than a thousandth.
             if theta.sin().abs() < 1e-3 && (x.abs() - J).abs() < 1e-3 {
-                return if theta.cos() > 0.0 { 1 } else { 2 };
+                return Label::from(theta.cos() > 0.0);
             }
         }
-        3
+        Label::UNDECIDED
     };
     let window = interval(0.0, std::f64::consts::TAU);
     let points: Vec<(f64, f64)> = (2..=7)
@@ -277,18 +282,18 @@ fn the_basins_of_newtons_method_share_one_boundary() {
             let (square_x, square_y) = (x * x - y * y, 2.0 * x * y);
             let size = square_x * square_x + square_y * square_y;
             if size == 0.0 {
-                return 0;
+                return Label::UNDECIDED;
             }
             (x, y) = ((2.0 * x + square_x / size) / 3.0, (2.0 * y - square_y / size) / 3.0);
             // Newton's method converges to a root from every point within ¼ of it.
-            for (k, angle) in [0.0, 2.0, 4.0].into_iter().enumerate() {
+            for (k, angle) in (0u8..).zip([0.0, 2.0, 4.0]) {
                 let (sin, cos) = (angle * std::f64::consts::PI / 3.0).sin_cos();
                 if (x - cos).hypot(y - sin) < 0.25 {
-                    return k as u16 + 1;
+                    return Label::from(k + 1);
                 }
             }
         }
-        0
+        Label::UNDECIDED
     };
     let window = interval(-1.5, 1.5);
     let grid = Grid { x: window, y: window, columns: 1024, rows: 1024 };
@@ -297,7 +302,7 @@ fn the_basins_of_newtons_method_share_one_boundary() {
     for ((found, count), (label, fraction)) in
         image.counts().into_iter().zip([(1, 0.3452), (2, 0.3274), (3, 0.3274)])
     {
-        assert_eq!(found, label);
+        assert_eq!(found, Label::from(label));
         assert!(
             (count as f64 / pixels - fraction).abs() < 5e-4,
             "{label}: {}",
@@ -342,9 +347,9 @@ fn the_cubes_of_one_over_k_have_dimension_one_quarter() {
 #[test]
 fn the_uncertain_fraction_of_an_interval_is_exact() {
     let traps = [
-        (interval(-1.5, -1.0), 0),
-        (interval((-1.0f64).next_up(), 0.0), 1),
-        (interval(f64::MIN_POSITIVE, 0.5), 0),
+        (interval(-1.5, -1.0), Label::from(0)),
+        (interval((-1.0f64).next_up(), 0.0), Label::from(1)),
+        (interval(f64::MIN_POSITIVE, 0.5), Label::from(0)),
     ];
     let no_map = |_: f64| None;
     let window = interval(-1.5, 0.5);
@@ -352,7 +357,7 @@ fn the_uncertain_fraction_of_an_interval_is_exact() {
     for epsilon in [1e-1, 1e-3, 1e-6] {
         let exact = basins.uncertain_fraction(epsilon, 1e-12).unwrap().middle();
         assert!((exact - 2.0 * epsilon).abs() < 1e-12);
-        let label = |x: f64| u16::from((-1.0..=0.0).contains(&x));
+        let label = |x: f64| Label::from((-1.0..=0.0).contains(&x));
         let sampled = uncertain_fraction(window, epsilon, 100_000, 5, label).unwrap();
         assert!(sampled.lower < exact && exact < sampled.upper, "{sampled:?}");
     }
@@ -361,7 +366,7 @@ fn the_uncertain_fraction_of_an_interval_is_exact() {
 #[test]
 fn boxes_with_an_undecided_part_are_counted() {
     // The label is known on [0, 0.1] and [0.9, 1] only. The sixteen boxes of 0.05 between them are open.
-    let traps = [(interval(0.0, 0.1), 1), (interval(0.9, 1.0), 2)];
+    let traps = [(interval(0.0, 0.1), Label::from(1)), (interval(0.9, 1.0), Label::from(2))];
     let no_map = |_: f64| None;
     let basins =
         interval_basins(&no_map, &traps, &[], interval(0.0, 1.0), Refinement::default()).unwrap();

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
-use basin_of_attraction::{Interval, equally_spaced_counts};
+use basin_of_attraction::{Interval, Label, equally_spaced_counts};
 use passive_hopper::{MassRatio, alpha_star};
 use std::collections::BTreeMap;
 
@@ -11,21 +11,21 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct BasinFractions {
     /// The number of points with each [label](HopperFate::label).
-    pub counts: BTreeMap<u16, usize>,
+    pub counts: BTreeMap<Label, usize>,
     /// The number of all points.
     pub points: usize,
 }
 
 impl BasinFractions {
     /// The fraction of the points that have `label`.
-    pub fn of(&self, label: u16) -> f64 {
+    pub fn of(&self, label: Label) -> f64 {
         self.counts.get(&label).copied().unwrap_or(0) as f64 / self.points as f64
     }
 
     /// The fraction of incessant hopping: the labels of all fixed points n ≥ 1 together.
     pub fn incessant(&self) -> f64 {
-        let labels = 1..=HopperFate::LARGEST_LABEL as u16;
-        self.counts.range(labels).map(|(_, count)| count).sum::<usize>() as f64 / self.points as f64
+        let own = self.counts.iter().filter(|(label, _)| HopperFate::is_incessant(**label));
+        own.map(|(_, count)| count).sum::<usize>() as f64 / self.points as f64
     }
 }
 

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use basin_of_attraction::{
-    Branch, Image, Interval, IntervalBasins, Refinement, ScalarMap, interval_basins,
+    Branch, Image, Interval, IntervalBasins, Label, Refinement, ScalarMap, interval_basins,
 };
 use passive_hopper::alpha_star;
 use std::f64::consts::PI;
@@ -71,7 +71,7 @@ pub(crate) fn traps_and_grounding(
     branches: &[Branch],
     to: u64,
     top: f64,
-) -> Result<Vec<(Interval, u16)>, Error> {
+) -> Result<Vec<(Interval, Label)>, Error> {
     let mut traps = grounded(fates, branches, top);
     for n in 0..to {
         let trap = fates.trap(n)?;
@@ -81,13 +81,16 @@ pub(crate) fn traps_and_grounding(
         for (gap, _) in traps.iter_mut().filter(|(gap, _)| gap.contains(right)) {
             gap.left = right.next_up();
         }
-        traps.push((Interval::new(trap.fixed_point.value(), right)?, n as u16));
+        traps.push((
+            Interval::new(trap.fixed_point.value(), right)?,
+            HopperFate::label_of_fixed_point(n),
+        ));
     }
     Ok(traps)
 }
 
 /// The gaps between branches in which the hopper is grounded, with their label.
-fn grounded(fates: &Fates, branches: &[Branch], top: f64) -> Vec<(Interval, u16)> {
+fn grounded(fates: &Fates, branches: &[Branch], top: f64) -> Vec<(Interval, Label)> {
     let starts = branches.iter().map(|branch| branch.domain.left).chain([top]);
     let ends = std::iter::once(0.0).chain(branches.iter().map(|branch| branch.domain.right));
     ends.zip(starts)

@@ -6,6 +6,8 @@ use crate::circle::local_fractions::LocalFractions;
 use crate::circle::phase_basins::PhaseBasins;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::hopper_fate::HopperFate;
+use basin_of_attraction::Label;
 use hopper_asymptotics::{FatouCoordinate, Offset, Phase, Side};
 use passive_hopper::{FixedPointSpeed, MassRatio};
 
@@ -220,12 +222,12 @@ impl EdgeChart {
     ///
     /// # Errors
     /// [`Error::OtherCircle`] unless `circle` is that of n at this mass ratio; as [`phase`](Self::phase).
-    pub fn label(&self, circle: &PhaseBasins, y: Offset) -> Result<Option<u16>, Error> {
+    pub fn label(&self, circle: &PhaseBasins, y: Offset) -> Result<Option<Label>, Error> {
         self.check(circle)?;
         let (delta, relative) = self.offset(y)?;
         if delta.mantissa() > 0.0 {
             let inside = delta.nearest() * (1.0 + relative) <= self.trap;
-            return Ok(inside.then_some(self.n as u16));
+            return Ok(inside.then_some(HopperFate::label_of_fixed_point(self.n)));
         }
         if delta.mantissa() == 0.0 {
             return Ok(None);
@@ -298,7 +300,10 @@ impl EdgeChart {
     /// All speeds up to δ are in the trap, or it is not known.
     fn basin_share(&self, a: Offset, b: Offset) -> LocalFractions {
         let inside = a.nearest().max(b.nearest()) * (1.0 + self.slope_error) <= self.trap;
-        LocalFractions::new(inside.then_some((self.n as u16, 1.0)).into_iter(), 0.0)
+        LocalFractions::new(
+            inside.then_some((HopperFate::label_of_fixed_point(self.n), 1.0)).into_iter(),
+            0.0,
+        )
     }
 
     fn check(&self, circle: &PhaseBasins) -> Result<(), Error> {

@@ -5,7 +5,7 @@ use crate::circle::local_fractions::LocalFractions;
 use crate::circle::phase_basins::PhaseBasins;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
-use crate::fates::hopper_fate::HopperFate;
+use basin_of_attraction::Label;
 use hopper_asymptotics::Offset;
 
 /// Half heights up to this use the chart. There the fates of single speeds would need more and more hops; above it they show more
@@ -55,12 +55,12 @@ pub fn edge_window(
     let speed = |k: usize| chart.point().0 + half.nearest() * place(2 * k + 1, count);
     let speeds: Vec<f64> = (0..SPEEDS * rows).map(speed).collect();
     let labels = fates.labels(&speeds)?;
-    let pixel = |labels: &[u16]| {
-        let mut known: Vec<u16> = labels.to_vec();
-        known.retain(|&label| !HopperFate::is_undecided(label));
+    let pixel = |labels: &[Label]| {
+        let mut known: Vec<Label> = labels.to_vec();
+        known.retain(|&label| !label.is_undecided());
         known.sort_unstable();
         let runs = known.chunk_by(|a, b| a == b);
-        let share = |run: &[u16]| (run[0], run.len() as f64 / SPEEDS as f64);
+        let share = |run: &[Label]| (run[0], run.len() as f64 / SPEEDS as f64);
         LocalFractions::new(runs.map(share), 0.0)
     };
     Ok(labels.chunks(SPEEDS).map(pixel).collect())

@@ -6,7 +6,7 @@ use crate::circle::local_fractions::LocalFractions;
 use crate::circle::phase_basins::PhaseBasins;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
-use basin_of_attraction::{Grid, columns_in_parallel};
+use basin_of_attraction::{Grid, Label, columns_in_parallel};
 use hopper_asymptotics::{Offset, Phase};
 use passive_hopper::MassRatio;
 use std::ops::ControlFlow;
@@ -26,7 +26,7 @@ pub struct ShareRaster {
     grid: Grid,
     upwards: Upwards,
     /// In increasing order.
-    labels: Vec<u16>,
+    labels: Vec<Label>,
     /// Row by row from below, each from left to right; one number for every label.
     shares: Vec<f32>,
 }
@@ -43,7 +43,7 @@ impl ShareRaster {
     }
 
     /// The labels that occur, in increasing order.
-    pub fn labels(&self) -> &[u16] {
+    pub fn labels(&self) -> &[Label] {
         &self.labels
     }
 
@@ -57,7 +57,7 @@ impl ShareRaster {
     }
 
     /// The mean share of every label over the raster.
-    pub fn means(&self) -> Vec<(u16, f64)> {
+    pub fn means(&self) -> Vec<(Label, f64)> {
         let count = self.labels.len();
         let pixels = (self.grid.columns * self.grid.rows) as f64;
         let mean = |at: usize| {
@@ -104,7 +104,7 @@ pub fn share_raster(
     let pixels = grid.pixels()?;
     let column = |at: usize| Column::new(n, &grid, upwards, limits, at);
     let columns: Vec<Column> = columns_in_parallel(grid.columns, column, progress)?;
-    let mut labels: Vec<u16> = columns.iter().flat_map(|column| column.labels.clone()).collect();
+    let mut labels: Vec<Label> = columns.iter().flat_map(|column| column.labels.clone()).collect();
     labels.sort_unstable();
     labels.dedup();
     let mut shares = vec![0.0; pixels * labels.len()];
@@ -123,7 +123,7 @@ pub fn share_raster(
 
 /// One column: the labels of its circle, and the shares row by row from below.
 struct Column {
-    labels: Vec<u16>,
+    labels: Vec<Label>,
     shares: Vec<f32>,
 }
 
@@ -137,10 +137,11 @@ impl Column {
     ) -> Result<Self, Error> {
         let fates = Fates::new(MassRatio::new(grid.x_at(at))?)?;
         let circle = PhaseBasins::new(&fates, n, limits)?;
-        let labels: Vec<u16> = circle.fractions().labels().collect();
+        let labels: Vec<Label> = circle.fractions().labels().collect();
         let mut shares = Vec::with_capacity(grid.rows * labels.len());
         let mut add = |found: Option<LocalFractions>| {
-            let certain = |&label: &u16| found.as_ref().map_or(0.0, |found| found.of(label).lower);
+            let certain =
+                |&label: &Label| found.as_ref().map_or(0.0, |found| found.of(label).lower);
             shares.extend(labels.iter().map(|label| certain(label) as f32));
         };
         let edge = |row: usize| grid.y.left + grid.y.length() * (row as f64 / grid.rows as f64);

@@ -6,6 +6,7 @@
 
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
+use basin_of_attraction::Label;
 
 /// The phases of followed orbits, in increasing order, with what the orbits did after their jump.
 #[derive(Debug, Default)]
@@ -50,7 +51,7 @@ impl Arcs {
     }
 
     /// Adds the orbit of a phase.
-    pub(crate) fn add(&mut self, phase: f64, itinerary: Itinerary, label: u16) {
+    pub(crate) fn add(&mut self, phase: f64, itinerary: Itinerary, label: Label) {
         let at = self.points.partition_point(|point| point.0 < phase);
         self.points.insert(at, (phase, KnownFate { itinerary, label }));
     }
@@ -68,9 +69,9 @@ mod tests {
         for (phase, itinerary, label) in
             [(0.4, first, 1), (0.2, first, 1), (0.6, second, 0), (0.3, first, 1)]
         {
-            arcs.add(phase, itinerary, label);
+            arcs.add(phase, itinerary, Label::from(label));
         }
-        let known = Arc::Known(KnownFate { itinerary: first, label: 1 });
+        let known = Arc::Known(KnownFate { itinerary: first, label: Label::from(1) });
         assert_eq!(arcs.find(0.3, 0.05), known);
         assert_eq!(arcs.find(0.3, 0.1 - 1e-15), known);
         assert_eq!(arcs.find(0.35, 0.1), Arc::Open(0.4, 0.6));

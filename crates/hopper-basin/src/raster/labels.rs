@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::strip;
+use basin_of_attraction::Label;
 
 /// Fewer speeds than this are classified one by one.
 ///
@@ -30,7 +31,7 @@ impl Fates {
     ///
     /// # Errors
     /// As [`fate`](Self::fate), for any of the speeds; [`Error::TooManySpeeds`] for more than 10⁹ speeds.
-    pub fn labels(&self, speeds: &[f64]) -> Result<Vec<u16>, Error> {
+    pub fn labels(&self, speeds: &[f64]) -> Result<Vec<Label>, Error> {
         Ok(labels_of_columns(&[self], speeds)?.pop().unwrap_or_default())
     }
 }
@@ -39,7 +40,7 @@ impl Fates {
 pub(crate) fn labels_of_columns(
     columns: &[&Fates],
     speeds: &[f64],
-) -> Result<Vec<Vec<u16>>, Error> {
+) -> Result<Vec<Vec<Label>>, Error> {
     if speeds.len() < FEWEST_SPEEDS {
         let one_by_one = |fates: &&Fates| {
             speeds.iter().map(|&speed| fates.fate(speed).map(HopperFate::label)).collect()
@@ -58,7 +59,7 @@ pub(crate) fn labels_of_columns(
     let mut order: Vec<usize> = (0..speeds.len()).collect();
     order.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
     let sorted: Vec<f64> = order.iter().map(|&at| speeds[at]).collect();
-    let in_given_order = |labels: Vec<u16>| {
+    let in_given_order = |labels: Vec<Label>| {
         let mut all = vec![HopperFate::UNDECIDED; speeds.len()];
         for (&at, label) in order.iter().zip(labels) {
             all[at] = label;

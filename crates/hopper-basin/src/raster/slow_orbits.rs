@@ -115,7 +115,10 @@ impl Strip<'_> {
             .is_ok_and(|trap| trap.side_of_offset(offset, error) == TrapSide::Inside);
         if in_trap {
             self.orbits.all[at as usize].itinerary = itinerary;
-            let known = KnownFate { itinerary: Itinerary::in_trap(n as u32), label: n as u16 };
+            let known = KnownFate {
+                itinerary: Itinerary::in_trap(n as u32),
+                label: HopperFate::label_of_fixed_point(n),
+            };
             self.end_with(at, Some(known), 0, n);
             return true;
         }

@@ -18,6 +18,7 @@ use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
+use basin_of_attraction::Label;
 use passive_hopper::{HopWithin, LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
 
@@ -82,7 +83,7 @@ pub(crate) struct Strip<'a> {
 }
 
 /// The labels of `speeds` > 0, in increasing order, at every mass ratio.
-pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<u16>>, Error> {
+pub(crate) fn labels(all: &[&Fates], speeds: &[f64]) -> Result<Vec<Vec<Label>>, Error> {
     let (speeds, lower) = with_lower_speeds(speeds);
     // Orbits and intervals are numbered by `u32`, at most one for each speed of each column.
     if speeds.len().saturating_mul(all.len()) > LARGEST_STRIP {

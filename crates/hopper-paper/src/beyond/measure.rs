@@ -10,7 +10,7 @@ use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    Bounds, Interval, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
+    Bounds, Interval, Label, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
     random_fractions, wilson_interval,
 };
 use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
@@ -33,14 +33,23 @@ const REPLICATES: usize = 16;
 /// Seed of the random starts. Another seed changes the data within their intervals.
 const SEED: u64 = 2002;
 
-/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000 or among the last four
-/// of `u16`. This label lies between them and belongs to no fate.
-const ALL: u16 = HopperFate::UNDECIDED - 10;
+/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000, or above 65 530. This label
+/// lies between them and belongs to no fate.
+const ALL: Label = Label::numbered::<65_525>();
 
 /// Labels in the order of the columns of the data.
-const LABELS: [u16; 8] = [1, 2, 3, 4, 5, ALL, 0, HopperFate::GROUNDED];
+const LABELS: [Label; 8] = [
+    Label::numbered::<1>(),
+    Label::numbered::<2>(),
+    Label::numbered::<3>(),
+    Label::numbered::<4>(),
+    Label::numbered::<5>(),
+    ALL,
+    Label::numbered::<0>(),
+    HopperFate::GROUNDED,
+];
 
-type FractionsWithBars = BTreeMap<u16, FractionWithBar>;
+type FractionsWithBars = BTreeMap<Label, FractionWithBar>;
 
 /// The window as an interval in which each hump has length one.
 fn window() -> Result<Interval, Error> {
@@ -55,7 +64,7 @@ fn fractions_with_bars(mass_ratio: f64) -> Result<FractionsWithBars, Error> {
     }
     let at = |place: f64| label(&fates, by_humps(place));
     let mut fractions = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, at)?;
-    let together = |place: f64| if is_incessant(at(place)) { ALL } else { 0 };
+    let together = |place: f64| if is_incessant(at(place)) { ALL } else { Label::from(0) };
     let all = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, together)?;
     fractions.extend(all.get(&ALL).map(|&fraction| (ALL, fraction)));
     let mut fractions: FractionsWithBars =
@@ -76,7 +85,7 @@ fn fractions_by_intervals(fates: &Fates, shortest: f64) -> Result<FractionsWithB
     for n in FROM..TO {
         let part = found.within(hump(n)?);
         let scale = 1.0 / (part.window().length() * (TO - FROM) as f64);
-        let mut add = |label: u16, resolved: f64, length: Bounds| {
+        let mut add = |label: Label, resolved: f64, length: Bounds| {
             let none = FractionWithBar { value: 0.0, lower: 0.0, upper: 0.0 };
             let fraction = fractions.entry(label).or_insert(none);
             fraction.value += scale * resolved;
@@ -98,7 +107,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     let scan = job.scan("measures", ratios.len(), |k| {
         let fractions = fractions_with_bars(ratios[k])?;
         let numbers =
-            |label: u16| fractions.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
+            |label: Label| fractions.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
         Ok(LABELS.into_iter().flat_map(numbers).collect())
     })?;
     let fractions_of =
@@ -117,8 +126,8 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     svg.text(x - 4.0, frame.top + frame.height - 8.0, Anchor::End, 11.0, "$M$_{c}(1)");
     let x = frame.at((1.0 / touch, 1.0)).0;
     svg.text(x + 4.0, frame.top + frame.height - 8.0, Anchor::Start, 11.0, "1/$M$_{c}(1)");
-    for n in (FROM as u16..TO as u16).rev() {
-        curve(&mut svg, &frame, &all, n, fate_colors::css(n), 1.1);
+    for label in (FROM..TO).rev().map(HopperFate::label_of_fixed_point) {
+        curve(&mut svg, &frame, &all, label, fate_colors::css(label), 1.1);
     }
     curve(&mut svg, &frame, &all, ALL, "#000000", 2.0);
     frame.axes(
@@ -130,7 +139,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     );
     legend(&mut svg);
     let rows = all.iter().map(|(m, fractions)| {
-        let cells = |label: u16| {
+        let cells = |label: Label| {
             let fraction = fractions.get(&label);
             [fraction.map(|s| s.value), fraction.map(|s| s.lower), fraction.map(|s| s.upper)]
         };
@@ -171,7 +180,7 @@ fn curve(
     svg: &mut Svg,
     frame: &Frame,
     all: &[(f64, FractionsWithBars)],
-    label: u16,
+    label: Label,
     color: &'static str,
     width: f64,
 ) {
@@ -203,7 +212,7 @@ fn legend(svg: &mut Svg) {
     svg.line((x, 455.0), (x + 20.0, 455.0), Pen::solid("#000000", 2.0));
     svg.text(x + 25.0, 459.0, Anchor::Start, 11.5, "all together");
     x += 110.0;
-    for n in FROM as u16..TO as u16 {
+    for n in (FROM..TO).map(HopperFate::label_of_fixed_point) {
         svg.line((x, 455.0), (x + 20.0, 455.0), Pen::solid(fate_colors::css(n), 1.4));
         svg.text(x + 25.0, 459.0, Anchor::Start, 11.5, &fate_colors::name(n));
         x += 82.0;
@@ -219,13 +228,13 @@ fn three_ways() -> Result<Table, Error> {
         "random, 50 000",
         "low discrepancy, 16 × 3125",
     ]);
-    fn percent_of_all<F: Copy + Into<FractionWithBar>>(fractions: &BTreeMap<u16, F>) -> String {
+    fn percent_of_all<F: Copy + Into<FractionWithBar>>(fractions: &BTreeMap<Label, F>) -> String {
         fractions.get(&ALL).map_or("0".into(), |&fraction| percent(&fraction.into()))
     }
     for m in [0.1, 0.15, 0.2, 0.3, 0.5, 0.8] {
         let fates = fates(m)?;
         let together = |place: f64| {
-            if is_incessant(label(&fates, by_humps(place))) { ALL } else { 0 }
+            if is_incessant(label(&fates, by_humps(place))) { ALL } else { Label::from(0) }
         };
         let certain = fractions_by_intervals(&fates, 1e-7)?;
         table.row([
@@ -250,19 +259,25 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         let compare = |place: f64| {
             let alpha = by_humps(place);
             let (one, two) = (label(&light, alpha), label(&heavy, alpha));
-            u16::from(is_incessant(one))
-                + 2 * u16::from(is_incessant(two))
-                + 4 * u16::from(one != two)
+            Label::from(
+                u8::from(is_incessant(one))
+                    + 2 * u8::from(is_incessant(two))
+                    + 4 * u8::from(one != two),
+            )
         };
         let counts = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, compare)?;
         let sum = |bit: u16| -> f64 {
-            counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, fraction)| fraction.value).sum()
+            counts
+                .iter()
+                .filter(|(k, _)| k.code() & bit != 0)
+                .map(|(_, fraction)| fraction.value)
+                .sum()
         };
         // The bit belongs to several counted kinds. The sum of their half widths bounds the half width of the sum.
         let width = |bit: u16| -> f64 {
             counts
                 .iter()
-                .filter(|(k, _)| *k & bit != 0)
+                .filter(|(k, _)| k.code() & bit != 0)
                 .map(|(_, fraction)| fraction.half_width())
                 .sum()
         };

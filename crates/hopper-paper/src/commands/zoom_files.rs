@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::fate_colors::mixed;
 use crate::figures::basin_plot::legend;
-use basin_of_attraction::columns_in_parallel;
+use basin_of_attraction::{Label, columns_in_parallel};
 use hopper_basin::{CircleLimits, EdgeChart, Fates, LocalFractions, PhaseBasins, edge_window};
 use journal_figures::{Anchor, Frame, Svg, render, rgb_png, ticks};
 use passive_hopper::MassRatio;
@@ -128,8 +128,8 @@ fn exponent(depth: f64) -> String {
 }
 
 /// The labels that occur, in increasing order.
-fn labels<'a>(frames: impl Iterator<Item = &'a [LocalFractions]>) -> Vec<u16> {
-    let mut labels: Vec<u16> = frames.flatten().flat_map(LocalFractions::labels).collect();
+fn labels<'a>(frames: impl Iterator<Item = &'a [LocalFractions]>) -> Vec<Label> {
+    let mut labels: Vec<Label> = frames.flatten().flat_map(LocalFractions::labels).collect();
     labels.sort_unstable();
     labels.dedup();
     labels
