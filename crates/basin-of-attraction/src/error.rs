@@ -32,7 +32,10 @@ pub enum Error {
         second_right: f64,
     },
     /// A raster without pixels, or with more than the largest number of pixels.
-    #[error("a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels")]
+    #[error(
+        "a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels, and two across and up if the ends of \
+         its ranges are to be pixels"
+    )]
     BadRaster {
         /// Number of columns.
         columns: usize,
@@ -134,9 +137,27 @@ pub enum Error {
         points: usize,
     },
     /// A Wada test of fewer than three basins.
-    #[error("an image with {labels} labels: the Wada test needs at least 3")]
+    #[error("{labels} basins: the Wada test needs at least 3")]
     TooFewLabels {
-        /// Labels found.
+        /// Basins found; undecided labels are none.
         labels: usize,
+    },
+    /// An image whose labels are not one for each pixel.
+    #[error(
+        "an image of {columns} × {rows} pixels has {labels} labels: it must have one label for each pixel, and a pixel"
+    )]
+    BadImage {
+        /// Its number of labels.
+        labels: usize,
+        /// Number of columns.
+        columns: usize,
+        /// Number of rows.
+        rows: usize,
+    },
+    /// An image, or a sample, without any point inside the region of interest.
+    #[error("all {points} points are outside the region of interest: at least one must be inside")]
+    NothingInside {
+        /// Number of points.
+        points: usize,
     },
 }

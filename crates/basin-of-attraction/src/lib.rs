@@ -64,6 +64,7 @@ mod entropy;
 mod error;
 mod fate;
 mod golden_section;
+mod image_fractions;
 mod interval;
 mod interval_basins;
 mod label;

@@ -24,6 +24,32 @@ pub struct Grid {
 const MOST_PIXELS: u64 = 1 << 34;
 
 impl Grid {
+    /// The grid whose first and last pixels have their middles at the ends of the ranges, as in programs that sample a range
+    /// with both of its ends. The middles are right to some ulps of the range.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Grid, Interval};
+    /// let range = Interval::new(-2.0, 2.0)?;
+    /// let grid = Grid::with_ends(range, range, 5, 3)?;
+    /// assert_eq!([0, 1, 4].map(|column| grid.x_at(column)), [-2.0, -1.0, 2.0]);
+    /// assert_eq!([0, 1, 2].map(|row| grid.y_at(row)), [-2.0, 0.0, 2.0]);
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::BadRaster`] for fewer than two columns or rows; [`Error::BadInterval`] if a range is infinite, or reversed.
+    pub fn with_ends(x: Interval, y: Interval, columns: usize, rows: usize) -> Result<Grid, Error> {
+        if columns < 2 || rows < 2 {
+            return Err(Error::BadRaster { columns, rows });
+        }
+        // The middle of pixel k of n is at (k + ½)/n of the range. The range grows by half a pixel on either side.
+        let range = |of: Interval, pixels: usize| {
+            let half = 0.5 * of.length() / (pixels - 1) as f64;
+            Interval::new(of.left - half, of.right + half)
+        };
+        Ok(Grid { x: range(x, columns)?, y: range(y, rows)?, columns, rows })
+    }
+
     /// The number of pixels.
     ///
     /// # Errors
@@ -56,6 +82,33 @@ pub struct LabelImage {
 }
 
 impl LabelImage {
+    /// Returns an error unless the image has one label for each pixel, and at least one pixel.
+    ///
+    /// # Errors
+    /// [`Error::BadImage`].
+    pub fn check(&self) -> Result<(), Error> {
+        let (Grid { columns, rows, .. }, labels) = (self.grid, self.labels.len());
+        if labels > 0 && columns.checked_mul(rows) == Some(labels) {
+            return Ok(());
+        }
+        Err(Error::BadImage { labels, columns, rows })
+    }
+
+    /// The same image with a region of interest: pixels whose middle (x, y) is not `inside` become [`Label::OUTSIDE`].
+    ///
+    /// # Errors
+    /// [`Error::BadImage`] as for [`check`](Self::check).
+    pub fn masked(mut self, inside: impl Fn(f64, f64) -> bool) -> Result<LabelImage, Error> {
+        self.check()?;
+        let grid = self.grid;
+        for (at, label) in self.labels.iter_mut().enumerate() {
+            if !inside(grid.x_at(at % grid.columns), grid.y_at(at / grid.columns)) {
+                *label = Label::OUTSIDE;
+            }
+        }
+        Ok(self)
+    }
+
     /// The label of a pixel; `None` outside the image. Rows count from below.
     pub fn at(&self, column: usize, row: usize) -> Option<Label> {
         let inside = column < self.grid.columns && row < self.grid.rows;

@@ -18,15 +18,28 @@ pub struct WadaTest {
     pub far_image_fraction: f64,
     /// The same pixels as a fraction of the pixels on the first basin's boundary.
     pub far_boundary_fraction: f64,
+    /// The undecided pixels, as a fraction of all pixels of the image. A boundary that passes through them is not seen.
+    pub undecided_fraction: f64,
 }
 
 impl LabelImage {
     /// Compares the boundaries of all pairs of basins. Each is a boundary against the union of all other basins.
     ///
+    /// A border with undecided pixels, or with pixels outside the region of interest, is no boundary between basins. All
+    /// fractions of the image are of its pixels inside the region of interest.
+    ///
     /// # Errors
-    /// [`Error::TooFewLabels`] for fewer than three labels.
+    /// [`Error::TooFewLabels`] for fewer than three basins; [`Error::BadImage`] as for [`check`](Self::check).
     pub fn wada(&self, distance: usize) -> Result<WadaTest, Error> {
-        let labels: Vec<Label> = self.counts().into_iter().map(|(label, _)| label).collect();
+        self.check()?;
+        let counts = self.counts();
+        let sum = |condition: fn(Label) -> bool| {
+            let own = counts.iter().filter(|(label, _)| condition(*label));
+            own.map(|(_, pixels)| pixels).sum::<usize>() as f64
+        };
+        let (inside, undecided) = (sum(|label| !label.is_outside()), sum(Label::is_undecided));
+        let labels: Vec<Label> =
+            counts.iter().map(|(label, _)| *label).filter(|label| label.is_basin()).collect();
         if labels.len() < 3 {
             return Err(Error::TooFewLabels { labels: labels.len() });
         }
@@ -36,7 +49,7 @@ impl LabelImage {
             boundaries.iter().map(|boundary| self.distances(boundary)).collect();
         let (mut of_image, mut of_boundary) = (0.0f64, 0.0f64);
         for (one, boundary) in boundaries.iter().enumerate() {
-            // With three labels every label has a boundary. The 1 only guards the division below.
+            // A basin among undecided pixels has no boundary with other basins. The 1 guards the division below.
             let own = boundary.iter().filter(|&&on| on).count().max(1);
             for other in (0..labels.len()).filter(|&other| other != one) {
                 let far = boundary
@@ -44,17 +57,25 @@ impl LabelImage {
                     .zip(&distances[other])
                     .filter(|&(&on, &away)| on && away > distance)
                     .count() as f64;
-                of_image = of_image.max(far / boundary.len() as f64);
+                of_image = of_image.max(far / inside);
                 of_boundary = of_boundary.max(far / own as f64);
             }
         }
-        Ok(WadaTest { distance, far_image_fraction: of_image, far_boundary_fraction: of_boundary })
+        Ok(WadaTest {
+            distance,
+            far_image_fraction: of_image,
+            far_boundary_fraction: of_boundary,
+            undecided_fraction: undecided / inside,
+        })
     }
 
-    /// The pixels on either side of the border of a label: of the pixel and a neighbour exactly one has the label.
+    /// The pixels on either side of the border of a basin with other basins: of the pixel and a neighbour exactly one has the
+    /// label, and both belong to basins.
     fn boundary_of(&self, label: Label) -> Vec<bool> {
         let inside = |at: usize| self.labels[at] == label;
-        let borders = |at: usize| self.neighbours(at).any(|next| inside(next) != inside(at));
+        let basin = |at: usize| self.labels[at].is_basin();
+        let differ = |at: usize, next: usize| basin(next) && inside(next) != inside(at);
+        let borders = |at: usize| basin(at) && self.neighbours(at).any(|next| differ(at, next));
         (0..self.labels.len()).map(borders).collect()
     }
 
@@ -93,5 +114,44 @@ impl LabelImage {
         ]
         .into_iter()
         .flatten()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::interval::Interval;
+    use crate::raster::{Grid, raster};
+    use std::ops::ControlFlow::Continue;
+
+    /// Three stripes of four rows. The pixels of the last column have another label.
+    fn stripes(last_column: Option<Label>) -> LabelImage {
+        let window = Interval { left: 0.0, right: 12.0 };
+        let grid = Grid { x: window, y: window, columns: 12, rows: 12 };
+        let label = |&x: &f64, y: f64| {
+            last_column.filter(|_| x > 11.0).unwrap_or(Label::from((y / 4.0) as u8))
+        };
+        raster(grid, |x| x, label, |_| Continue(())).unwrap()
+    }
+
+    #[test]
+    fn undecided_pixels_are_no_basin_in_the_wada_test() {
+        let known = stripes(None).wada(1).unwrap();
+        let open = stripes(Some(Label::UNDECIDED)).wada(1).unwrap();
+        let masked = stripes(Some(Label::OUTSIDE)).wada(1).unwrap();
+        assert_eq!(open.far_boundary_fraction, known.far_boundary_fraction);
+        assert_eq!((known.undecided_fraction, masked.undecided_fraction), (0.0, 0.0));
+        assert!((open.undecided_fraction - 1.0 / 12.0).abs() < 1e-15);
+        // Two rows of each border are far from the other border: 2 × 11 pixels of 12 × 12, or of 11 × 12.
+        assert!((open.far_image_fraction - 22.0 / 144.0).abs() < 1e-15, "{open:?}");
+        assert!((masked.far_image_fraction - 22.0 / 132.0).abs() < 1e-15, "{masked:?}");
+        let mut two = stripes(None);
+        two.labels
+            .iter_mut()
+            .filter(|label| **label == Label::from(0))
+            .for_each(|label| *label = Label::UNDECIDED);
+        assert_eq!(two.wada(1), Err(Error::TooFewLabels { labels: 2 }));
+        two.labels.push(Label::from(0));
+        assert!(matches!(two.wada(1), Err(Error::BadImage { .. })));
     }
 }

@@ -33,7 +33,7 @@ pub struct HopperBasins {
 /// let refinement = Refinement { shortest: 1e-6, ..Refinement::default() };
 /// let found = hopper_basins(&fates, 1, 2, 200, refinement)?;
 /// // The basin of α*_1 has 4.6 % of the first hump.
-/// let fraction = found.basins.resolved_length(1) / found.basins.window().length();
+/// let fraction = found.basins.resolved_length(1.into()) / found.basins.window().length();
 /// assert!((fraction - 0.0463).abs() < 1e-4);
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```

@@ -32,8 +32,8 @@ use passive_hopper::{FixedPointSpeed, MassRatio};
 /// let circle = PhaseBasins::new(&fates, 2, CircleLimits::default())?;
 /// // A pixel at 10⁻¹⁰⁰ left of the edge has the local fractions, at 10⁻¹² it has those of its own phases.
 /// let (from, to): (Offset, Offset) = ("-2e-100".parse()?, "-1e-100".parse()?);
-/// assert!((chart.share(&circle, from, to)?.of(1).middle() - 0.305159).abs() < 1e-6);
-/// assert_eq!(chart.label(&circle, "1e-100".parse()?)?, Some(2));
+/// assert!((chart.share(&circle, from, to)?.of(1.into()).middle() - 0.305159).abs() < 1e-6);
+/// assert_eq!(chart.label(&circle, "1e-100".parse()?)?, Some(2.into()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -28,7 +28,7 @@ const SPEEDS: usize = 8;
 /// let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default())?;
 /// // Half of a window of height 2·10⁻¹⁰⁰ belongs to the basin of α*_2.
 /// let pixels = edge_window(&fates, &chart, &circle, 100.0, 16)?;
-/// let inside = pixels.iter().filter(|pixel| pixel.of(2).lower == 1.0).count();
+/// let inside = pixels.iter().filter(|pixel| pixel.of(2.into()).lower == 1.0).count();
 /// assert_eq!(inside, 8);
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```

@@ -55,7 +55,7 @@ pub struct UndecidedPhases {
 /// let fates = Fates::new(MassRatio::new(0.2)?)?;
 /// let circle = PhaseBasins::new(&fates, 2, CircleLimits::default())?;
 /// // Next to α*_2 on its left, 3 % of all speeds belong to the basin of α*_1, at every scale.
-/// let share = circle.fractions().of(1);
+/// let share = circle.fractions().of(1.into());
 /// assert!((share.middle() - 0.030).abs() < 5e-4 && share.half_width() < 1e-10);
 /// // Two points of a turn are boundary points.
 /// assert_eq!(circle.boundary().len(), 2);

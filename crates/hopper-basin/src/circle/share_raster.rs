@@ -80,13 +80,13 @@ impl ShareRaster {
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval};
-/// use hopper_basin::{CircleLimits, Upwards, share_raster};
+/// use hopper_basin::{CircleLimits, HopperFate, Upwards, share_raster};
 /// use std::ops::ControlFlow::Continue;
 /// // From 10⁻² to 10⁻³⁰⁰ below α*_1, all speeds decay at small M.
 /// let (x, y) = (Interval::new(0.1, 0.3)?, Interval::new(2.0, 300.0)?);
 /// let grid = Grid { x, y, columns: 2, rows: 50 };
 /// let raster = share_raster(1, grid, Upwards::Depth, CircleLimits::default(), |_| Continue(()))?;
-/// assert_eq!(raster.labels(), [0]);
+/// assert_eq!(raster.labels(), [HopperFate::Decaying.label()]);
 /// assert!(raster.means()[0].1 > 0.999_999);
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```

@@ -25,7 +25,7 @@ impl Fates {
     /// use hopper_basin::{Fates, HopperFate};
     /// use passive_hopper::MassRatio;
     /// let fates = Fates::new(MassRatio::new(0.2)?)?;
-    /// assert_eq!(fates.labels(&[4.55, 4.60])?, [1, HopperFate::Decaying.label()]);
+    /// assert_eq!(fates.labels(&[4.55, 4.60])?, [1, 0].map(HopperFate::label_of_fixed_point));
     /// # Ok::<(), hopper_basin::Error>(())
     /// ```
     ///
