@@ -129,12 +129,36 @@ pub enum Error {
     },
     /// Points to which no power law can be fitted.
     #[error(
-        "a power law cannot be fitted to these {points} points: at least 3 are needed, with positive finite numbers \
-         and different scales"
+        "a power law cannot be fitted to these {points} points: at least 3 are needed, with different positive scales, and \
+         finite values that are not negative"
     )]
     BadFit {
         /// Points given.
         points: usize,
+    },
+    /// Replicates of a measurement with different scales.
+    #[error(
+        "replicate {replicate}, counted from 0, has other scales than replicate 0: measure every replicate at the same scales"
+    )]
+    UnlikeReplicates {
+        /// The first replicate with other scales.
+        replicate: usize,
+    },
+    /// A scale at which every replicate has the value 0, which has no logarithm.
+    #[error(
+        "the value at scale {scale} is 0 in every replicate: leave this scale out, or take more points at it"
+    )]
+    NothingFound {
+        /// The scale.
+        scale: f64,
+    },
+    /// Fewer points than an interval needs to contain the true number as often as it says.
+    #[error("{points} points: a 95 % interval needs at least {fewest}")]
+    TooFewPoints {
+        /// Points given.
+        points: usize,
+        /// The smallest number accepted.
+        fewest: usize,
     },
     /// A Wada test of fewer than three basins.
     #[error("{labels} basins: the Wada test needs at least 3")]

@@ -17,10 +17,10 @@
 //! | [`Refinement`], [`StopReason`] | when that search stops, and why it stopped |
 //! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; whether a Cantor set or a countable set remains |
 //! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | basin fractions from sample points, each with its uncertainty |
-//! | [`ConfidenceInterval`], [`wilson_interval`], [`student_interval`] | an estimate with a 95 % confidence interval |
+//! | [`ConfidenceInterval`], [`proportion_interval`], [`wilson_interval`], [`student_interval`] | an estimate with a 95 % confidence interval |
 //! | [`Bounds`] | bounds on a number, which hold under stated conditions |
 //! | [`SplitMix64`] | random numbers from a seed, the same with any number of threads |
-//! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, dimensions with local slopes and warnings |
+//! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, exponents with intervals from replicates, and local slopes |
 //! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, from perturbed starts or from intervals |
 //! | [`LabelImage::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
@@ -44,7 +44,7 @@
 //! The caller guarantees that the orbits of a trap's points stay in the trap. The ends of preimages are located to
 //! one ulp of the computed map. The same input gives the same labels with any number of threads.
 //!
-//! A slope between two scales is not a dimension. [`PowerLaw`] shows all local slopes and warns if they drift.
+//! A slope between two scales is not a dimension. [`PowerLaw`] has all local slopes, and no interval if they drift.
 //!
 //! # Not here
 //! - Maps of more than one variable; but a raster takes any labelling of the plane.
@@ -69,6 +69,7 @@ mod interval;
 mod interval_basins;
 mod label;
 mod least_squares;
+mod low_discrepancy;
 mod power_law;
 mod preimage;
 mod preimage_tree;
@@ -84,21 +85,23 @@ mod wada;
 pub use bounds::Bounds;
 pub use boxes::{BoxCount, occupied_boxes};
 pub use branches::{Branch, monotone_branches};
-pub use confidence_interval::{ConfidenceInterval, student_interval, wilson_interval};
+pub use confidence_interval::{
+    ConfidenceInterval, proportion_interval, student_interval, wilson_interval,
+};
 pub use entropy::entropy;
 pub use error::Error;
 pub use fate::{Fate, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
 pub use interval_basins::{IntervalBasins, LabelledInterval, interval_basins};
 pub use label::Label;
-pub use power_law::{PowerLaw, Warning, power_law};
+pub use low_discrepancy::low_discrepancy_fractions;
+pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
 pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
 pub use refinement::{Refinement, StopReason};
 pub use sampling::{
-    EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions,
-    low_discrepancy_fractions, random_fractions,
+    EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions, random_fractions,
 };
 pub use scalar_map::{Image, ScalarMap};
 pub use split_mix::SplitMix64;

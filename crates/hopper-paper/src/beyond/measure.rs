@@ -11,7 +11,7 @@ use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
     Bounds, Interval, Label, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
-    random_fractions, wilson_interval,
+    proportion_interval, random_fractions,
 };
 use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
@@ -26,11 +26,9 @@ const RATIOS: (f64, f64, usize) = (0.02, 50.0, 121);
 const BY_INTERVALS: f64 = 0.905;
 /// Shortest interval whose preimages are computed. Shorter intervals widen the bounds of the measure.
 const SHORTEST: f64 = 1e-7;
-/// Points of a golden rotation, and rotations with random starts. Together 64 000 points, about the 50 000 of the
-/// paper; sixteen replicates give a 95 % interval.
-const POINTS: usize = 4000;
-const REPLICATES: usize = 16;
-/// Seed of the random starts. Another seed changes the data within their intervals.
+/// Points, one at random in each of as many parts of the window: about the 50 000 of the paper.
+const POINTS: usize = 64_000;
+/// Seed of the random points. Another seed changes the data within their intervals.
 const SEED: u64 = 2002;
 
 /// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000, or above 65 530. This label
@@ -63,14 +61,14 @@ fn fractions_with_bars(mass_ratio: f64) -> Result<FractionsWithBars, Error> {
         return fractions_by_intervals(&fates, SHORTEST);
     }
     let at = |place: f64| label(&fates, by_humps(place));
-    let mut fractions = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, at)?;
+    let mut fractions = low_discrepancy_fractions(window()?, POINTS, SEED, at)?;
     let together = |place: f64| if is_incessant(at(place)) { ALL } else { Label::from(0) };
-    let all = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, together)?;
+    let all = low_discrepancy_fractions(window()?, POINTS, SEED, together)?;
     fractions.extend(all.get(&ALL).map(|&fraction| (ALL, fraction)));
     let mut fractions: FractionsWithBars =
         fractions.into_iter().map(|(label, fraction)| (label, fraction.into())).collect();
     // A label that no point has may still have a fraction: its interval is that of 0 hits.
-    let unseen = wilson_interval(0, POINTS * REPLICATES)?;
+    let unseen = proportion_interval(0, POINTS)?;
     LABELS.into_iter().for_each(|label| {
         fractions.entry(label).or_insert(unseen.into());
     });
@@ -161,8 +159,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
             notes: format!(
                 "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with bounds that hold for the branches found \
-                 and up to rounding; beyond, by {POINTS} points of a golden rotation with {REPLICATES} random \
-                 starts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
+                 and up to rounding; beyond, by one random point in each of {POINTS} equal parts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
                  there it falls through its fixed point. Between it and its inverse the measure falls and \
                  rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
                  $α$^{{∗}}_{{1}} at once (near $M$ = 0.172, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
@@ -226,7 +223,7 @@ fn three_ways() -> Result<Table, Error> {
         "intervals (bounds)",
         "equally spaced, 50 000 (as the paper)",
         "random, 50 000",
-        "low discrepancy, 16 × 3125",
+        "low discrepancy, 50 000",
     ]);
     fn percent_of_all<F: Copy + Into<FractionWithBar>>(fractions: &BTreeMap<Label, F>) -> String {
         fractions.get(&ALL).map_or("0".into(), |&fraction| percent(&fraction.into()))
@@ -242,7 +239,7 @@ fn three_ways() -> Result<Table, Error> {
             certain.get(&ALL).map_or("0".into(), bounds),
             percent_of_all(&equally_spaced_fractions(window()?, 50_000, together)?),
             percent_of_all(&random_fractions(window()?, 50_000, SEED, together)?),
-            percent_of_all(&low_discrepancy_fractions(window()?, 3125, 16, SEED, together)?),
+            percent_of_all(&low_discrepancy_fractions(window()?, 50_000, SEED, together)?),
         ]);
     }
     Ok(table)
@@ -265,7 +262,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
                     + 4 * u8::from(one != two),
             )
         };
-        let counts = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, compare)?;
+        let counts = low_discrepancy_fractions(window()?, POINTS, SEED, compare)?;
         let sum = |bit: u16| -> f64 {
             counts
                 .iter()
