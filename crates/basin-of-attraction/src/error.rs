@@ -160,6 +160,33 @@ pub enum Error {
         /// The smallest number accepted.
         fewest: usize,
     },
+    /// Random balls that cannot lie in the window, or that show no mixture.
+    #[error(
+        "balls of radius {radius} with {points} points in {dimensions} dimensions: the radius must be positive and below half of the \
+         shortest side, {narrowest}; there must be at least 1 dimension and 2 points"
+    )]
+    BadBalls {
+        /// Dimensions of the window.
+        dimensions: usize,
+        /// The radius given.
+        radius: f64,
+        /// The shortest side of the window; infinite without dimensions.
+        narrowest: f64,
+        /// Points in a ball.
+        points: usize,
+    },
+    /// Too few random balls on a boundary.
+    #[error(
+        "{mixed} of {balls} random balls have more than one basin: at least {fewest} are needed; take more balls, or larger ones"
+    )]
+    TooFewMixedBalls {
+        /// Balls with more than one basin.
+        mixed: usize,
+        /// Balls in all.
+        balls: usize,
+        /// The smallest number accepted.
+        fewest: usize,
+    },
     /// A Wada test of fewer than three basins.
     #[error("{labels} basins: the Wada test needs at least 3")]
     TooFewLabels {

@@ -21,6 +21,7 @@
 //! | [`Bounds`] | bounds on a number, which hold under stated conditions |
 //! | [`SplitMix64`] | random numbers from a seed, the same with any number of threads |
 //! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, exponents with intervals from replicates, and local slopes |
+//! | [`ball_entropy`], [`LabelImage::ln_2_criterion`] | whether a boundary looks smooth at one scale; whether it is shown to be fractal at all scales of an image |
 //! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, from perturbed starts or from intervals |
 //! | [`LabelImage::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
@@ -52,9 +53,11 @@
 //!
 //! # References
 //! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent;
-//! A. Daza et al., Sci. Rep. 6, 31416 (2016), basin entropy; A. Daza, A. Wagemakers, M. A. F. Sanjuán,
+//! A. Daza et al., Sci. Rep. 6, 31416 (2016), basin entropy; A. Puy, A. Daza, A. Wagemakers, M. A. F. Sanjuán, Commun. Nonlinear
+//! Sci. Numer. Simul. 95, 105588 (2021), entropy of balls on a smooth boundary; A. Daza, A. Wagemakers, M. A. F. Sanjuán,
 //! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
-//! proportions; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, SplitMix64.
+//! proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities; T. Gasser,
+//! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, SplitMix64.
 
 mod bounds;
 mod boxes;
@@ -69,6 +72,7 @@ mod interval;
 mod interval_basins;
 mod label;
 mod least_squares;
+mod ln_2_criterion;
 mod low_discrepancy;
 mod power_law;
 mod preimage;
@@ -77,6 +81,7 @@ mod raster;
 mod refinement;
 mod sampling;
 mod scalar_map;
+mod smooth_boundary;
 mod split_mix;
 mod uncertainty;
 mod undecided_reason;
@@ -94,6 +99,7 @@ pub use fate::{Fate, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
 pub use interval_basins::{IntervalBasins, LabelledInterval, interval_basins};
 pub use label::Label;
+pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::low_discrepancy_fractions;
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::preimage_levels;
@@ -104,6 +110,9 @@ pub use sampling::{
     EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions, random_fractions,
 };
 pub use scalar_map::{Image, ScalarMap};
+pub use smooth_boundary::{
+    BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
+};
 pub use split_mix::SplitMix64;
 pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;

@@ -144,8 +144,7 @@ const ROUNDING_OF_DECADES: f64 = 1e-9;
 /// Student's quantile for fewer replicates is above 3, and the spread of so few is too uncertain to weigh the scales with.
 const FEWEST_REPLICATES: usize = 5;
 
-/// Halves of the range, from fine to coarse, whose slopes are compared. Neighbours overlap by three quarters. With three, the
-/// phases of an oscillation could agree.
+/// Halves of the range whose slopes are compared. With three, the phases of an oscillation could agree.
 const HALVES: usize = 5;
 
 /// Replicates, sorted by scale.
