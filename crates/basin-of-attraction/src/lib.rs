@@ -14,6 +14,7 @@
 //! | [`monotone_branches`], [`Branch`] | the map restricted to its laps, and preimages on a lap to 1 ulp |
 //! | [`preimage_levels`] | the basin of a trap, level by level |
 //! | [`interval_basins`], [`IntervalBasins`] | all basins in a window as intervals, with the undecided length |
+//! | [`check_trap`], [`TrapGround`], [`check_branches`] | tests of what a caller gives; `interval_basins` makes them |
 //! | [`Refinement`], [`StopReason`] | when that search stops, and why it stopped |
 //! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; whether a Cantor set or a countable set remains |
 //! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | basin fractions from sample points, each with its uncertainty |
@@ -41,7 +42,7 @@
 //! ```
 //!
 //! # Accuracy
-//! The caller guarantees that the orbits of a trap's points stay in the trap. The ends of preimages are located to
+//! Intervals given as traps, and branches, are tested by images or at random points; what the points miss is the caller's. The ends of preimages are located to
 //! one ulp of the computed map. The same input gives the same labels with any number of threads.
 //!
 //! A slope between two scales is not a dimension. [`PowerLaw`] shows all local slopes and warns if they drift.
@@ -56,6 +57,7 @@
 //! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
 //! proportions; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, SplitMix64.
 
+mod basin_search;
 mod bounds;
 mod boxes;
 mod branches;
@@ -72,6 +74,7 @@ mod least_squares;
 mod power_law;
 mod preimage;
 mod preimage_tree;
+mod probes;
 mod raster;
 mod refinement;
 mod sampling;
@@ -81,6 +84,7 @@ mod uncertainty;
 mod undecided_reason;
 mod wada;
 
+pub use basin_search::{interval_basins, interval_basins_from_known};
 pub use bounds::Bounds;
 pub use boxes::{BoxCount, occupied_boxes};
 pub use branches::{Branch, monotone_branches};
@@ -89,11 +93,12 @@ pub use entropy::entropy;
 pub use error::Error;
 pub use fate::{Fate, TrapSet, Traps, classify};
 pub use interval::{Interval, IntervalSet};
-pub use interval_basins::{IntervalBasins, LabelledInterval, interval_basins};
+pub use interval_basins::{IntervalBasins, LabelledInterval};
 pub use label::Label;
 pub use power_law::{PowerLaw, Warning, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
+pub use probes::{TrapGround, check_branches, check_trap};
 pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
 pub use refinement::{Refinement, StopReason};
 pub use sampling::{

@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use basin_of_attraction::{
-    Branch, Image, Interval, IntervalBasins, Label, Refinement, ScalarMap, interval_basins,
+    Branch, Image, Interval, IntervalBasins, Label, Refinement, ScalarMap,
+    interval_basins_from_known,
 };
 use passive_hopper::alpha_star;
 use std::f64::consts::PI;
@@ -58,7 +59,8 @@ pub fn hopper_basins(
     let branches = branches(fates, 0, to, samples)?;
     let traps = traps_and_grounding(fates, &branches, to, top)?;
     let whole = Interval::new(0.0, top)?;
-    let basins = interval_basins(fates, &traps, &branches, whole, refinement)?.within(window);
+    let basins =
+        interval_basins_from_known(fates, &traps, &branches, whole, refinement)?.within(window)?;
     // The widest of the windows ((n+1)π, α*_{n+1}).
     let spacing = (0..to).map(|n| alpha_star(n + 1) - (n + 1) as f64 * PI).fold(0.0, f64::max)
         / (samples - 1) as f64;
