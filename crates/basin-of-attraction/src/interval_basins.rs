@@ -83,6 +83,16 @@ impl IntervalBasins {
         self
     }
 
+    /// The same basins with another reason, for a caller who knows more about the branches than the search did.
+    ///
+    /// A search over sampled branches that is [`Resolved`](StopReason::Resolved) is
+    /// [`SampledBranches`](StopReason::SampledBranches) in truth; if points have other fates than their intervals, it is a
+    /// [`Contradiction`](StopReason::Contradiction).
+    #[must_use]
+    pub fn with_stop_reason(self, stop_reason: StopReason) -> IntervalBasins {
+        IntervalBasins { stop_reason, ..self }
+    }
+
     /// What shows that each trap is one, in the order in which they were given; empty if the caller knew it.
     pub fn trap_grounds(&self) -> &[TrapGround] {
         &self.grounds

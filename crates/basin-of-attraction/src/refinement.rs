@@ -23,7 +23,11 @@ pub enum StopReason {
     /// Every interval has been followed, and more than [`Refinement::undecided`] is undecided: these points are in no basin, or a
     /// branch is missing.
     AllFollowed,
-    /// More than [`Refinement::undecided`] was found twice, with different fates: the branches are not monotone.
+    /// The undecided length is at most [`Refinement::undecided`], but the branches were searched at some spacing: a branch that was
+    /// missed leaves wrong labels.
+    SampledBranches,
+    /// More than [`Refinement::undecided`] was found twice, with different fates, or the fate of a point is not that of its
+    /// interval: a branch is missing, or is not monotone.
     Contradiction,
     /// All intervals not yet followed are shorter than [`Refinement::shortest`], or of the last level.
     ShortestInterval,
