@@ -164,6 +164,20 @@ pub enum Error {
         /// The ε given.
         epsilon: f64,
     },
+    /// A region without coordinates.
+    #[error("a region has at least one side")]
+    NoDimension,
+    /// So many pairs have an undecided point that their number decides the exponent.
+    #[error(
+        "{open} pairs have an undecided point, and {uncertain} pairs are uncertain: an exponent needs ten times more uncertain \
+         pairs than open ones. Raise the budget of the labelling"
+    )]
+    TooManyOpenPairs {
+        /// Pairs with an undecided point.
+        open: usize,
+        /// Uncertain pairs.
+        uncertain: usize,
+    },
     /// Points to which no power law can be fitted.
     #[error(
         "a power law cannot be fitted to these {points} points: at least 3 are needed, with positive finite numbers \

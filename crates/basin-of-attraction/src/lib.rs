@@ -23,6 +23,9 @@
 //! | [`SplitMix64`] | random numbers from a seed, the same with any number of threads |
 //! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, dimensions with local slopes and warnings |
 //! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, from perturbed starts or from intervals |
+//! | [`Hyperrectangle`], [`region_fractions`] | regions of any dimension, and the fractions of the basins in them |
+//! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
+//! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`LabelImage::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
@@ -66,6 +69,7 @@ mod entropy;
 mod error;
 mod fate;
 mod golden_section;
+mod hyperrectangle;
 mod image_fractions;
 mod interval;
 mod interval_basins;
@@ -77,6 +81,9 @@ mod preimage_tree;
 mod probes;
 mod raster;
 mod refinement;
+mod region_boxes;
+mod region_fractions;
+mod region_uncertainty;
 mod sampling;
 mod scalar_map;
 mod split_mix;
@@ -92,6 +99,7 @@ pub use confidence_interval::{ConfidenceInterval, student_interval, wilson_inter
 pub use entropy::entropy;
 pub use error::Error;
 pub use fate::{Fate, TrapSet, Traps, classify};
+pub use hyperrectangle::Hyperrectangle;
 pub use interval::{Interval, IntervalSet};
 pub use interval_basins::{IntervalBasins, LabelledInterval};
 pub use label::Label;
@@ -101,6 +109,11 @@ pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
 pub use probes::{TrapGround, check_branches, check_trap};
 pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
 pub use refinement::{Refinement, StopReason};
+pub use region_boxes::region_boxes;
+pub use region_fractions::{LabelCounts, region_fractions};
+pub use region_uncertainty::{
+    PairCount, UncertaintyExponent, uncertain_pairs, uncertainty_exponent,
+};
 pub use sampling::{
     EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions,
     low_discrepancy_fractions, random_fractions,
