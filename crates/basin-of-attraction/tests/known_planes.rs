@@ -42,7 +42,8 @@ fn countably_many_basins_have_their_measures_and_their_entropy() {
         let sum: f64 = known.iter().sum();
         let exact = entropy(known.iter().map(|p| p / sum));
         let found = count.boundary_entropy().unwrap();
-        assert!((found - exact).abs() < 1e-9, "{k}: {found} {exact}");
+        // The ends of the last stage, of 3⁻²⁰, are right to an ulp, which is 10⁻⁶ of its length.
+        assert!((found - exact).abs() < 1e-8, "{k}: {found} {exact}");
         assert!((found - whole).abs() < 0.02);
     }
 }
