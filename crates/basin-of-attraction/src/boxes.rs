@@ -27,12 +27,13 @@ pub struct BoxCount {
 }
 
 impl BoxCount {
-    fn new(size: f64) -> BoxCount {
+    /// No boxes of this size yet.
+    pub(crate) fn new(size: f64) -> BoxCount {
         BoxCount { size, boxes: 0, mixed: 0, open: 0, half_open: 0, entropy: 0.0 }
     }
 
     /// Counts one box with these measures of basins and an undecided part, all larger than 0.
-    fn count(&mut self, basins: &BTreeMap<Label, f64>, has_undecided: bool) {
+    pub(crate) fn count(&mut self, basins: &BTreeMap<Label, f64>, has_undecided: bool) {
         self.boxes += 1;
         if basins.len() > 1 {
             self.mixed += 1;

@@ -31,6 +31,43 @@ pub enum Error {
         /// Right end of the second.
         second_right: f64,
     },
+    /// An interval that orbits leave, given as a trap.
+    #[error(
+        "[{left}, {right}] is no trap: the map takes its point {at} to {image:?} (`None`: the orbit ends there, and others \
+         do not). Give an interval whose image lies in it, or one on which the map has no value"
+    )]
+    NotATrap {
+        /// Left end.
+        left: f64,
+        /// Right end.
+        right: f64,
+        /// The point.
+        at: f64,
+        /// Its image.
+        image: Option<f64>,
+    },
+    /// A point that the branches do not know.
+    #[error(
+        "the map has the value {value} at {at}, and the branches do not take it there, or take it at another point as well: \
+         a branch is missing. Search with more samples, or divide the window at the turning points"
+    )]
+    BranchMissed {
+        /// The point.
+        at: f64,
+        /// The value of the map there.
+        value: f64,
+    },
+    /// Limits of a refinement that are negative or NaN.
+    #[error(
+        "a refinement to an undecided length of {undecided} and intervals of {shortest}: both must be 0 or larger, and the \
+         shortest interval finite"
+    )]
+    BadRefinement {
+        /// The undecided length.
+        undecided: f64,
+        /// The shortest interval.
+        shortest: f64,
+    },
     /// A raster without pixels, or with more than the largest number of pixels.
     #[error(
         "a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels, and two across and up if the ends of \
@@ -126,6 +163,20 @@ pub enum Error {
     BadPerturbation {
         /// The ε given.
         epsilon: f64,
+    },
+    /// A region without coordinates.
+    #[error("a region has at least one side")]
+    NoDimension,
+    /// So many pairs have an undecided point that their number decides the exponent.
+    #[error(
+        "{open} pairs have an undecided point, and {uncertain} pairs are uncertain: an exponent needs ten times more uncertain \
+         pairs than open ones. Raise the budget of the labelling"
+    )]
+    TooManyOpenPairs {
+        /// Pairs with an undecided point.
+        open: usize,
+        /// Uncertain pairs.
+        uncertain: usize,
     },
     /// Points to which no power law can be fitted.
     #[error(

@@ -20,11 +20,14 @@ pub struct TrapSet {
 }
 
 impl TrapSet {
-    /// Traps with their labels. The caller guarantees that orbits stay in them.
+    /// Traps with their labels. The caller guarantees that orbits stay in them; [`check_trap`](crate::check_trap) tests it.
     ///
     /// # Errors
-    /// [`Error::OverlappingTraps`] if two have a point in common.
+    /// [`Error::OverlappingTraps`] if two have a point in common; [`Error::BadInterval`] as for [`Interval::new`].
     pub fn new(mut traps: Vec<(Interval, Label)>) -> Result<Self, Error> {
+        for (trap, _) in &traps {
+            Interval::new(trap.left, trap.right)?;
+        }
         traps.sort_by(|a, b| a.0.left.total_cmp(&b.0.left));
         for pair in traps.windows(2) {
             let (first, second) = (pair[0].0, pair[1].0);
@@ -134,5 +137,13 @@ mod tests {
         let traps = [(0.0, 1.0, 1), (1.0, 2.0, 2)];
         let traps = traps.map(|(a, b, n)| (Interval::new(a, b).unwrap(), Label::from(n))).to_vec();
         assert!(matches!(TrapSet::new(traps), Err(Error::OverlappingTraps { .. })));
+    }
+
+    #[test]
+    fn traps_that_are_no_intervals_are_refused() {
+        for (left, right) in [(1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::NAN), (0.0, f64::INFINITY)] {
+            let traps = vec![(Interval { left, right }, Label::from(1))];
+            assert!(matches!(TrapSet::new(traps), Err(Error::BadInterval { .. })));
+        }
     }
 }

@@ -14,6 +14,7 @@
 //! | [`monotone_branches`], [`Branch`] | the map restricted to its laps, and preimages on a lap to 1 ulp |
 //! | [`preimage_levels`] | the basin of a trap, level by level |
 //! | [`interval_basins`], [`IntervalBasins`] | all basins in a window as intervals, with the undecided length |
+//! | [`check_trap`], [`TrapGround`], [`check_branches`] | tests of what a caller gives; `interval_basins` makes them |
 //! | [`Refinement`], [`StopReason`] | when that search stops, and why it stopped |
 //! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; whether a Cantor set or a countable set remains |
 //! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | basin fractions from sample points, each with its uncertainty |
@@ -23,6 +24,9 @@
 //! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, exponents with intervals from replicates, and local slopes |
 //! | [`ball_entropy`], [`LabelImage::ln_2_criterion`] | whether a boundary looks smooth at one scale; whether it is shown to be fractal at all scales of an image |
 //! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, from perturbed starts or from intervals |
+//! | [`Hyperrectangle`], [`region_fractions`] | regions of any dimension, and the fractions of the basins in them |
+//! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
+//! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`LabelImage::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
@@ -42,7 +46,7 @@
 //! ```
 //!
 //! # Accuracy
-//! The caller guarantees that the orbits of a trap's points stay in the trap. The ends of preimages are located to
+//! Intervals given as traps, and branches, are tested by images or at random points; what the points miss is the caller's. The ends of preimages are located to
 //! one ulp of the computed map. The same input gives the same labels with any number of threads.
 //!
 //! A slope between two scales is not a dimension. [`PowerLaw`] has all local slopes, and no interval if they drift.
@@ -59,6 +63,7 @@
 //! proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities; T. Gasser,
 //! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, SplitMix64.
 
+mod basin_search;
 mod bounds;
 mod boxes;
 mod branches;
@@ -67,6 +72,7 @@ mod entropy;
 mod error;
 mod fate;
 mod golden_section;
+mod hyperrectangle;
 mod image_fractions;
 mod interval;
 mod interval_basins;
@@ -77,8 +83,12 @@ mod low_discrepancy;
 mod power_law;
 mod preimage;
 mod preimage_tree;
+mod probes;
 mod raster;
 mod refinement;
+mod region_boxes;
+mod region_fractions;
+mod region_uncertainty;
 mod sampling;
 mod scalar_map;
 mod smooth_boundary;
@@ -87,6 +97,7 @@ mod uncertainty;
 mod undecided_reason;
 mod wada;
 
+pub use basin_search::{interval_basins, interval_basins_from_known};
 pub use bounds::Bounds;
 pub use boxes::{BoxCount, occupied_boxes};
 pub use branches::{Branch, monotone_branches};
@@ -96,16 +107,23 @@ pub use confidence_interval::{
 pub use entropy::entropy;
 pub use error::Error;
 pub use fate::{Fate, TrapSet, Traps, classify};
+pub use hyperrectangle::Hyperrectangle;
 pub use interval::{Interval, IntervalSet};
-pub use interval_basins::{IntervalBasins, LabelledInterval, interval_basins};
+pub use interval_basins::{IntervalBasins, LabelledInterval};
 pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::low_discrepancy_fractions;
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
+pub use probes::{TrapGround, check_branches, check_trap};
 pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
 pub use refinement::{Refinement, StopReason};
+pub use region_boxes::region_boxes;
+pub use region_fractions::{LabelCounts, region_fractions};
+pub use region_uncertainty::{
+    PairCount, UncertaintyExponent, uncertain_pairs, uncertainty_exponent,
+};
 pub use sampling::{
     EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions, random_fractions,
 };

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion, [`Error::BadPerturbation`]
-/// unless `epsilon` is positive and finite.
+/// unless `epsilon` is positive and finite, [`Error::BadInterval`] for a window that is reversed or not finite.
 pub fn uncertain_fraction(
     window: Interval,
     epsilon: f64,
@@ -26,6 +26,7 @@ pub fn uncertain_fraction(
     seed: u64,
     label: impl Fn(f64) -> Label + Sync,
 ) -> Result<ConfidenceInterval, Error> {
+    Interval::new(window.left, window.right)?;
     check_perturbation(epsilon)?;
     check_count(count)?;
     let random = SplitMix64::from_seed(seed);
@@ -37,7 +38,8 @@ pub fn uncertain_fraction(
     wilson_interval((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
 }
 
-fn check_perturbation(epsilon: f64) -> Result<(), Error> {
+/// An error for a perturbation that is not positive and finite.
+pub(crate) fn check_perturbation(epsilon: f64) -> Result<(), Error> {
     if epsilon > 0.0 && epsilon.is_finite() {
         Ok(())
     } else {

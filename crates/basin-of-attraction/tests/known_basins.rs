@@ -15,7 +15,10 @@ use std::ops::ControlFlow::Continue;
 
 /// The gap (1/3, 2/3) and its preimages.
 fn cantor_levels(depth: usize) -> IntervalBasins {
-    let map = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * x - 2.0 });
+    let map = |x: f64| {
+        let outside = x <= THIRD || x >= 2.0 * THIRD;
+        outside.then_some(if x < 0.5 { 3.0 * x } else { 3.0 * x - 2.0 })
+    };
     let branches = [
         Branch { domain: interval(0.0, THIRD), at_left: 0.0, at_right: 1.0 },
         Branch { domain: interval(2.0 * THIRD, 1.0), at_left: 0.0, at_right: 1.0 },
@@ -116,13 +119,7 @@ fn a_fixed_point_that_attracts_from_one_side_leaves_a_countable_set() {
 
 /// The intervals as `colours` basins: the label of an interval is its level modulo `colours`.
 fn coloured(levels: &IntervalBasins, colours: usize) -> IntervalBasins {
-    let traps: Vec<_> = levels
-        .intervals()
-        .iter()
-        .map(|part| (part.interval, Label::from((part.level % colours) as u8)))
-        .collect();
-    let no_map = |_: f64| None;
-    interval_basins(&no_map, &traps, &[], levels.window(), Refinement::default()).unwrap()
+    levels.clone().relabelled(|part| Label::from((part.level % colours) as u8))
 }
 
 #[test]

@@ -163,7 +163,7 @@ fn interval_basins_have_the_counted_fractions() {
         let (mut incessant, mut to_first, mut open) = (0.0, 0.0, 0.0);
         for n in 1..6 {
             let hump = Interval::new(alpha_star(n), alpha_star(n + 1)).unwrap();
-            let part = found.within(hump);
+            let part = found.within(hump).unwrap();
             let share = |length: f64| length / hump.length() / 5.0;
             incessant += share(part.resolved_length_of(HopperFate::is_incessant));
             to_first += share(part.resolved_length(1.into()));

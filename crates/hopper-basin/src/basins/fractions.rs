@@ -1,5 +1,6 @@
 //! Basin fractions by the paper's protocol: points counted by their fate.
 
+use crate::basins::branches::check_fixed_points;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
@@ -29,19 +30,34 @@ impl BasinFractions {
     }
 }
 
+/// Most points of all intervals together: they take a quarter of an hour. More are a mistake, and would seem never to end.
+const MOST_POINTS: usize = 1_000_000_000;
+
 /// The basin fractions on [α*_from, α*_to] by the paper's protocol (Sec. VI).
 ///
 /// Each interval between neighbouring fixed points has `points` equally spaced points. So the fractions of the
 /// intervals are averaged with equal weights, although the intervals differ in length.
 ///
 /// # Errors
-/// As [`Fates::new`] and [`equally_spaced_counts`], and [`Error::NoPoints`] if `points` is zero or `from` is not below `to`.
+/// As [`Fates::new`]; [`Error::NoPoints`] if `points` is zero or `from` is not below `to`; [`Error::Window`] if fixed points
+/// have no labels; [`basin_of_attraction::Error::TooManySamples`] for more than 10⁹ points on all intervals together.
 pub fn basin_fractions(
     mass_ratio: MassRatio,
     from: u64,
     to: u64,
     points: usize,
 ) -> Result<BasinFractions, Error> {
+    if points == 0 || from >= to {
+        return Err(Error::NoPoints { from, to, points });
+    }
+    check_fixed_points(from, to)?;
+    let all = usize::try_from(to - from).unwrap_or(usize::MAX).saturating_mul(points);
+    if all > MOST_POINTS {
+        let remedy = "take fewer humps, or fewer points on each";
+        let error =
+            basin_of_attraction::Error::TooManySamples { samples: all, most: MOST_POINTS, remedy };
+        return Err(error.into());
+    }
     let fates = Fates::new(mass_ratio)?;
     // A speed is valid here unless it exceeds the largest lift-off speed: then no hop can be decided.
     let label = |alpha: f64| fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label);
@@ -52,8 +68,5 @@ pub fn basin_fractions(
             *counts.entry(label).or_insert(0) += count;
         }
     }
-    match counts.values().sum() {
-        0 => Err(Error::NoPoints { from, to, points }),
-        points => Ok(BasinFractions { counts, points }),
-    }
+    Ok(BasinFractions { counts, points: all })
 }

@@ -7,7 +7,7 @@ use crate::circle::fundamental_domain::DomainSpeeds;
 
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
-use basin_of_attraction::{Interval, Label, Refinement, interval_basins};
+use basin_of_attraction::{Interval, Label, Refinement, interval_basins_from_known};
 use std::f64::consts::PI;
 
 /// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
@@ -132,7 +132,7 @@ fn by_branches(
         shortest: (limits.refinement.shortest * per_turn).max(ulps),
         ..limits.refinement
     };
-    let basins = interval_basins(fates, &known, &found, window, refinement)?;
+    let basins = interval_basins_from_known(fates, &known, &found, window, refinement)?;
     let parts = basins.intervals().iter().map(|part| LabelledSpeeds {
         left: part.interval.left,
         right: part.interval.right,

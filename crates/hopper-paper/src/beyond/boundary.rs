@@ -60,7 +60,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
     ]);
     let mut data = Vec::new();
     for (n, (marker, color)) in HUMPS.into_iter().zip(LOOKS) {
-        let part = basins.within(hump(n)?);
+        let part = basins.within(hump(n)?)?;
         let points = part.boundary(RESOLUTION);
         let left = part.window().left;
         let count = |size: f64| Ok((size, occupied_boxes(&points, left, size)? as f64));

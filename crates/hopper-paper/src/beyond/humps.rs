@@ -36,7 +36,7 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     ]);
     let mut fractions: Vec<Vec<FractionBounds>> = Vec::new();
     for n in 1..=LAST {
-        let part = basins.within(hump(n)?);
+        let part = basins.within(hump(n)?)?;
         let length = part.window().length();
         let undecided = part.undecided() / length;
         let row: Vec<f64> = (1..=n)

@@ -81,7 +81,7 @@ fn fractions_by_intervals(fates: &Fates, shortest: f64) -> Result<FractionsWithB
     let found = hopper_basins(fates, FROM, TO, 400, refinement)?.basins;
     let mut fractions = FractionsWithBars::new();
     for n in FROM..TO {
-        let part = found.within(hump(n)?);
+        let part = found.within(hump(n)?)?;
         let scale = 1.0 / (part.window().length() * (TO - FROM) as f64);
         let mut add = |label: Label, resolved: f64, length: Bounds| {
             let none = FractionWithBar { value: 0.0, lower: 0.0, upper: 0.0 };
