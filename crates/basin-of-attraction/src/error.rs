@@ -211,17 +211,15 @@ pub enum Error {
         /// The smallest number accepted.
         fewest: usize,
     },
-    /// Random balls that cannot lie in the window, or that show no mixture.
+    /// Random balls that do not fit into the region, or have too few points.
     #[error(
-        "balls of radius {radius} with {points} points in {dimensions} dimensions: the radius must be positive and below half of the \
-         shortest side, {narrowest}; there must be at least 1 dimension and 2 points"
+        "balls of radius {radius} with {points} points: the radius must be positive and below half of the shortest side, \
+         {narrowest}; there must be at least 2 points"
     )]
     BadBalls {
-        /// Dimensions of the window.
-        dimensions: usize,
         /// The radius given.
         radius: f64,
-        /// The shortest side of the window; infinite without dimensions.
+        /// The shortest side of the region.
         narrowest: f64,
         /// Points in a ball.
         points: usize,

@@ -1,7 +1,7 @@
 //! The fractions of the basins in a label image, by two models of what lies between the middles of the pixels.
 
 use crate::bounds::Bounds;
-use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
+use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
 use crate::error::Error;
 use crate::label::Label;
 use crate::raster::LabelImage;
@@ -11,7 +11,7 @@ impl LabelImage {
     /// The fraction of each basin, with a 95 % interval, as if the middles of the pixels were independent random points.
     ///
     /// The fractions are of the pixels inside the region of interest. An undecided pixel may belong to any basin: the interval
-    /// begins at the lower end of [`wilson_interval`] without the undecided pixels, and ends at the upper end with all of them.
+    /// begins at the lower end of [`proportion_interval`] without the undecided pixels, and ends at the upper end with all of them.
     /// Pixels on a grid have smaller errors than random points where the basins are wider than pixels; the interval is then
     /// wider than it need be. A basin that repeats with the period of the grid breaks the model.
     ///
@@ -21,8 +21,8 @@ impl LabelImage {
     pub fn fractions_as_random_points(&self) -> Result<BTreeMap<Label, ConfidenceInterval>, Error> {
         let (counts, all, undecided) = self.inside()?;
         let fraction = |(label, found): (Label, usize)| {
-            let ConfidenceInterval { value, lower, .. } = wilson_interval(found, all)?;
-            let upper = wilson_interval(found + undecided, all)?.upper;
+            let ConfidenceInterval { value, lower, .. } = proportion_interval(found, all)?;
+            let upper = proportion_interval(found + undecided, all)?.upper;
             Ok((label, ConfidenceInterval { value, lower, upper }))
         };
         counts.into_iter().map(fraction).collect()

@@ -1,6 +1,6 @@
 //! Basin fractions of a region of any dimension from random points.
 
-use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
+use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
 use crate::error::Error;
 use crate::hyperrectangle::Hyperrectangle;
 use crate::label::Label;
@@ -62,7 +62,7 @@ impl LabelCounts {
 
     /// The fraction of a basin, with a 95 % interval, also of one without points.
     ///
-    /// An undecided point may belong to any basin. The interval begins at the lower end of [`wilson_interval`] for the points of the
+    /// An undecided point may belong to any basin. The interval begins at the lower end of [`proportion_interval`] for the points of the
     /// basin, and ends at the upper end for these and all undecided points. The value counts no undecided point.
     ///
     /// # Errors
@@ -70,8 +70,8 @@ impl LabelCounts {
     pub fn fraction(&self, label: Label) -> Result<ConfidenceInterval, Error> {
         let found = self.count(label);
         let open = if label.is_basin() { self.undecided } else { 0 };
-        let ConfidenceInterval { value, lower, .. } = wilson_interval(found, self.inside)?;
-        let upper = wilson_interval(found + open, self.inside)?.upper;
+        let ConfidenceInterval { value, lower, .. } = proportion_interval(found, self.inside)?;
+        let upper = proportion_interval(found + open, self.inside)?.upper;
         Ok(ConfidenceInterval { value, lower, upper })
     }
 }

@@ -1,6 +1,6 @@
 //! Final-state uncertainty in a region of any dimension: pairs of points at a distance ε, and the exponent of their fraction.
 
-use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
+use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
 use crate::error::Error;
 use crate::hyperrectangle::Hyperrectangle;
 use crate::label::Label;
@@ -23,14 +23,15 @@ pub struct PairCount {
 }
 
 impl PairCount {
-    /// The fraction of uncertain pairs, with a 95 % interval: from Wilson's lower end without the open pairs to the upper end with
+    /// The fraction of uncertain pairs, with a 95 % interval: from the lower end of [`proportion_interval`] without the open pairs to the upper end with
     /// all of them.
     ///
     /// # Errors
     /// [`Error::BadTrials`] without pairs.
     pub fn fraction(&self) -> Result<ConfidenceInterval, Error> {
-        let ConfidenceInterval { value, lower, .. } = wilson_interval(self.uncertain, self.pairs)?;
-        let upper = wilson_interval(self.uncertain + self.open, self.pairs)?.upper;
+        let ConfidenceInterval { value, lower, .. } =
+            proportion_interval(self.uncertain, self.pairs)?;
+        let upper = proportion_interval(self.uncertain + self.open, self.pairs)?.upper;
         Ok(ConfidenceInterval { value, lower, upper })
     }
 }
@@ -86,7 +87,7 @@ pub fn uncertain_pairs(
 }
 
 /// Direction `number` of a generator, uniform on the unit sphere: a vector of independent normal numbers, divided by its length.
-fn random_direction(random: &SplitMix64, number: u64, dimension: usize) -> Vec<f64> {
+pub(crate) fn random_direction(random: &SplitMix64, number: u64, dimension: usize) -> Vec<f64> {
     // Box and Muller: √(−2 ln u) cos 2πv is normal. 1 − u is in (0, 1].
     let normal = |k: u64| {
         let (u, v) = (random.uniform(2 * k), random.uniform(2 * k + 1));

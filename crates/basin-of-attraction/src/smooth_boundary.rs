@@ -20,18 +20,20 @@
 use crate::confidence_interval::{ConfidenceInterval, student_interval};
 use crate::entropy::entropy;
 use crate::error::Error;
+use crate::hyperrectangle::Hyperrectangle;
 use crate::interval::Interval;
 use crate::label::Label;
+use crate::region_uncertainty::random_direction;
 use crate::sampling::check_count;
 use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 /// Random balls at which a labelling is looked at.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RandomBalls {
-    /// The radius, in the unit of the window.
+    /// The radius, in the unit of the region.
     pub radius: f64,
     /// The number of balls.
     pub balls: usize,
@@ -80,89 +82,72 @@ impl BallEntropy {
 /// of thirty is normal enough for 93 %.
 const FEWEST_MIXED_BALLS: usize = 30;
 
-/// The mean entropy of random balls that lie in a window of any dimension, and meet a boundary.
+/// The mean entropy of random balls that lie in a region of any dimension, and meet a boundary.
 ///
-/// The middles are uniform in the part of the window that is a radius away from its sides. Radii should be much smaller than the
-/// radius of curvature of the boundary, and than the distance of its parts; that the answer does not change with half of the radius shows
-/// it.
+/// The middles are uniform in the part of the region that is a radius away from its sides. Radii should be much smaller than the
+/// radius of curvature of the boundary, and than the distance between its parts. If they are, half of the radius gives the same.
 ///
 /// ```
-/// use basin_of_attraction::{BoundaryShape, Interval, Label, RandomBalls, ball_entropy};
+/// use basin_of_attraction::{BoundaryShape, Hyperrectangle, Interval, Label, RandomBalls, ball_entropy};
 /// // The unit circle is smooth, and looks smooth with balls of a hundredth.
 /// let disc = |x: &[f64]| Label::from(x[0] * x[0] + x[1] * x[1] < 1.0);
-/// let balls = RandomBalls { radius: 0.01, balls: 40_000, points: 100, seed: 1 };
-/// let found = ball_entropy(&[Interval::new(-2.0, 2.0)?; 2], balls, disc)?;
-/// assert_eq!(found.shape(), BoundaryShape::LooksSmooth);
+/// let square = Hyperrectangle::new(vec![Interval::new(-2.0, 2.0)?; 2])?;
+/// let balls = RandomBalls { radius: 0.01, balls: 20_000, points: 100, seed: 1 };
+/// assert_eq!(ball_entropy(&square, balls, disc)?.shape(), BoundaryShape::LooksSmooth);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
 /// # Errors
-/// [`Error::BadBalls`] for a window without dimensions, a radius that is not positive or leaves no place for a ball, and fewer than two
-/// points in a ball; [`Error::TooManySamples`] for more than a billion points in all; [`Error::TooFewMixedBalls`] if fewer than
-/// 30 balls have more than one basin.
+/// [`Error::BadBalls`] for a radius that is not positive or leaves no place for a ball, and fewer than two points in a ball;
+/// [`Error::TooManySamples`] for more than a billion points in all; [`Error::TooFewMixedBalls`] if fewer than 30 balls have more than
+/// one basin.
 pub fn ball_entropy(
-    window: &[Interval],
+    region: &Hyperrectangle,
     balls: RandomBalls,
     label: impl Fn(&[f64]) -> Label + Sync,
 ) -> Result<BallEntropy, Error> {
     let RandomBalls { radius, balls: count, points, seed } = balls;
-    let narrowest = window.iter().map(Interval::length).fold(f64::INFINITY, f64::min);
-    if window.is_empty() || points < 2 || !(radius > 0.0 && 2.0 * radius < narrowest) {
-        return Err(Error::BadBalls { dimensions: window.len(), radius, narrowest, points });
+    let narrowest = region.sides().iter().map(Interval::length).fold(f64::INFINITY, f64::min);
+    if points < 2 || !(radius > 0.0 && 2.0 * radius < narrowest) {
+        return Err(Error::BadBalls { radius, narrowest, points });
     }
     check_count(count.saturating_mul(points))?;
-    let random = SplitMix64::from_seed(seed);
-    let entropies: Vec<Option<f64>> = (0..count)
-        .into_par_iter()
-        .map(|ball| {
-            let own = SplitMix64::from_seed(random.bits(ball as u64));
-            entropy_of_ball(window, radius, points, &own, &label)
-        })
-        .collect();
+    let inner = |side: &Interval| Interval::new(side.left + radius, side.right - radius);
+    let middles = Hyperrectangle::new(region.sides().iter().map(inner).collect::<Result<_, _>>()?)?;
+    let (places, seeds) = (SplitMix64::from_seed(seed), SplitMix64::from_seed(!seed));
+    let of_ball = |ball: usize| {
+        let middle = middles.random_point(&places, ball as u64);
+        let own = SplitMix64::from_seed(seeds.bits(ball as u64));
+        entropy_of_ball(&middle, radius, points, &own, &label)
+    };
+    let entropies: Vec<Option<f64>> = (0..count).into_par_iter().map(of_ball).collect();
     let left_out = entropies.iter().filter(|entropy| entropy.is_none()).count();
     let mixed: Vec<f64> =
         entropies.into_iter().flatten().filter(|entropy| *entropy > 0.0).collect();
     if mixed.len() < FEWEST_MIXED_BALLS {
-        return Err(Error::TooFewMixedBalls {
-            mixed: mixed.len(),
-            balls: count,
-            fewest: FEWEST_MIXED_BALLS,
-        });
+        let fewest = FEWEST_MIXED_BALLS;
+        return Err(Error::TooFewMixedBalls { mixed: mixed.len(), balls: count, fewest });
     }
-    let smooth = smooth_entropy_of_points(window.len(), points);
+    let smooth = smooth_entropy_of_points(region.dimension(), points);
     Ok(BallEntropy { mean: student_interval(&mixed)?, smooth, mixed: mixed.len(), left_out })
 }
 
 /// The entropy of the basins in one ball; `None` if a point is in no basin.
 fn entropy_of_ball(
-    window: &[Interval],
+    middle: &[f64],
     radius: f64,
     points: usize,
     random: &SplitMix64,
     label: &impl Fn(&[f64]) -> Label,
 ) -> Option<f64> {
-    let dimensions = window.len();
-    let middle: Vec<f64> = window
-        .iter()
-        .zip(0..)
-        .map(|(side, k)| side.left + radius + (side.length() - 2.0 * radius) * random.uniform(k))
-        .collect();
-    // Two numbers for each coordinate, and one for the distance.
-    let numbers = 2 * dimensions + 1;
+    let dimension = middle.len();
+    let directions = SplitMix64::from_seed(random.bits(0));
     let mut counts: BTreeMap<Label, usize> = BTreeMap::new();
-    let mut at = vec![0.0; dimensions];
-    for point in 0..points {
-        let first = (dimensions + numbers * point) as u64;
-        // Normal coordinates have a uniform direction; their length is replaced by one whose power D is uniform.
-        for (k, x) in at.iter_mut().enumerate() {
-            *x = normal(random, first + 2 * k as u64);
-        }
-        let length = at.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let distance =
-            pxfm::f_pow(random.uniform(first + 2 * dimensions as u64), 1.0 / dimensions as f64);
-        for (x, middle) in at.iter_mut().zip(&middle) {
-            *x = middle + radius * distance * *x / length;
-        }
+    for number in 1..=points as u64 {
+        // The volume within a distance grows with its power D: that power is uniform.
+        let distance = radius * pxfm::f_pow(random.uniform(number), 1.0 / dimension as f64);
+        let mut at = random_direction(&directions, number, dimension);
+        at.iter_mut().zip(middle).for_each(|(x, middle)| *x = middle + distance * *x);
         let label = label(&at);
         if !label.is_basin() {
             return None;
@@ -170,13 +155,6 @@ fn entropy_of_ball(
         *counts.entry(label).or_insert(0) += 1;
     }
     Some(entropy(counts.values().map(|&found| found as f64 / points as f64)))
-}
-
-/// A normal number from the uniform numbers k and k + 1 (Box and Muller 1958).
-fn normal(random: &SplitMix64, k: u64) -> f64 {
-    // 1 − u is in (0, 1], so that the logarithm is finite.
-    let size = (-2.0 * pxfm::f_log(1.0 - random.uniform(k))).sqrt();
-    size * pxfm::f_cos(TAU * random.uniform(k + 1))
 }
 
 /// The boundary entropy of a ball that a smooth boundary cuts, in this number of dimensions: 1/2, 0.4395, 0.3961, … (Puy et al. 2021).

@@ -1,7 +1,7 @@
 //! The fraction of starts whose fate a perturbation ε changes.
 
 use crate::bounds::Bounds;
-use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
+use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
 use crate::error::Error;
 use crate::interval::{Interval, IntervalSet};
 use crate::interval_basins::IntervalBasins;
@@ -11,7 +11,7 @@ use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 
 /// The fraction of starts x whose label differs from that of x + ε or of x − ε (Grebogi, McDonald, Ott, Yorke
-/// 1983), with Wilson's 95 % interval.
+/// 1983), with a 95 % interval ([`proportion_interval`]).
 ///
 /// `count` uniform random starts in `window` are tried. For small ε the fraction grows like a power of ε. Its
 /// exponent is the uncertainty exponent, which [`power_law`](crate::power_law) fits.
@@ -35,7 +35,7 @@ pub fn uncertain_fraction(
         let here = label(x);
         label(x + epsilon) != here || label(x - epsilon) != here
     };
-    wilson_interval((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
+    proportion_interval((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
 }
 
 /// An error for a perturbation that is not positive and finite.
