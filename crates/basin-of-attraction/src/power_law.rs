@@ -13,7 +13,7 @@
 //! an oscillation then has little effect on it. Its interval adds, as independent errors,
 //!
 //! ```text
-//!   h² = (t s)² + d²
+//!   h² = (t s)² + (√2 d)²
 //! ```
 //!
 //! - t s is Student's interval over replicates. A replicate v_j enters by its effect on the slope, Σ c_j v_j/m_j, where m_j is the
@@ -21,14 +21,16 @@
 //! - d is the largest difference between the slopes of five halves of the range, from the coarse half to the fine half.
 //!
 //! Why d bounds oscillation: over half the range the slope is wrong by more than over the whole range, and the five halves see
-//! different phases. Why d bounds drift: let the distance of the slope from its limit fall by a factor ρ over a quarter of the range.
-//! The coarse, the middle and the fine half are wrong by δ/ρ, δ and δρ, and the whole range by about δ. So d = δ/ρ − δρ ≥ δ if
-//! ρ ≤ (√5 − 1)/2. A drift that falls more slowly, and that is larger than [`STEADY`] and than chance, gives no interval.
+//! different phases. Few scales sample an oscillation coarsely: of 5574 intervals for random sets, ranges and 8 to 40 scales 4 missed.
+//!
+//! Why √2 d bounds drift: let the distance of the slope from its limit at least halve over half the range, so that it falls by a
+//! factor ρ ≤ 1/√2 over a quarter. The coarse, the middle and the fine half are wrong by δ/ρ, δ and δρ, and the whole range by about
+//! δ. So d = δ/ρ − δρ ≥ δ/√2. A drift that falls more slowly, and that is larger than [`STEADY`] and than chance, gives no interval.
 
 use crate::confidence_interval::{ConfidenceInterval, student_quantile};
 use crate::error::Error;
-use crate::golden_section::INVERSE_GOLDEN_RATIO;
 use crate::least_squares::slope_coefficients;
+use std::f64::consts::{FRAC_1_SQRT_2, LN_10};
 use thiserror::Error;
 
 /// A fit of value ∝ scale^exponent.
@@ -264,7 +266,7 @@ impl Measured {
         if replicates < FEWEST_REPLICATES {
             return Err(NoInterval::FewReplicates { replicates });
         }
-        let decades = (self.places[scales - 1] - self.places[0]) / std::f64::consts::LN_10;
+        let decades = (self.places[scales - 1] - self.places[0]) / LN_10;
         if decades < FEWEST_DECADES * (1.0 - ROUNDING_OF_DECADES) {
             return Err(NoInterval::ShortRange { decades });
         }
@@ -281,8 +283,8 @@ impl Measured {
             coarse.coefficients.iter().zip(&fine.coefficients).map(|(a, b)| a - b).collect();
         let (late, early) = (middle.value - fine.value, coarse.value - middle.value);
         let large = (late + early).abs() > STEADY.max(self.chance(&difference));
-        // A drift settles if its second part is a smaller one than its first, or goes the other way.
-        if large && late * early.signum() > INVERSE_GOLDEN_RATIO * early.abs() {
+        // A drift settles if its second part is at most 1/√2 of its first, or goes the other way.
+        if large && late * early.signum() > FRAC_1_SQRT_2 * early.abs() {
             return Err(NoInterval::Drifts {
                 coarse: coarse.value,
                 middle: middle.value,
@@ -293,7 +295,7 @@ impl Measured {
         let spread =
             slopes().fold(f64::NEG_INFINITY, f64::max) - slopes().fold(f64::INFINITY, f64::min);
         let chance = self.chance(&whole.coefficients);
-        let half = (chance * chance + spread * spread).sqrt();
+        let half = (chance * chance + 2.0 * spread * spread).sqrt();
         let value = whole.value;
         Ok(ConfidenceInterval { value, lower: value - half, upper: value + half })
     }
@@ -336,7 +338,7 @@ mod tests {
         assert!(
             matches!(reason(&measured(law, &scales(12, 4))), NoInterval::ShortRange { decades } if decades < 2.76)
         );
-        // Seven scales in the first decade, and one three decades away.
+        // Seven scales in the first decade, and two far away.
         let mut uneven = scales(7, 10);
         uneven.extend([1e-4, 1e-5]);
         assert!(matches!(
