@@ -256,7 +256,6 @@ impl Measured {
     fn chance(&self, coefficients: &[f64]) -> f64 {
         let count = self.errors.len() as f64;
         let effect = |own: &Vec<f64>| coefficients.iter().zip(own).map(|(c, e)| c * e).sum::<f64>();
-        // The errors at each scale have the mean 0, and so have their effects.
         let squares: f64 = self.errors.iter().map(|own| effect(own) * effect(own)).sum();
         student_quantile(self.errors.len() - 1) * (squares / (count - 1.0) / count).sqrt()
     }
@@ -316,7 +315,6 @@ mod tests {
         (0..10).map(|r| (0..scales.len()).map(|k| value(r, k)).collect()).collect()
     }
 
-    /// Scales from 1 down, `per_decade` in each decade.
     fn scales(count: i32, per_decade: i32) -> Vec<f64> {
         (0..count).map(|k| pxfm::f_exp10(-f64::from(k) / f64::from(per_decade))).collect()
     }
