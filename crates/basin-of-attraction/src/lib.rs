@@ -26,6 +26,7 @@
 //! | [`Hyperrectangle`], [`region_fractions`] | regions of any dimension, and the fractions of the basins in them |
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
+//! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
 //! | [`LabelImage::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
@@ -51,14 +52,15 @@
 //! A slope between two scales is not a dimension. [`PowerLaw`] shows all local slopes and warns if they drift.
 //!
 //! # Not here
-//! - Maps of more than one variable; but a raster takes any labelling of the plane.
-//! - The search for attractors.
+//! - Basins as certain sets for maps of more than one variable: regions of any dimension are sampled.
+//! - Integrators of flows: a step of a flow is a closure.
 //!
 //! # References
 //! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent;
 //! A. Daza et al., Sci. Rep. 6, 31416 (2016), basin entropy; A. Daza, A. Wagemakers, M. A. F. Sanjuán,
 //! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
-//! proportions; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, SplitMix64.
+//! proportions; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers,
+//! Chaos 32, 023104 (2022), attractors by recurrences.
 
 mod basin_search;
 mod bounds;
@@ -80,6 +82,7 @@ mod preimage;
 mod preimage_tree;
 mod probes;
 mod raster;
+mod recurrences;
 mod refinement;
 mod region_boxes;
 mod region_fractions;
@@ -87,6 +90,7 @@ mod region_uncertainty;
 mod sampling;
 mod scalar_map;
 mod split_mix;
+mod state_grid;
 mod uncertainty;
 mod undecided_reason;
 mod wada;
@@ -108,6 +112,7 @@ pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
 pub use probes::{TrapGround, check_branches, check_trap};
 pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
+pub use recurrences::{Attractor, Attractors, RecurrenceLimits, Unmatched, UnmatchedReason};
 pub use refinement::{Refinement, StopReason};
 pub use region_boxes::region_boxes;
 pub use region_fractions::{LabelCounts, region_fractions};
