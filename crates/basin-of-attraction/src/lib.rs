@@ -27,7 +27,7 @@
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
-//! | [`LabelImage::wada`] | whether all basins share one boundary |
+//! | [`LabelImage::wada`], [`IntervalBasins::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
 //!
@@ -127,4 +127,4 @@ pub use scalar_map::{Image, ScalarMap};
 pub use split_mix::SplitMix64;
 pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;
-pub use wada::WadaTest;
+pub use wada::{LineWadaTest, WadaTest};

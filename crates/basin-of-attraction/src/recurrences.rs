@@ -280,7 +280,8 @@ impl Attractors {
         let dimension = self.grid.dimension() as u64;
         let stays = |test: usize| {
             // Every second point is beside the cells: from there a slow passage shows itself first.
-            let among = if test % 2 == 0 && !beside.is_empty() { &beside } else { &inside };
+            let among =
+                if test.is_multiple_of(2) && !beside.is_empty() { &beside } else { &inside };
             let first = test as u64 * (dimension + 1);
             let pick = (random.uniform(first) * among.len() as f64) as usize;
             let Some(&cell) = among.get(pick) else { return false };
