@@ -164,6 +164,35 @@ pub enum Error {
         /// The ε given.
         epsilon: f64,
     },
+    /// A grid of state space that has no cells, or too many to number.
+    #[error(
+        "{cells} cells along each of {dimension} sides: there must be at least 1 cell, at most {most} sides, and fewer than 2⁶⁴ \
+         cells in all"
+    )]
+    BadStateGrid {
+        /// Cells along a side.
+        cells: usize,
+        /// Sides.
+        dimension: usize,
+        /// The largest number of sides.
+        most: usize,
+    },
+    /// A point of another dimension than the region.
+    #[error("a point of {dimension} coordinates in a region of {expected}: give one for each side")]
+    WrongDimension {
+        /// Coordinates of the point.
+        dimension: usize,
+        /// Sides of the region.
+        expected: usize,
+    },
+    /// More attractors than labels.
+    #[error(
+        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take fewer cells"
+    )]
+    TooManyAttractors {
+        /// The largest number.
+        most: usize,
+    },
     /// A region without coordinates.
     #[error("a region has at least one side")]
     NoDimension,

@@ -27,7 +27,8 @@
 //! | [`Hyperrectangle`], [`region_fractions`] | regions of any dimension, and the fractions of the basins in them |
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
-//! | [`LabelImage::wada`] | whether all basins share one boundary |
+//! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
+//! | [`LabelImage::wada`], [`IntervalBasins::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
 //!
@@ -52,8 +53,8 @@
 //! A slope between two scales is not a dimension. [`PowerLaw`] has all local slopes, and no interval if they drift.
 //!
 //! # Not here
-//! - Maps of more than one variable; but a raster takes any labelling of the plane.
-//! - The search for attractors.
+//! - Basins as certain sets for maps of more than one variable: regions of any dimension are sampled.
+//! - Integrators of flows: a step of a flow is a closure.
 //!
 //! # References
 //! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent;
@@ -61,7 +62,8 @@
 //! Sci. Numer. Simul. 95, 105588 (2021), entropy of balls on a smooth boundary; A. Daza, A. Wagemakers, M. A. F. Sanjuán,
 //! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
 //! proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities; T. Gasser,
-//! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, SplitMix64.
+//! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood,
+//! OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by recurrences.
 
 mod basin_search;
 mod bounds;
@@ -85,6 +87,7 @@ mod preimage;
 mod preimage_tree;
 mod probes;
 mod raster;
+mod recurrences;
 mod refinement;
 mod region_boxes;
 mod region_fractions;
@@ -93,6 +96,7 @@ mod sampling;
 mod scalar_map;
 mod smooth_boundary;
 mod split_mix;
+mod state_grid;
 mod uncertainty;
 mod undecided_reason;
 mod wada;
@@ -118,6 +122,7 @@ pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
 pub use probes::{TrapGround, check_branches, check_trap};
 pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
+pub use recurrences::{Attractor, Attractors, RecurrenceLimits, Unmatched, UnmatchedReason};
 pub use refinement::{Refinement, StopReason};
 pub use region_boxes::region_boxes;
 pub use region_fractions::{LabelCounts, region_fractions};
@@ -134,4 +139,4 @@ pub use smooth_boundary::{
 pub use split_mix::SplitMix64;
 pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;
-pub use wada::WadaTest;
+pub use wada::{LineWadaTest, WadaTest};

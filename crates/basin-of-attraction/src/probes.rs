@@ -26,7 +26,7 @@ pub enum TrapGround {
 const END_ULPS: f64 = 4.0;
 
 /// Points at which a trap is tested where no branch covers it. A part of one hundredth of the trap from which orbits leave is
-/// missed by a golden rotation of 128 points only if it lies between neighbours, at most 1/79 of the trap apart. More points see
+/// missed by a golden rotation of 128 points only if it lies between neighbours, at most 1/76 of the trap apart. More points see
 /// narrower parts and take more values of the map.
 const TRAP_POINTS: usize = 128;
 
@@ -74,7 +74,7 @@ pub fn check_trap(
     if branches.len() as f64 * slack >= inner.length() - covered && covered > 0.0 {
         return Ok(TrapGround::Image);
     }
-    let (mut stops, mut points) = (None, 0);
+    let (mut stops, mut valued, mut tested) = (None, 0, 0);
     for k in 0..TRAP_POINTS {
         let turn = (k as f64 + 0.5) * INVERSE_GOLDEN_RATIO;
         let at = left + (right - left) * (turn - turn.floor());
@@ -84,15 +84,16 @@ pub fn check_trap(
         }
         match map.image(at) {
             Image::Point(image) if !stays(image) => return refused(at, Some(image)),
-            Image::Point(_) => points += 1,
+            Image::Point(_) => valued += 1,
             Image::Stops => stops = Some(at),
-            Image::Undecided => {}
+            Image::Undecided => continue,
         }
+        tested += 1;
     }
     match stops {
         // Some orbits stop in the interval, and others do not: it has no single fate.
-        Some(at) if points > 0 => refused(at, None),
-        _ => Ok(TrapGround::Probes { points: TRAP_POINTS }),
+        Some(at) if valued > 0 => refused(at, None),
+        _ => Ok(TrapGround::Probes { points: tested }),
     }
 }
 

@@ -159,7 +159,8 @@ pub struct LegendEntry {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadRaster`] as for [`Grid::pixels`]; [`Error::Interrupted`] if `progress` stops the work.
+/// [`Error::BadRaster`] as for [`Grid::pixels`]; [`Error::BadInterval`] for a range that is reversed or not finite;
+/// [`Error::Interrupted`] if `progress` stops the work.
 pub fn raster<C>(
     grid: Grid,
     prepare: impl Fn(f64) -> C + Sync,
@@ -205,6 +206,9 @@ pub fn raster_by_strips<E: From<Error> + Send>(
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, E> {
     let Grid { columns, rows, .. } = grid;
+    for range in [grid.x, grid.y] {
+        Interval::new(range.left, range.right)?;
+    }
     let pixels = grid.pixels()?;
     let ys: Vec<f64> = (0..rows).map(|row| grid.y_at(row)).collect();
     let xs: Vec<f64> = (0..columns).map(|column| grid.x_at(column)).collect();
@@ -311,6 +315,15 @@ mod tests {
         let stop = |done| if done >= 5 { Break(()) } else { Continue(()) };
         let error = raster(grid(), |_| (), |(), _| Label::from(0), stop).unwrap_err();
         assert!(matches!(error, Error::Interrupted { columns: 64, .. }));
+    }
+
+    #[test]
+    fn a_reversed_range_is_an_error() {
+        for (left, right) in [(1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+            let bad = Grid { y: Interval { left, right }, ..grid() };
+            let found = raster(bad, |_| (), |(), _| Label::from(0), |_| Continue(()));
+            assert!(matches!(found, Err(Error::BadInterval { .. })));
+        }
     }
 
     #[test]

@@ -4,8 +4,10 @@
 //! and the union of all others is the same for each basin.
 
 use crate::error::Error;
+use crate::interval_basins::{IntervalBasins, LabelledInterval};
 use crate::label::Label;
 use crate::raster::LabelImage;
+use crate::uncertainty::check_perturbation;
 
 /// The largest distance between the boundaries of the basins.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -114,6 +116,79 @@ impl LabelImage {
         ]
         .into_iter()
         .flatten()
+    }
+}
+
+/// The largest distance between the boundaries of basins on a line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LineWadaTest {
+    /// The distance tested.
+    pub distance: f64,
+    /// Boundary points of one basin that are farther than `distance` from every boundary point of another, as a fraction of the
+    /// boundary points of the first: the largest over all pairs of basins. Zero means that the Wada property holds at this distance.
+    pub far_fraction: f64,
+    /// The undecided length over that of the window. A boundary that lies in an undecided gap is not seen.
+    pub undecided_fraction: f64,
+}
+
+impl IntervalBasins {
+    /// Compares the boundaries of all pairs of basins, as [`LabelImage::wada`] does for images. A boundary point of a basin is an end
+    /// that it shares with another basin, or a gap of at most `distance` between the two: the middle of the gap.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Error, Interval, Label, Refinement, interval_basins};
+    /// // Three intervals in a row: the first and the third share no boundary.
+    /// let part = |left: f64, right: f64, n: u8| Ok((Interval::new(left, right)?, Label::from(n)));
+    /// let known = [part(0.0, 1.0, 1)?, part(1.0 + 1e-12, 2.0, 2)?, part(2.0 + 1e-12, 3.0, 3)?];
+    /// let (no_map, window) = (|_: f64| None, Interval::new(0.0, 3.0)?);
+    /// let row = interval_basins(&no_map, &known, &[], window, Refinement::default())?;
+    /// assert!(row.wada(0.5)?.far_fraction > 0.0 && row.wada(1.5)?.far_fraction == 0.0);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::TooFewLabels`] for fewer than three basins; [`Error::BadPerturbation`] unless `distance` is positive and finite.
+    pub fn wada(&self, distance: f64) -> Result<LineWadaTest, Error> {
+        check_perturbation(distance)?;
+        let labels: Vec<Label> =
+            self.labels().into_iter().filter(|label| label.is_basin()).collect();
+        if labels.len() < 3 {
+            return Err(Error::TooFewLabels { labels: labels.len() });
+        }
+        let decided = || self.intervals().iter().filter(|part| part.label.is_basin());
+        let between = |(one, next): (&LabelledInterval, &LabelledInterval)| {
+            let (before, after) = (one.interval.right, next.interval.left);
+            let seen = one.label != next.label && after - before <= distance;
+            seen.then_some((before + 0.5 * (after - before), [one.label, next.label]))
+        };
+        // From left to right, each with the two basins that it separates.
+        let boundary: Vec<(f64, [Label; 2])> =
+            decided().zip(decided().skip(1)).filter_map(between).collect();
+        let own = |label: Label| -> Vec<f64> {
+            boundary
+                .iter()
+                .filter(|(_, sides)| sides.contains(&label))
+                .map(|point| point.0)
+                .collect()
+        };
+        let of_basins: Vec<Vec<f64>> = labels.into_iter().map(own).collect();
+        let mut far_fraction = 0.0f64;
+        for (one, points) in of_basins.iter().enumerate() {
+            for (_, others) in of_basins.iter().enumerate().filter(|(other, _)| *other != one) {
+                let is_far = |x: &&f64| {
+                    let next = others.partition_point(|other| other < *x);
+                    let near = [next.checked_sub(1), Some(next)].into_iter().flatten();
+                    !near
+                        .filter_map(|at| others.get(at))
+                        .any(|other| (other - **x).abs() <= distance)
+                };
+                // A basin among undecided gaps has no boundary with other basins. The 1 guards the division.
+                let far = points.iter().filter(is_far).count() as f64 / points.len().max(1) as f64;
+                far_fraction = far_fraction.max(far);
+            }
+        }
+        let undecided_fraction = self.undecided() / self.window().length();
+        Ok(LineWadaTest { distance, far_fraction, undecided_fraction })
     }
 }
 

@@ -6,8 +6,8 @@
 mod cantor;
 
 use basin_of_attraction::{
-    BoxCount, Branch, Fate, Grid, IntervalBasins, Label, LabelImage, PreimageTree, Refinement,
-    ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
+    BoxCount, Branch, Error, Fate, Grid, IntervalBasins, Label, LabelImage, PreimageTree,
+    Refinement, ResidualSet, TrapSet, classify, entropy, equally_spaced_fractions, geometric_limit,
     interval_basins, occupied_boxes, power_law, raster, uncertain_fraction,
 };
 use cantor::{THIRD, cantor_label, interval};
@@ -137,7 +137,16 @@ fn fractions_and_boxes_of_a_cantor_basin_of_three_colours_are_exact() {
         // An entropy above ln 2 shows that the boundary is fractal.
         assert!(count.boundary_entropy().unwrap() > 2f64.ln());
     }
-    // All three basins share one boundary.
+    // All three basins share one boundary: on the line to the length of three stages, in the image to four pixels.
+    let three = coloured(&levels, 3);
+    for k in 1..=8 {
+        assert_eq!(three.wada(3f64.powi(-k)).unwrap().far_fraction, 0.0, "3^-{k}");
+    }
+    // At the width of the undecided gaps the intervals of the last stage separate the boundaries.
+    let deep = three.wada(1.01 * 3f64.powi(-19)).unwrap();
+    assert!(deep.far_fraction > 0.5 && deep.undecided_fraction < 1e-3, "{deep:?}");
+    assert!(matches!(coloured(&levels, 2).wada(0.1), Err(Error::TooFewLabels { labels: 2 })));
+    assert!(matches!(three.wada(f64::NAN), Err(Error::BadPerturbation { .. })));
     let pixels = 729;
     let window = interval(0.0, 1.0);
     let grid = Grid { x: window, y: window, columns: pixels, rows: 3 };

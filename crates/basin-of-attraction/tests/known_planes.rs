@@ -2,14 +2,17 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-mod cantor;
-
 use basin_of_attraction::{
-    Branch, Grid, Hyperrectangle, Label, Refinement, entropy, interval_basins,
+    Branch, Grid, Hyperrectangle, Interval, Label, Refinement, entropy, interval_basins,
     interval_basins_from_known, raster, region_fractions,
 };
-use cantor::{THIRD, interval};
 use std::ops::ControlFlow::Continue;
+
+const THIRD: f64 = 1.0 / 3.0;
+
+fn interval(left: f64, right: f64) -> Interval {
+    Interval::new(left, right).unwrap()
+}
 
 /// The label of a gap of the Cantor set is its stage n = 1, 2, …: there are countably many basins, of length (1/3)(2/3)^(n−1).
 #[test]
