@@ -366,7 +366,7 @@ mod tests {
         let law =
             |x: f64| pxfm::f_pow(x, 0.6) * (1.0 + 0.1 * pxfm::f_sin(6.0 * pxfm::f_log(x) + 1.0));
         let fit = power_law(&measured(law, &scales(25, 7))).unwrap();
-        let interval = fit.interval.clone().unwrap();
+        let interval = fit.interval.unwrap();
         assert!((fit.exponent - 0.6).abs() > 1e-3, "{fit:?}");
         assert!(interval.covers(0.6) && interval.half_width() < 0.1, "{fit:?}");
     }
