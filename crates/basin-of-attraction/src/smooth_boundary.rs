@@ -59,7 +59,8 @@ pub struct BallEntropy {
 /// What random balls of one radius say about a boundary.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundaryShape {
-    /// The mean entropy is that of a smooth boundary, within its interval.
+    /// The mean entropy is that of a smooth boundary, within its interval. A fractal boundary may have nearly the same: the Cantor basin of
+    /// two colours on the line has 0.510 ± 0.008 with 1600 mixed balls, where a smooth boundary has 0.505.
     LooksSmooth,
     /// The mean entropy differs from that of a smooth boundary. The boundary is folded, or several boundaries lie close together, at
     /// the scale of the balls. It is fractal only if this holds at every smaller radius too: smooth stripes that are thinner than
