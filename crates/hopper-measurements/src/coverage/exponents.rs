@@ -45,7 +45,7 @@ impl Set<'_> {
         &self,
         ranges: &str,
         trials: u64,
-        range: impl Fn(u64) -> Range + Sync,
+        range: impl Fn(u64) -> Range + Send + Sync,
     ) -> Result<Row, Error> {
         let scene = format!("{}, {ranges}", self.name);
         repeat("power_law", scene, Promise::Probable, trials, |trial| {

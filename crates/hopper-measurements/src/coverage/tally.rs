@@ -83,10 +83,9 @@ pub(super) fn repeat(
     scene: String,
     promise: Promise,
     trials: u64,
-    one: impl Fn(u64) -> Result<Option<Trial>, Error> + Sync,
+    one: impl Fn(u64) -> Result<Option<Trial>, Error> + Send + Sync,
 ) -> Result<Row, Error> {
-    let all: Vec<Option<Trial>> =
-        (0..trials).into_par_iter().map(|seed| one(seed)).collect::<Result<_, _>>()?;
+    let all: Vec<Option<Trial>> = (0..trials).into_par_iter().map(one).collect::<Result<_, _>>()?;
     let given: Vec<Trial> = all.into_iter().flatten().collect();
     let sum = |of: &dyn Fn(&Trial) -> f64| given.iter().map(of).sum::<f64>();
     let half_widths = sum(&|trial| trial.half_width);
@@ -111,7 +110,7 @@ mod tests {
     fn a_row_holds_from_93_of_100_on_and_a_certain_one_at_all() {
         let row = |promise, every: u64| {
             let one = |seed: u64| {
-                let truth = if seed % every == 0 { 2.0 } else { 0.5 };
+                let truth = if seed.is_multiple_of(every) { 2.0 } else { 0.5 };
                 let interval = ConfidenceInterval { value: 0.5, lower: 0.0, upper: 1.0 };
                 Ok((seed != 5).then(|| Trial::of(interval, truth)))
             };
