@@ -92,10 +92,9 @@ mod tests {
     #[test]
     fn boxes_of_known_sets_are_counted() {
         let third = 1.0 / 3.0;
-        // Boxes of 3⁻ⁿ, laid a little off the triadic grid.
-        for n in 1..8 {
-            let size = pxfm::f_pow(third, f64::from(n));
-            assert_eq!(cantor_boxes((third, third), size, -0.4 * size), f64::from(1 << n));
+        // Five boxes of 0.2 from −0.02 hold 0, 2/9, 2/3, 7/9 + 1/81 and 1; the box of 0.38 … 0.58 is in the middle gap.
+        for (size, x, boxes) in [(0.6, -0.05, 2.0), (0.4, -0.05, 3.0), (0.2, -0.02, 5.0)] {
+            assert_eq!(cantor_boxes((third, third), size, x), boxes);
         }
         assert!((cantor_dimension((third, third)) - 0.630_929_753_571_457).abs() < 1e-14);
         assert_eq!(cantor_boxes((0.5, 0.25), 2.0, -1.0), 1.0);
