@@ -97,7 +97,7 @@ mod tests {
             assert_eq!(cantor_boxes((third, third), size, x), boxes);
         }
         assert!((cantor_dimension((third, third)) - 0.630_929_753_571_457).abs() < 1e-14);
-        assert_eq!(cantor_boxes((0.5, 0.25), 2.0, -1.0), 1.0);
+        assert_eq!(cantor_boxes((0.5, 0.25), 2.0, -0.5), 1.0);
         // {1, 1/8, 1/27, …, 0}: boxes of 0.1 from 0 hold 1, 1/8, and the rest.
         assert_eq!(cube_boxes(0.1, 0.0), 3.0);
         assert_eq!(cube_boxes(1e-3, 0.0), f64::from(u8::try_from(brute_force(1e-3)).unwrap()));
