@@ -23,7 +23,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 14] = [
+const TASKS: [Task; 15] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -57,6 +57,11 @@ const TASKS: [Task; 14] = [
     Task {
         name: "check-bounds",
         about: "Compare every error bound with the actual error, on millions of hops",
+        package: MEASUREMENTS,
+    },
+    Task {
+        name: "interval-coverage",
+        about: "Measure how often every interval of basin-of-attraction contains the true number",
         package: MEASUREMENTS,
     },
     Task {

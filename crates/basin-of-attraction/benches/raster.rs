@@ -3,7 +3,7 @@
 #![allow(missing_docs)]
 
 use basin_of_attraction::{
-    Branch, Grid, Interval, TrapSet, Traps, classify, preimage_levels, raster,
+    Branch, Grid, Interval, Label, TrapSet, Traps, classify, preimage_levels, raster,
 };
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::ops::ControlFlow;
@@ -14,15 +14,15 @@ const fn interval(left: f64, right: f64) -> Interval {
 
 fn tools(criterion: &mut Criterion) {
     let grid = Grid { x: interval(0.1, 1.0), y: interval(-0.9, 0.0), columns: 64, rows: 64 };
-    let traps = TrapSet::new(vec![(interval(-1e-3, 0.0), 1)]);
+    let traps = TrapSet::new(vec![(interval(-1e-3, 0.0), Label::from(1))]);
     criterion.bench_function("raster 64 × 64 of x + c x²", |bencher| {
         bencher.iter(|| {
             // The label contains the number of steps, so that the compiler cannot leave out a part of the orbit.
             let label = |&c: &f64, x: f64| {
                 let map = |x: f64| Some(x + c * x * x);
-                traps.as_ref().map_or(0, |traps| {
-                    u16::from(classify(&map, traps, x, 10_000).1 % 2 == 0)
-                        + traps.label(x).unwrap_or(0)
+                traps.as_ref().map_or(Label::UNDECIDED, |traps| {
+                    let even = Label::from(classify(&map, traps, x, 10_000).1 % 2 == 0);
+                    traps.label(x).unwrap_or(even)
                 })
             };
             raster(grid, |c| c, label, |_| ControlFlow::Continue(()))

@@ -49,6 +49,30 @@ impl Branch {
         (left < right).then_some(Interval { left, right })
     }
 
+    /// The first and the last point of the branch with this value; `None` if the branch does not reach it.
+    pub(crate) fn points_with(&self, map: &impl ScalarMap, value: f64) -> Option<(f64, f64)> {
+        let first = |up: bool| {
+            self.first(
+                map,
+                value,
+                move |difference| {
+                    if up { difference >= 0.0 } else { difference <= 0.0 }
+                },
+            )
+        };
+        let last = |up: bool| {
+            self.last_before(
+                map,
+                value,
+                move |difference| {
+                    if up { difference > 0.0 } else { difference < 0.0 }
+                },
+            )
+        };
+        let up = self.increases();
+        Some((first(up)?, last(up)?))
+    }
+
     /// The first point of the branch at which `holds` is true of value − `aim`; `None` if it is true nowhere.
     /// `holds` must be true from that point on.
     fn first(&self, map: &impl ScalarMap, aim: f64, holds: impl Fn(f64) -> bool) -> Option<f64> {
@@ -188,12 +212,14 @@ const MOST_SAMPLES: usize = 100_000_000;
 /// them.
 ///
 /// # Errors
-/// [`Error::TooFewSamples`] for fewer than three samples, [`Error::TooManySamples`] for more than a hundred million.
+/// [`Error::TooFewSamples`] for fewer than three samples, [`Error::TooManySamples`] for more than a hundred million,
+/// [`Error::BadInterval`] for a window that is reversed or not finite.
 pub fn monotone_branches(
     map: &impl ScalarMap,
     window: Interval,
     samples: usize,
 ) -> Result<Vec<Branch>, Error> {
+    Interval::new(window.left, window.right)?;
     if samples < 3 {
         return Err(Error::TooFewSamples { samples });
     }

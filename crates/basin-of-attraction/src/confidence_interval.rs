@@ -4,8 +4,9 @@ use crate::error::Error;
 
 /// An estimate from a random sample, with an interval that is meant to contain the true number in 95 of 100 samples.
 ///
-/// The constructor states the assumptions. Wilson's interval contains the number in about 95 % of the samples: the share
-/// varies with the proportion, because counts are whole numbers. Student's interval does so for normal replicates.
+/// The constructor states the assumptions, and how often the interval contains the number: counts are whole numbers, so that an
+/// interval of a proportion cannot do so in exactly 95 % of the samples. `docs/basins.md` has the measured share for every interval
+/// of this crate.
 ///
 /// For bounds that need no probability see [`Bounds`](crate::Bounds).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,11 +32,13 @@ impl ConfidenceInterval {
 }
 
 /// The two-sided 95 % quantile of the normal distribution: Φ(1.95996…) = 0.975.
-const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
+pub(crate) const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// The proportion p of successes in independent trials, with Wilson's interval (1927).
 ///
-/// The interval stays inside [0, 1]. Its coverage is near 95 % for p near 0 or 1 too.
+/// The interval stays inside [0, 1]. It contains p in about 95 % of the samples if about ten successes and ten failures or more are
+/// expected. For rarer successes it does so less often, at worst in 84 %, near p = 0.18/n:
+/// [`proportion_interval`] does not have this gap.
 ///
 /// ```
 /// let fraction = basin_of_attraction::wilson_interval(0, 100)?;
@@ -60,6 +63,77 @@ pub fn wilson_interval(successes: usize, trials: usize) -> Result<ConfidenceInte
     let lower = if successes == 0 { 0.0 } else { end(center - half) };
     let upper = if successes == trials { 1.0 } else { end(center + half) };
     Ok(ConfidenceInterval { value: fraction, lower, upper })
+}
+
+/// From this number of trials on [`proportion_interval`] is no longer than Wilson's, and still contains p in at least 93 % of the
+/// samples, for every p. With fewer trials and that length it would be down to 92 %.
+pub(crate) const ENOUGH_TRIALS: usize = 100;
+
+/// The probability with which the number of successes may be at least the one found, if p is the lower end. 0.035 was chosen: from
+/// 0.025 to 0.05 the smallest coverage over p, for 100 to 800 trials, is largest with it.
+const RARE: f64 = 0.035;
+
+/// The proportion p of successes in independent trials, with an interval for rare successes too.
+///
+/// This is Wilson's interval, moved towards fewer successes where its lower end is too high. Wilson's lower end for one success in n
+/// trials is 0.18/n; but for p just below it one success has the probability 0.16. Here the lower end is at most the p for which
+/// as many successes, or more, have the probability 0.035. For few failures it is the reverse. From 100 trials on the upper end
+/// moves as well, so that the interval is as long as Wilson's. For every p and every number of trials that was tried the interval
+/// contains p in at least 93 % of the samples: the tests sum the binomial distribution.
+///
+/// The interval holds too if the trials have different probabilities with the mean p, as those of stratified points have (Hoeffding
+/// 1956: their number of successes lies farther from its mean less often).
+///
+/// ```
+/// let fraction = basin_of_attraction::proportion_interval(1, 1000)?;
+/// assert!(fraction.covers(5e-5) && !basin_of_attraction::wilson_interval(1, 1000)?.covers(5e-5));
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::BadTrials`] without trials, or with more successes than trials.
+pub fn proportion_interval(successes: usize, trials: usize) -> Result<ConfidenceInterval, Error> {
+    let ConfidenceInterval { value, lower, upper } = wilson_interval(successes, trials)?;
+    let failures = trials - successes;
+    // Of both moves at most one is not 0, except for few trials.
+    let down = lower - rare_end(successes, trials, lower);
+    let up = 1.0 - upper - rare_end(failures, trials, 1.0 - upper);
+    let shared = if trials >= ENOUGH_TRIALS { 1.0 } else { 0.0 };
+    Ok(ConfidenceInterval {
+        value,
+        lower: lower - down + shared * up,
+        upper: upper + up - shared * down,
+    })
+}
+
+/// From this number of successes on Wilson's lower end is below the other one, by a margin: the two meet at about 20. Beyond it the sum
+/// of the binomial distribution is not needed.
+const MANY_SUCCESSES: usize = 40;
+
+/// The smaller one of `wilson` and of the p for which at least `successes` of the trials succeed with the probability [`RARE`].
+fn rare_end(successes: usize, trials: usize, wilson: f64) -> f64 {
+    if successes == 0 || successes >= MANY_SUCCESSES || at_least(successes, trials, wilson) <= RARE
+    {
+        return wilson;
+    }
+    let (mut low, mut high) = (0.0, wilson);
+    // The probability grows with p. The loop ends when no number lies between its ends, or they are equal to 10⁻¹².
+    while high - low > 1e-12 * high {
+        let middle = 0.5 * (low + high);
+        if at_least(successes, trials, middle) > RARE { high = middle } else { low = middle }
+    }
+    low
+}
+
+/// The probability of at least `successes` successes in independent trials with the probability p < 1 each.
+fn at_least(successes: usize, trials: usize, p: f64) -> f64 {
+    let mut term = pxfm::f_exp(trials as f64 * pxfm::f_log1p(-p));
+    let mut fewer = term;
+    for k in 1..successes {
+        term *= p / (1.0 - p) * ((trials - k + 1) as f64 / k as f64);
+        fewer += term;
+    }
+    1.0 - fewer
 }
 
 /// The mean of independent replicates, with Student's interval.
@@ -116,6 +190,52 @@ mod tests {
         }
     }
 
+    /// The smallest probability with which the interval contains p, over all p: it changes at the ends of intervals only, so that
+    /// both sides of each end are tried.
+    fn smallest_coverage(
+        interval: &dyn Fn(usize, usize) -> ConfidenceInterval,
+        trials: usize,
+    ) -> f64 {
+        let all: Vec<ConfidenceInterval> = (0..=trials).map(|k| interval(k, trials)).collect();
+        let log_factorial = |n: usize| (2..=n).map(|k| pxfm::f_log(k as f64)).sum::<f64>();
+        let choose: Vec<f64> = (0..=trials)
+            .map(|k| log_factorial(trials) - log_factorial(k) - log_factorial(trials - k))
+            .collect();
+        let coverage = |p: f64| -> f64 {
+            let (yes, no) = (pxfm::f_log(p), pxfm::f_log1p(-p));
+            let probability =
+                |k: usize| pxfm::f_exp(choose[k] + k as f64 * yes + (trials - k) as f64 * no);
+            (0..=trials).filter(|k| all[*k].covers(p)).map(probability).sum()
+        };
+        all.iter()
+            .flat_map(|interval| [interval.lower, interval.upper])
+            .flat_map(|end| [end * (1.0 - 1e-9), end * (1.0 + 1e-9)])
+            .filter(|p| (1e-9..0.999_999).contains(p))
+            .map(coverage)
+            .fold(1.0, f64::min)
+    }
+
+    #[test]
+    fn a_proportion_is_in_its_interval_in_93_of_100_samples_for_every_proportion() {
+        let ours = |k: usize, n: usize| proportion_interval(k, n).unwrap();
+        let wilson = |k: usize, n: usize| wilson_interval(k, n).unwrap();
+        for trials in [100, 128, 200, 350] {
+            let smallest = smallest_coverage(&ours, trials);
+            assert!(smallest > 0.93, "{trials}: {smallest}");
+            let gap = smallest_coverage(&wilson, trials);
+            assert!((0.837..0.839).contains(&gap), "{trials}: {gap}");
+            for k in 0..=trials {
+                let (one, other) = (ours(k, trials), wilson(k, trials));
+                assert!(one.half_width() <= other.half_width() + 1e-15, "{k} of {trials}");
+                assert!(one.covers(one.value) && one.lower >= 0.0 && one.upper <= 1.0);
+            }
+        }
+        for trials in 1..60 {
+            let smallest = smallest_coverage(&ours, trials);
+            assert!(smallest > 0.93, "{trials}: {smallest}");
+        }
+    }
+
     #[test]
     fn wilson_intervals_stay_inside_zero_to_one() {
         for (k, n) in [(0, 1), (1, 1), (3, 7), (1000, 1000)] {
@@ -124,7 +244,9 @@ mod tests {
             assert!(fraction.value <= fraction.upper && fraction.upper <= 1.0);
         }
         assert!(
-            wilson_interval(1, 0).is_err()
+            proportion_interval(1, 0).is_err()
+                && proportion_interval(3, 2).is_err()
+                && wilson_interval(1, 0).is_err()
                 && wilson_interval(2, 1).is_err()
                 && student_interval(&[1.0]).is_err()
         );

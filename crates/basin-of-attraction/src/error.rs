@@ -31,8 +31,48 @@ pub enum Error {
         /// Right end of the second.
         second_right: f64,
     },
+    /// An interval that orbits leave, given as a trap.
+    #[error(
+        "[{left}, {right}] is no trap: the map takes its point {at} to {image:?} (`None`: the orbit ends there, and others \
+         do not). Give an interval whose image lies in it, or one on which the map has no value"
+    )]
+    NotATrap {
+        /// Left end.
+        left: f64,
+        /// Right end.
+        right: f64,
+        /// The point.
+        at: f64,
+        /// Its image.
+        image: Option<f64>,
+    },
+    /// A point that the branches do not know.
+    #[error(
+        "the map has the value {value} at {at}, and the branches do not take it there, or take it at another point as well: \
+         a branch is missing. Search with more samples, or divide the window at the turning points"
+    )]
+    BranchMissed {
+        /// The point.
+        at: f64,
+        /// The value of the map there.
+        value: f64,
+    },
+    /// Limits of a refinement that are negative or NaN.
+    #[error(
+        "a refinement to an undecided length of {undecided} and intervals of {shortest}: both must be 0 or larger, and the \
+         shortest interval finite"
+    )]
+    BadRefinement {
+        /// The undecided length.
+        undecided: f64,
+        /// The shortest interval.
+        shortest: f64,
+    },
     /// A raster without pixels, or with more than the largest number of pixels.
-    #[error("a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels")]
+    #[error(
+        "a raster of {columns} × {rows} pixels: it must have between 1 and 2³⁴ pixels, and two across and up if the ends of \
+         its ranges are to be pixels"
+    )]
     BadRaster {
         /// Number of columns.
         columns: usize,
@@ -124,19 +164,129 @@ pub enum Error {
         /// The ε given.
         epsilon: f64,
     },
+    /// A grid of state space that has no cells, or too many to number.
+    #[error(
+        "{cells} cells along each of {dimension} sides: there must be at least 1 cell, at most {most} sides, and fewer than 2⁶⁴ \
+         cells in all"
+    )]
+    BadStateGrid {
+        /// Cells along a side.
+        cells: usize,
+        /// Sides.
+        dimension: usize,
+        /// The largest number of sides.
+        most: usize,
+    },
+    /// A point of another dimension than the region.
+    #[error("a point of {dimension} coordinates in a region of {expected}: give one for each side")]
+    WrongDimension {
+        /// Coordinates of the point.
+        dimension: usize,
+        /// Sides of the region.
+        expected: usize,
+    },
+    /// More attractors than labels.
+    #[error(
+        "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take fewer cells"
+    )]
+    TooManyAttractors {
+        /// The largest number.
+        most: usize,
+    },
+    /// A region without coordinates.
+    #[error("a region has at least one side")]
+    NoDimension,
+    /// So many pairs have an undecided point that their number decides the exponent.
+    #[error(
+        "{open} pairs have an undecided point, and {uncertain} pairs are uncertain: an exponent needs ten times more uncertain \
+         pairs than open ones. Raise the budget of the labelling"
+    )]
+    TooManyOpenPairs {
+        /// Pairs with an undecided point.
+        open: usize,
+        /// Uncertain pairs.
+        uncertain: usize,
+    },
     /// Points to which no power law can be fitted.
     #[error(
-        "a power law cannot be fitted to these {points} points: at least 3 are needed, with positive finite numbers \
-         and different scales"
+        "a power law cannot be fitted to these {points} points: at least 3 are needed, with different positive scales, and \
+         finite values that are not negative"
     )]
     BadFit {
         /// Points given.
         points: usize,
     },
+    /// Replicates of a measurement with different scales.
+    #[error(
+        "replicate {replicate}, counted from 0, has other scales than replicate 0: measure every replicate at the same scales"
+    )]
+    UnlikeReplicates {
+        /// The first replicate with other scales.
+        replicate: usize,
+    },
+    /// A scale at which every replicate has the value 0, which has no logarithm.
+    #[error(
+        "the value at scale {scale} is 0 in every replicate: leave this scale out, or take more points at it"
+    )]
+    NothingFound {
+        /// The scale.
+        scale: f64,
+    },
+    /// Fewer points than an interval needs to contain the true number as often as it says.
+    #[error("{points} points: a 95 % interval needs at least {fewest}")]
+    TooFewPoints {
+        /// Points given.
+        points: usize,
+        /// The smallest number accepted.
+        fewest: usize,
+    },
+    /// Random balls that do not fit into the region, or have too few points.
+    #[error(
+        "balls of radius {radius} with {points} points: the radius must be positive and below half of the shortest side, \
+         {narrowest}; there must be at least 2 points"
+    )]
+    BadBalls {
+        /// The radius given.
+        radius: f64,
+        /// The shortest side of the region.
+        narrowest: f64,
+        /// Points in a ball.
+        points: usize,
+    },
+    /// Too few random balls on a boundary.
+    #[error(
+        "{mixed} of {balls} random balls have more than one basin: at least {fewest} are needed; take more balls, or larger ones"
+    )]
+    TooFewMixedBalls {
+        /// Balls with more than one basin.
+        mixed: usize,
+        /// Balls in all.
+        balls: usize,
+        /// The smallest number accepted.
+        fewest: usize,
+    },
     /// A Wada test of fewer than three basins.
-    #[error("an image with {labels} labels: the Wada test needs at least 3")]
+    #[error("{labels} basins: the Wada test needs at least 3")]
     TooFewLabels {
-        /// Labels found.
+        /// Basins found; undecided labels are none.
         labels: usize,
+    },
+    /// An image whose labels are not one for each pixel.
+    #[error(
+        "an image of {columns} × {rows} pixels has {labels} labels: it must have one label for each pixel, and a pixel"
+    )]
+    BadImage {
+        /// Its number of labels.
+        labels: usize,
+        /// Number of columns.
+        columns: usize,
+        /// Number of rows.
+        rows: usize,
+    },
+    /// An image, or a sample, without any point inside the region of interest.
+    #[error("all {points} points are outside the region of interest: at least one must be inside")]
+    NothingInside {
+        /// Number of points.
+        points: usize,
     },
 }

@@ -2,27 +2,32 @@
 
 use crate::error::Error;
 use crate::interval::Interval;
+use crate::label::Label;
 use crate::scalar_map::{Image, ScalarMap};
+use crate::undecided_reason::UndecidedReason;
 
 /// Sets that no orbit leaves, each with the label of its attractor.
 pub trait Traps {
     /// The label of the trap that contains x; `None` outside all traps.
-    fn label(&self, x: f64) -> Option<u16>;
+    fn label(&self, x: f64) -> Option<Label>;
 }
 
 /// Disjoint intervals as traps.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TrapSet {
     /// Disjoint, from left to right.
-    traps: Vec<(Interval, u16)>,
+    traps: Vec<(Interval, Label)>,
 }
 
 impl TrapSet {
-    /// Traps with their labels. The caller guarantees that orbits stay in them.
+    /// Traps with their labels. The caller guarantees that orbits stay in them; [`check_trap`](crate::check_trap) tests it.
     ///
     /// # Errors
-    /// [`Error::OverlappingTraps`] if two have a point in common.
-    pub fn new(mut traps: Vec<(Interval, u16)>) -> Result<Self, Error> {
+    /// [`Error::OverlappingTraps`] if two have a point in common; [`Error::BadInterval`] as for [`Interval::new`].
+    pub fn new(mut traps: Vec<(Interval, Label)>) -> Result<Self, Error> {
+        for (trap, _) in &traps {
+            Interval::new(trap.left, trap.right)?;
+        }
         traps.sort_by(|a, b| a.0.left.total_cmp(&b.0.left));
         for pair in traps.windows(2) {
             let (first, second) = (pair[0].0, pair[1].0);
@@ -40,7 +45,7 @@ impl TrapSet {
 }
 
 impl Traps for TrapSet {
-    fn label(&self, x: f64) -> Option<u16> {
+    fn label(&self, x: f64) -> Option<Label> {
         let at = self.traps.partition_point(|(interval, _)| interval.right < x);
         self.traps.get(at).filter(|(interval, _)| interval.contains(x)).map(|&(_, label)| label)
     }
@@ -50,28 +55,11 @@ impl Traps for TrapSet {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Fate {
     /// The orbit enters the trap with this label.
-    Trapped(u16),
+    Trapped(Label),
     /// The orbit reaches a point at which the map has no value.
     Stopped,
     /// The fate is not known, for this reason.
     Undecided(UndecidedReason),
-}
-
-/// Why a fate is not known.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum UndecidedReason {
-    /// The budget of steps was used up.
-    Budget,
-    /// The computed image equals the point, outside any trap: the true step is shorter than the spacing of `f64`.
-    Precision {
-        /// The point that the computed orbit repeats.
-        at: f64,
-    },
-    /// The map could not be evaluated, or the point is not finite.
-    Map {
-        /// The point.
-        at: f64,
-    },
 }
 
 /// The fate of `start`, and the number of steps after which it was known.
@@ -80,11 +68,11 @@ pub enum UndecidedReason {
 /// point slowly is never reported as attracted by it. After `budget` steps the fate is undecided.
 ///
 /// ```
-/// use basin_of_attraction::{Fate, Interval, TrapSet, classify};
+/// use basin_of_attraction::{Fate, Interval, Label, TrapSet, classify};
 /// // x + x²: 0 attracts [−1, 0], and [−½, 0] is a trap.
-/// let traps = TrapSet::new(vec![(Interval::new(-0.5, 0.0)?, 1)])?;
+/// let traps = TrapSet::new(vec![(Interval::new(-0.5, 0.0)?, Label::from(1))])?;
 /// let map = |x: f64| (x.abs() < 10.0).then(|| x + x * x);
-/// assert_eq!(classify(&map, &traps, -0.9, 100), (Fate::Trapped(1), 1));
+/// assert_eq!(classify(&map, &traps, -0.9, 100), (Fate::Trapped(Label::from(1)), 1));
 /// assert_eq!(classify(&map, &traps, 0.3, 100).0, Fate::Stopped);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
@@ -123,9 +111,9 @@ mod tests {
 
     #[test]
     fn every_fate_occurs() {
-        let traps = TrapSet::new(vec![(Interval::new(0.0, 0.1).unwrap(), 7)]).unwrap();
+        let traps = TrapSet::new(vec![(Interval::new(0.0, 0.1).unwrap(), Label::from(7))]).unwrap();
         let halve = |x: f64| Some(x / 2.0);
-        assert_eq!(classify(&halve, &traps, 0.8, 10), (Fate::Trapped(7), 3));
+        assert_eq!(classify(&halve, &traps, 0.8, 10), (Fate::Trapped(Label::from(7)), 3));
         assert_eq!(
             classify(&halve, &traps, 1e9, 10),
             (Fate::Undecided(UndecidedReason::Budget), 10)
@@ -146,8 +134,16 @@ mod tests {
 
     #[test]
     fn overlapping_traps_are_refused() {
-        let traps =
-            vec![(Interval::new(0.0, 1.0).unwrap(), 1), (Interval::new(1.0, 2.0).unwrap(), 2)];
+        let traps = [(0.0, 1.0, 1), (1.0, 2.0, 2)];
+        let traps = traps.map(|(a, b, n)| (Interval::new(a, b).unwrap(), Label::from(n))).to_vec();
         assert!(matches!(TrapSet::new(traps), Err(Error::OverlappingTraps { .. })));
+    }
+
+    #[test]
+    fn traps_that_are_no_intervals_are_refused() {
+        for (left, right) in [(1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::NAN), (0.0, f64::INFINITY)] {
+            let traps = vec![(Interval { left, right }, Label::from(1))];
+            assert!(matches!(TrapSet::new(traps), Err(Error::BadInterval { .. })));
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::interval::Interval;
+use crate::label::Label;
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -23,6 +24,32 @@ pub struct Grid {
 const MOST_PIXELS: u64 = 1 << 34;
 
 impl Grid {
+    /// The grid whose first and last pixels have their middles at the ends of the ranges, as in programs that sample a range
+    /// with both of its ends. The middles are right to some ulps of the range.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Grid, Interval};
+    /// let range = Interval::new(-2.0, 2.0)?;
+    /// let grid = Grid::with_ends(range, range, 5, 3)?;
+    /// assert_eq!([0, 1, 4].map(|column| grid.x_at(column)), [-2.0, -1.0, 2.0]);
+    /// assert_eq!([0, 1, 2].map(|row| grid.y_at(row)), [-2.0, 0.0, 2.0]);
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::BadRaster`] for fewer than two columns or rows; [`Error::BadInterval`] if a range is infinite, or reversed.
+    pub fn with_ends(x: Interval, y: Interval, columns: usize, rows: usize) -> Result<Grid, Error> {
+        if columns < 2 || rows < 2 {
+            return Err(Error::BadRaster { columns, rows });
+        }
+        // The middle of pixel k of n is at (k + ½)/n of the range. The range grows by half a pixel on either side.
+        let range = |of: Interval, pixels: usize| {
+            let half = 0.5 * of.length() / (pixels - 1) as f64;
+            Interval::new(of.left - half, of.right + half)
+        };
+        Ok(Grid { x: range(x, columns)?, y: range(y, rows)?, columns, rows })
+    }
+
     /// The number of pixels.
     ///
     /// # Errors
@@ -51,18 +78,45 @@ pub struct LabelImage {
     /// The grid.
     pub grid: Grid,
     /// Row by row from below, each from left to right.
-    pub labels: Vec<u16>,
+    pub labels: Vec<Label>,
 }
 
 impl LabelImage {
+    /// Returns an error unless the image has one label for each pixel, and at least one pixel.
+    ///
+    /// # Errors
+    /// [`Error::BadImage`].
+    pub fn check(&self) -> Result<(), Error> {
+        let (Grid { columns, rows, .. }, labels) = (self.grid, self.labels.len());
+        if labels > 0 && columns.checked_mul(rows) == Some(labels) {
+            return Ok(());
+        }
+        Err(Error::BadImage { labels, columns, rows })
+    }
+
+    /// The same image with a region of interest: pixels whose middle (x, y) is not `inside` become [`Label::OUTSIDE`].
+    ///
+    /// # Errors
+    /// [`Error::BadImage`] as for [`check`](Self::check).
+    pub fn masked(mut self, inside: impl Fn(f64, f64) -> bool) -> Result<LabelImage, Error> {
+        self.check()?;
+        let grid = self.grid;
+        for (at, label) in self.labels.iter_mut().enumerate() {
+            if !inside(grid.x_at(at % grid.columns), grid.y_at(at / grid.columns)) {
+                *label = Label::OUTSIDE;
+            }
+        }
+        Ok(self)
+    }
+
     /// The label of a pixel; `None` outside the image. Rows count from below.
-    pub fn at(&self, column: usize, row: usize) -> Option<u16> {
+    pub fn at(&self, column: usize, row: usize) -> Option<Label> {
         let inside = column < self.grid.columns && row < self.grid.rows;
         inside.then(|| self.labels.get(row * self.grid.columns + column).copied())?
     }
 
     /// The number of pixels of each label, in increasing order of labels.
-    pub fn counts(&self) -> Vec<(u16, usize)> {
+    pub fn counts(&self) -> Vec<(Label, usize)> {
         let mut counts = std::collections::BTreeMap::new();
         for &label in &self.labels {
             *counts.entry(label).or_insert(0) += 1;
@@ -71,7 +125,7 @@ impl LabelImage {
     }
 
     /// The labels that occur, each with its name and number of pixels.
-    pub fn legend(&self, name: impl Fn(u16) -> String) -> Vec<LegendEntry> {
+    pub fn legend(&self, name: impl Fn(Label) -> String) -> Vec<LegendEntry> {
         let entry = |(label, pixels)| LegendEntry { label, name: name(label), pixels };
         self.counts().into_iter().map(entry).collect()
     }
@@ -81,7 +135,7 @@ impl LabelImage {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LegendEntry {
     /// The label.
-    pub label: u16,
+    pub label: Label,
     /// Its name.
     pub name: String,
     /// The number of pixels with this label.
@@ -95,21 +149,22 @@ pub struct LegendEntry {
 /// threads.
 ///
 /// ```
-/// use basin_of_attraction::{Grid, Interval, raster};
+/// use basin_of_attraction::{Grid, Interval, Label, raster};
 /// use std::ops::ControlFlow::Continue;
 /// let unit = Interval::new(0.0, 1.0)?;
 /// let grid = Grid { x: unit, y: unit, columns: 4, rows: 4 };
-/// let image = raster(grid, |x| x, |&x, y| u16::from(y > x), |_| Continue(()))?;
-/// assert_eq!(image.counts(), [(0, 10), (1, 6)]);
+/// let image = raster(grid, |x| x, |&x, y| Label::from(y > x), |_| Continue(()))?;
+/// assert_eq!(image.counts(), [(Label::from(0), 10), (Label::from(1), 6)]);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
 /// # Errors
-/// [`Error::BadRaster`] as for [`Grid::pixels`]; [`Error::Interrupted`] if `progress` stops the work.
+/// [`Error::BadRaster`] as for [`Grid::pixels`]; [`Error::BadInterval`] for a range that is reversed or not finite;
+/// [`Error::Interrupted`] if `progress` stops the work.
 pub fn raster<C>(
     grid: Grid,
     prepare: impl Fn(f64) -> C + Sync,
-    label: impl Fn(&C, f64) -> u16 + Sync,
+    label: impl Fn(&C, f64) -> Label + Sync,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, Error> {
     let column = |&x: &f64, ys: &[f64]| {
@@ -131,14 +186,14 @@ const BAND: usize = 32;
 /// by one. `progress` is as for [`raster`].
 ///
 /// ```
-/// use basin_of_attraction::{Error, Grid, Interval, raster_by_strips};
+/// use basin_of_attraction::{Error, Grid, Interval, Label, raster_by_strips};
 /// use std::ops::ControlFlow::Continue;
 /// let unit = Interval::new(0.0, 1.0)?;
 /// let grid = Grid { x: unit, y: unit, columns: 4, rows: 4 };
-/// let column = |x: f64, ys: &[f64]| ys.iter().map(|&y| u16::from(y > x)).collect();
+/// let column = |x: f64, ys: &[f64]| ys.iter().map(|&y| Label::from(y > x)).collect();
 /// let strip = |xs: &[f64], ys: &[f64]| Ok(xs.iter().map(|&x| column(x, ys)).collect());
 /// let image = raster_by_strips::<Error>(grid, 2, strip, |_| Continue(()))?;
-/// assert_eq!(image.counts(), [(0, 10), (1, 6)]);
+/// assert_eq!(image.counts(), [(Label::from(0), 10), (Label::from(1), 6)]);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
@@ -147,10 +202,13 @@ const BAND: usize = 32;
 pub fn raster_by_strips<E: From<Error> + Send>(
     grid: Grid,
     width: usize,
-    strip: impl Fn(&[f64], &[f64]) -> Result<Vec<Vec<u16>>, E> + Sync,
+    strip: impl Fn(&[f64], &[f64]) -> Result<Vec<Vec<Label>>, E> + Sync,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<LabelImage, E> {
     let Grid { columns, rows, .. } = grid;
+    for range in [grid.x, grid.y] {
+        Interval::new(range.left, range.right)?;
+    }
     let pixels = grid.pixels()?;
     let ys: Vec<f64> = (0..rows).map(|row| grid.y_at(row)).collect();
     let xs: Vec<f64> = (0..columns).map(|column| grid.x_at(column)).collect();
@@ -166,14 +224,14 @@ pub fn raster_by_strips<E: From<Error> + Send>(
         Ok(labels)
     };
     let finished = AtomicUsize::new(0);
-    let count = |labels: &Vec<Vec<u16>>| {
+    let count = |labels: &Vec<Vec<Label>>| {
         progress(finished.fetch_add(labels.len(), Ordering::Relaxed) + labels.len())
     };
     let Some(by_strip) = in_parallel(strips, labelled, count)? else {
         return Err(Error::Interrupted { finished: finished.into_inner(), columns }.into());
     };
-    let by_column: Vec<Vec<u16>> = by_strip.into_iter().flatten().collect();
-    let mut labels = vec![0; pixels];
+    let by_column: Vec<Vec<Label>> = by_strip.into_iter().flatten().collect();
+    let mut labels = vec![Label::OUTSIDE; pixels];
     // The columns are transposed into rows, band by band, so that every cache line of a column is read once.
     labels.par_chunks_mut(BAND * columns).enumerate().for_each(|(band, lines)| {
         for (at, column) in by_column.iter().enumerate() {
@@ -244,8 +302,10 @@ mod tests {
 
     #[test]
     fn the_image_does_not_depend_on_the_number_of_threads() {
-        let compute =
-            || raster(grid(), |x| x, |&x, y| ((x * 1000.0) * y) as u16, |_| Continue(())).unwrap();
+        let compute = || {
+            raster(grid(), |x| x, |&x, y| Label::from((x * 250.0 * y) as u8), |_| Continue(()))
+                .unwrap()
+        };
         let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         assert_eq!(pool(1).install(compute), pool(7).install(compute));
     }
@@ -253,13 +313,22 @@ mod tests {
     #[test]
     fn a_raster_can_be_interrupted() {
         let stop = |done| if done >= 5 { Break(()) } else { Continue(()) };
-        let error = raster(grid(), |_| (), |(), _| 0, stop).unwrap_err();
+        let error = raster(grid(), |_| (), |(), _| Label::from(0), stop).unwrap_err();
         assert!(matches!(error, Error::Interrupted { columns: 64, .. }));
+    }
+
+    #[test]
+    fn a_reversed_range_is_an_error() {
+        for (left, right) in [(1.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+            let bad = Grid { y: Interval { left, right }, ..grid() };
+            let found = raster(bad, |_| (), |(), _| Label::from(0), |_| Continue(()));
+            assert!(matches!(found, Err(Error::BadInterval { .. })));
+        }
     }
 
     #[test]
     fn an_empty_raster_is_an_error() {
         let empty = Grid { columns: 0, ..grid() };
-        assert!(raster(empty, |_| (), |(), _| 0, |_| Continue(())).is_err());
+        assert!(raster(empty, |_| (), |(), _| Label::from(0), |_| Continue(())).is_err());
     }
 }

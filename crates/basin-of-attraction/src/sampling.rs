@@ -1,10 +1,10 @@
 //! Basin fractions from sample points.
 
 use crate::bounds::Bounds;
-use crate::confidence_interval::{ConfidenceInterval, student_interval, wilson_interval};
+use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
 use crate::error::Error;
-use crate::golden_section::INVERSE_GOLDEN_RATIO;
 use crate::interval::Interval;
+use crate::label::Label;
 use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -27,10 +27,10 @@ pub(crate) fn check_count(samples: usize) -> Result<(), Error> {
 /// equal parts of the window.
 ///
 /// ```
-/// use basin_of_attraction::{Interval, equally_spaced_counts};
+/// use basin_of_attraction::{Interval, Label, equally_spaced_counts};
 /// let window = Interval::new(-1.0, 3.0)?;
-/// let counts = equally_spaced_counts(window, 1000, |x| u16::from(x > 0.0))?;
-/// assert_eq!(counts, [(0, 250), (1, 750)].into());
+/// let counts = equally_spaced_counts(window, 1000, |x| Label::from(x > 0.0))?;
+/// assert_eq!(counts, [(Label::from(0), 250), (Label::from(1), 750)].into());
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///
@@ -39,8 +39,8 @@ pub(crate) fn check_count(samples: usize) -> Result<(), Error> {
 pub fn equally_spaced_counts(
     window: Interval,
     count: usize,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, usize>, Error> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Result<BTreeMap<Label, usize>, Error> {
     check_count(count)?;
     Ok(tally(&labels(count, |k| middle(window, count, k), label)))
 }
@@ -65,15 +65,15 @@ pub struct EquallySpacedFraction {
 pub fn equally_spaced_fractions(
     window: Interval,
     count: usize,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, EquallySpacedFraction>, Error> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Result<BTreeMap<Label, EquallySpacedFraction>, Error> {
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
     check_count(count)?;
     let labels = labels(count, |k| middle(window, count, k), label);
     // The number of ends of runs of each label.
-    let mut ends: BTreeMap<u16, usize> = BTreeMap::new();
+    let mut ends: BTreeMap<Label, usize> = BTreeMap::new();
     for pair in labels.windows(2).filter(|pair| pair[0] != pair[1]) {
         pair.iter().for_each(|&label| *ends.entry(label).or_insert(0) += 1);
     }
@@ -81,7 +81,7 @@ pub fn equally_spaced_fractions(
     for label in [labels.first(), labels.last()].into_iter().flatten() {
         *ends.entry(*label).or_insert(0) += 1;
     }
-    let fraction = |(label, found): (u16, usize)| {
+    let fraction = |(label, found): (Label, usize)| {
         let value = found as f64 / count as f64;
         // Each end of a run is known to half a spacing on either side.
         let open = 0.5 * ends.get(&label).copied().unwrap_or(0) as f64 / count as f64;
@@ -91,10 +91,11 @@ pub fn equally_spaced_fractions(
     Ok(tally(&labels).into_iter().map(fraction).collect())
 }
 
-/// The basin fractions among `count` independent uniform points, with Wilson's 95 % intervals.
+/// The basin fractions among `count` independent uniform points, with 95 % intervals.
 ///
-/// The same seed gives the same points, with any number of threads. A label without points is not in the result: its
-/// fraction is [`wilson_interval`]`(0, count)`.
+/// The same seed gives the same points, with any number of threads. The intervals are those of [`proportion_interval`]: they
+/// contain the fraction in at least 93 % of the samples. A label without points is not in the result: its
+/// fraction is [`proportion_interval`]`(0, count)`.
 ///
 /// # Errors
 /// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points.
@@ -102,81 +103,16 @@ pub fn random_fractions(
     window: Interval,
     count: usize,
     seed: u64,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, ConfidenceInterval>, Error> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Result<BTreeMap<Label, ConfidenceInterval>, Error> {
     check_count(count)?;
     let random = SplitMix64::from_seed(seed);
     let at = |k| window.left + window.length() * random.uniform(k as u64);
     let counts = tally(&labels(count, at, label));
-    counts.into_iter().map(|(label, found)| Ok((label, wilson_interval(found, count)?))).collect()
-}
-
-/// The basin fractions among `replicates` low-discrepancy sets of `count` points each, with Student's 95 %
-/// intervals over the replicates.
-///
-/// A set is a golden rotation, x_k = x₀ + k (√5 − 1)/2 mod 1, with a random x₀. For basins of few intervals the error
-/// falls like 1/`count`; the error of independent points falls like 1/√`count`. A label with few points has Wilson's
-/// interval if Wilson's is wider. A label without points is not in the result: its fraction is [`wilson_interval`]`(0,
-/// count * replicates)`.
-///
-/// # Errors
-/// [`Error::TooFewReplicates`] for fewer than two, [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more
-/// than a billion points in all.
-pub fn low_discrepancy_fractions(
-    window: Interval,
-    count: usize,
-    replicates: usize,
-    seed: u64,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Result<BTreeMap<u16, ConfidenceInterval>, Error> {
-    if count == 0 {
-        return Err(Error::BadTrials { successes: 0, trials: 0 });
-    }
-    if replicates < 2 {
-        return Err(Error::TooFewReplicates { replicates });
-    }
-    check_count(count.saturating_mul(replicates))?;
-    let random = SplitMix64::from_seed(seed);
-    let tallies: Vec<BTreeMap<u16, usize>> = (0..replicates)
-        .map(|replicate| {
-            let start = random.uniform(replicate as u64);
-            let at = |k| {
-                let rotated = start + INVERSE_GOLDEN_RATIO * k as f64;
-                window.left + window.length() * (rotated - rotated.floor())
-            };
-            tally(&labels(count, at, &label))
-        })
-        .collect();
-    let mut fractions = BTreeMap::new();
-    for label in tallies.iter().flat_map(BTreeMap::keys) {
-        let fraction = |tally: &BTreeMap<u16, usize>| {
-            tally.get(label).map_or(0.0, |&n| n as f64 / count as f64)
-        };
-        let estimate = student_interval(&tallies.iter().map(fraction).collect::<Vec<_>>())?;
-        let found: usize = tallies.iter().filter_map(|tally| tally.get(label)).sum();
-        fractions.insert(*label, widened_for_few_points(estimate, found, count * replicates)?);
-    }
-    Ok(fractions)
-}
-
-/// From this number of points with a label, and of points without it, the spread over replicates measures the error.
-/// The number was chosen: with it the intervals cover as often as stated in `tests/confidence_intervals.rs`.
-const ENOUGH_POINTS: usize = 100;
-
-/// A Student interval, widened to Wilson's if few of `all` points have the label, or few do not.
-///
-/// The replicates may then agree by chance: if all of them have 0 points, or 1, Student's interval has length 0.
-fn widened_for_few_points(
-    estimate: ConfidenceInterval,
-    found: usize,
-    all: usize,
-) -> Result<ConfidenceInterval, Error> {
-    let ConfidenceInterval { value, mut lower, mut upper } = estimate;
-    if found.min(all - found) < ENOUGH_POINTS {
-        let few = wilson_interval(found, all)?;
-        (lower, upper) = (lower.min(few.lower), upper.max(few.upper));
-    }
-    Ok(ConfidenceInterval { value, lower: lower.max(0.0), upper: upper.min(1.0) })
+    counts
+        .into_iter()
+        .map(|(label, found)| Ok((label, proportion_interval(found, count)?)))
+        .collect()
 }
 
 /// The middle of part k of `count` equal parts of the window.
@@ -184,15 +120,16 @@ fn middle(window: Interval, count: usize, k: usize) -> f64 {
     window.left + window.length() * ((k as f64 + 0.5) / count as f64)
 }
 
-fn labels(
+/// The labels of the points 0 … count − 1.
+pub(crate) fn labels(
     count: usize,
     at: impl Fn(usize) -> f64 + Sync,
-    label: impl Fn(f64) -> u16 + Sync,
-) -> Vec<u16> {
+    label: impl Fn(f64) -> Label + Sync,
+) -> Vec<Label> {
     (0..count).into_par_iter().map(|k| label(at(k))).collect()
 }
 
-fn tally(labels: &[u16]) -> BTreeMap<u16, usize> {
+pub(crate) fn tally(labels: &[Label]) -> BTreeMap<Label, usize> {
     let mut counts = BTreeMap::new();
     for &label in labels {
         *counts.entry(label).or_insert(0) += 1;

@@ -1,30 +1,32 @@
 //! The fraction of starts whose fate a perturbation ε changes.
 
 use crate::bounds::Bounds;
-use crate::confidence_interval::{ConfidenceInterval, wilson_interval};
+use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
 use crate::error::Error;
 use crate::interval::{Interval, IntervalSet};
 use crate::interval_basins::IntervalBasins;
+use crate::label::Label;
 use crate::sampling::check_count;
 use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 
 /// The fraction of starts x whose label differs from that of x + ε or of x − ε (Grebogi, McDonald, Ott, Yorke
-/// 1983), with Wilson's 95 % interval.
+/// 1983), with a 95 % interval ([`proportion_interval`]).
 ///
 /// `count` uniform random starts in `window` are tried. For small ε the fraction grows like a power of ε. Its
 /// exponent is the uncertainty exponent, which [`power_law`](crate::power_law) fits.
 ///
 /// # Errors
 /// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion, [`Error::BadPerturbation`]
-/// unless `epsilon` is positive and finite.
+/// unless `epsilon` is positive and finite, [`Error::BadInterval`] for a window that is reversed or not finite.
 pub fn uncertain_fraction(
     window: Interval,
     epsilon: f64,
     count: usize,
     seed: u64,
-    label: impl Fn(f64) -> u16 + Sync,
+    label: impl Fn(f64) -> Label + Sync,
 ) -> Result<ConfidenceInterval, Error> {
+    Interval::new(window.left, window.right)?;
     check_perturbation(epsilon)?;
     check_count(count)?;
     let random = SplitMix64::from_seed(seed);
@@ -33,10 +35,11 @@ pub fn uncertain_fraction(
         let here = label(x);
         label(x + epsilon) != here || label(x - epsilon) != here
     };
-    wilson_interval((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
+    proportion_interval((0..count).into_par_iter().filter(|&k| uncertain(k)).count(), count)
 }
 
-fn check_perturbation(epsilon: f64) -> Result<(), Error> {
+/// An error for a perturbation that is not positive and finite.
+pub(crate) fn check_perturbation(epsilon: f64) -> Result<(), Error> {
     if epsilon > 0.0 && epsilon.is_finite() {
         Ok(())
     } else {

@@ -18,6 +18,7 @@
 //! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
+//! | [`BranchGround`], [`Probes`] | what these intervals rest on, and how they agree with single fates |
 //! | [`basin_levels`], [`branches`] | one basin level by level, from the branches of the map |
 //! | [`PhaseBasins`], [`CircleLimits`] | the circle of fates left of α*_n: the basins as intervals of phase, at every scale |
 //! | [`BoundaryPhase`], [`UndecidedPhases`], [`FallsOnto`] | its boundary points and what they come to; what is undecided |
@@ -60,7 +61,7 @@ mod traps;
 
 pub use basins::branches::branches;
 pub use basins::fractions::{BasinFractions, basin_fractions};
-pub use basins::intervals::{HopperBasins, hopper_basins};
+pub use basins::intervals::{BranchGround, HopperBasins, Probes, hopper_basins};
 pub use basins::levels::basin_levels;
 pub use basins::rasters::{basin_columns, basin_raster};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};

@@ -2,14 +2,17 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use basin_of_attraction::Refinement;
+use basin_of_attraction::{Label, Refinement};
 use hopper_asymptotics::{FatouCoordinate, Offset, Phase};
 use hopper_basin::{
     CircleLimits, Error, FallsOnto, Fates, Ground, HopperFate, PhaseBasins, crisis, grounding,
 };
 use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, MassRatio};
 
-const GROUNDED: u16 = HopperFate::GROUNDED;
+const DECAYING: Label = HopperFate::Decaying.label();
+const FIRST: Label = HopperFate::label_of_fixed_point(1);
+const SECOND: Label = HopperFate::label_of_fixed_point(2);
+const GROUNDED: Label = HopperFate::GROUNDED;
 
 fn fates(mass_ratio: f64) -> Fates {
     Fates::new(MassRatio::new(mass_ratio).unwrap()).unwrap()
@@ -20,15 +23,15 @@ fn circle(fates: &Fates, n: u64) -> PhaseBasins {
 }
 
 /// n, M, and the shares that were measured with 3000 phases at 10⁻⁶, 10⁻⁸ and 10⁻¹⁰ in another program.
-type Measured = (u64, f64, &'static [(u16, f64)]);
+type Measured = (u64, f64, &'static [(Label, f64)]);
 
 const MEASURED: [Measured; 6] = [
-    (1, 0.2, &[(0, 1.0)]),
-    (2, 0.2, &[(0, 0.970), (1, 0.030)]),
-    (3, 0.2, &[(0, 0.963), (1, 0.030), (2, 0.007)]),
-    (2, 0.12, &[(0, 0.695), (1, 0.305)]),
-    (1, 0.8, &[(0, 0.182), (GROUNDED, 0.818)]),
-    (2, 0.8, &[(0, 0.187), (1, 0.003), (GROUNDED, 0.810)]),
+    (1, 0.2, &[(DECAYING, 1.0)]),
+    (2, 0.2, &[(DECAYING, 0.970), (FIRST, 0.030)]),
+    (3, 0.2, &[(DECAYING, 0.963), (FIRST, 0.030), (SECOND, 0.007)]),
+    (2, 0.12, &[(DECAYING, 0.695), (FIRST, 0.305)]),
+    (1, 0.8, &[(DECAYING, 0.182), (GROUNDED, 0.818)]),
+    (2, 0.8, &[(DECAYING, 0.187), (FIRST, 0.003), (GROUNDED, 0.810)]),
 ];
 
 /// The speeds α*_n + δ, rounded to `f64`, of `count` equally spaced phases in the turn that begins at `scale`, with the phases of
@@ -72,7 +75,7 @@ fn the_label_of_a_phase_is_the_fate_at_every_scale() {
 fn local_fractions_agree_with_measured_ones() {
     for (n, mass_ratio, shares) in MEASURED {
         let fractions = circle(&fates(mass_ratio), n).fractions();
-        let labels: Vec<u16> = shares.iter().map(|(label, _)| *label).collect();
+        let labels: Vec<Label> = shares.iter().map(|(label, _)| *label).collect();
         assert_eq!(fractions.labels().collect::<Vec<_>>(), labels);
         for &(label, share) in shares {
             let found = fractions.of(label);
@@ -96,12 +99,12 @@ fn bounds_on_local_fractions_are_nested() {
     assert!(fine.undecided() < 0.01 * coarse.undecided() && coarse.undecided() < 1e-3);
     // Each end may be known less well by some ulps of the speed.
     let ends = 1e-12;
-    for label in [0, 1, 2] {
+    for label in [DECAYING, FIRST, SECOND] {
         let (coarse, fine) = (coarse.of(label), fine.of(label));
         assert!(coarse.lower <= fine.lower + ends, "{coarse:?} {fine:?}");
         assert!(fine.upper <= coarse.upper + ends, "{coarse:?} {fine:?}");
     }
-    let sum: f64 = [0, 1, 2].map(|label| fine.of(label).lower).iter().sum();
+    let sum: f64 = [DECAYING, FIRST, SECOND].map(|label| fine.of(label).lower).iter().sum();
     assert!((sum + fine.undecided() - 1.0).abs() < 1e-13);
 }
 
@@ -202,20 +205,20 @@ fn a_share_of_phases_is_that_of_its_parts() {
     let fates = fates(0.2);
     let circle = circle(&fates, 2);
     let [first, second] = circle.boundary() else { panic!("{:?}", circle.boundary()) };
-    assert_eq!((first.below, first.above), (0, 1));
+    assert_eq!((first.below, first.above), (DECAYING, FIRST));
     let length = second.phase - first.phase;
-    assert!((circle.fractions().of(1).middle() - length).abs() < 1e-11);
+    assert!((circle.fractions().of(FIRST).middle() - length).abs() < 1e-11);
     // From the middle of the component of basin 1 through one turn and a half of the component more.
     let start = first.phase + 0.5 * length;
     let share = circle.share(start, start + 1.0 + length).unwrap();
-    assert!((share.of(1).middle() - 1.5 * length / (1.0 + length)).abs() < 1e-10);
+    assert!((share.of(FIRST).middle() - 1.5 * length / (1.0 + length)).abs() < 1e-10);
     // Within the component, also in another turn and through phases of any size.
     assert!(
-        circle.share(start - 3.0, start - 3.0 + 0.4 * length).unwrap().of(1).lower > 1.0 - 1e-9
+        circle.share(start - 3.0, start - 3.0 + 0.4 * length).unwrap().of(FIRST).lower > 1.0 - 1e-9
     );
     let phase = |whole: u64, fraction: f64| Phase::new(whole, fraction, 0.0);
     let share = circle.share_between(&phase(1 << 60, start), &phase((1 << 60) + 7, start));
-    assert!((share.of(1).middle() - length).abs() < 1e-10);
+    assert!((share.of(FIRST).middle() - length).abs() < 1e-10);
     assert!(circle.share(0.5, 0.4).is_err() && circle.share(0.5, f64::NAN).is_err());
     assert_eq!(circle.label_at(start, 0.6 * length), None);
 }
@@ -225,7 +228,8 @@ fn a_share_of_phases_is_that_of_its_parts() {
 #[test]
 fn a_crisis_opens_a_share_like_a_square_root() {
     let [ground, fall] = [grounding(0).unwrap().mass_ratio, crisis(1).unwrap().mass_ratio];
-    for (n, critical, before, new) in [(1, ground, 0, GROUNDED), (2, fall, 1, 0)] {
+    for (n, critical, before, new) in [(1, ground, DECAYING, GROUNDED), (2, fall, FIRST, DECAYING)]
+    {
         let share = |beyond: f64| {
             let fractions = circle(&fates(critical + beyond), n).fractions();
             if beyond < 0.0 {
@@ -254,7 +258,7 @@ fn above_the_mass_ratio_of_known_branches_labels_are_sampled() {
     }
     assert!(wrong <= 2, "{wrong}");
     // The bounds allow for basins between the samples.
-    assert!(circle.fractions().of(1).half_width() > 1e-4);
+    assert!(circle.fractions().of(FIRST).half_width() > 1e-4);
     assert!(matches!(self::circle(&self::fates(0.2), 2).ground(), Ground::Branches { .. }));
 }
 

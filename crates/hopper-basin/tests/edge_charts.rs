@@ -2,12 +2,13 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use basin_of_attraction::Label;
 use hopper_asymptotics::{Offset, Side};
 use hopper_basin::{CircleLimits, EdgeChart, Error, Fates, HopperFate, PhaseBasins};
 use hopper_reference::rows;
 use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep, MassRatio};
 
-const GROUNDED: u16 = HopperFate::GROUNDED;
+const GROUNDED: Label = HopperFate::GROUNDED;
 
 fn fates(mass_ratio: f64) -> Fates {
     Fates::new(MassRatio::new(mass_ratio).unwrap()).unwrap()
@@ -92,9 +93,9 @@ fn labels_of_charts_agree_with_reference_fates() {
         let (point, rest, _) = chart.point();
         let found = chart.label(circle, Offset::from((alpha - point) - rest)).unwrap();
         let expected = match row.text("fate") {
-            "decaying" => 0,
+            "decaying" => Label::from(0),
             "grounded" => GROUNDED,
-            _ => row.integer("n") as u16,
+            _ => HopperFate::label_of_fixed_point(row.integer("n")),
         };
         compared += 1;
         match found {
@@ -116,9 +117,10 @@ fn speeds_next_to_an_edge_have_the_local_fractions() {
     let speeds: Vec<f64> =
         (1..=count).map(|k| chart.point().0 - 1e-7 * f64::from(k) / f64::from(count)).collect();
     let labels = fates.labels(&speeds).unwrap();
-    let share = labels.iter().filter(|&&label| label == 1).count() as f64 / f64::from(count);
+    let share =
+        labels.iter().filter(|&&label| label == Label::from(1)).count() as f64 / f64::from(count);
     // x = 0.003: the last turns are some hundredths of the interval.
-    assert!((share - circle.fractions().of(1).middle()).abs() < 0.02, "{share}");
+    assert!((share - circle.fractions().of(1.into()).middle()).abs() < 0.02, "{share}");
 }
 
 #[test]
@@ -126,19 +128,22 @@ fn windows_of_any_width_about_an_edge_have_shares() {
     let fates = fates(0.12);
     let chart = EdgeChart::onto(&fates, 2, 11.9206).unwrap();
     let circle = circle(&fates, 2);
-    let local = circle.fractions().of(1);
+    let local = circle.fractions().of(1.into());
     let offset = |text: &str| text.parse::<Offset>().unwrap();
     for depth in ["e-30", "e-100", "e-300", "e-1000"] {
         let [near, far] = ["-1", "-2"].map(|digit| offset(&format!("{digit}{depth}")));
-        let share = chart.share(&circle, far, near).unwrap().of(1);
+        let share = chart.share(&circle, far, near).unwrap().of(1.into());
         assert!((share.middle() - local.middle()).abs() < 1e-7, "{depth} {share:?}");
         assert!(share.half_width() < 1e-7, "{depth} {share:?}");
         // The other side belongs to basin 2, and a pixel across the edge is half of each.
         let right = offset(&format!("1{depth}"));
-        assert_eq!(chart.label(&circle, right).unwrap(), Some(2));
+        assert_eq!(chart.label(&circle, right).unwrap(), Some(2.into()));
         let across = chart.share(&circle, near, right).unwrap();
-        assert!((across.of(2).middle() - 0.5).abs() < 1e-7, "{depth} {across:?}");
-        assert!((across.of(1).middle() - 0.5 * local.middle()).abs() < 1e-7, "{depth} {across:?}");
+        assert!((across.of(2.into()).middle() - 0.5).abs() < 1e-7, "{depth} {across:?}");
+        assert!(
+            (across.of(1.into()).middle() - 0.5 * local.middle()).abs() < 1e-7,
+            "{depth} {across:?}"
+        );
     }
     // At 10⁻¹² a narrow pixel has the share of its own phases.
     let pixel = chart.share(&circle, offset("-1e-12"), offset("-1.0000001e-12")).unwrap();

@@ -4,6 +4,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
+use basin_of_attraction::Label;
 use hopper_basin::{Fates, HopperFate};
 use hopper_reference::{Row, rows};
 use passive_hopper::MassRatio;
@@ -54,7 +55,7 @@ fn fates_and_counts_of_hops_beside_edges_are_those_of_the_reference() {
 fn labels_beside_edges_are_those_of_the_reference() {
     at_each_mass_ratio(|fates, group| {
         let speeds: Vec<f64> = group.iter().map(|row| row.input("alpha")).collect();
-        let expected: Vec<u16> = group.iter().map(|row| expected(row).label()).collect();
+        let expected: Vec<Label> = group.iter().map(|row| expected(row).label()).collect();
         assert_eq!(fates.labels(&speeds).unwrap(), expected);
     });
 }

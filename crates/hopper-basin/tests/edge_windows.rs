@@ -45,17 +45,17 @@ fn all_deep_frames_are_alike() {
     let (fates, chart, circle) = edge();
     for depth in [12.0, 30.5, 100.0, 1000.0] {
         let pixels = edge_window(&fates, &chart, &circle, depth, 10).unwrap();
-        let inside = pixels.iter().filter(|pixel| pixel.of(2).lower == 1.0).count();
+        let inside = pixels.iter().filter(|pixel| pixel.of(2.into()).lower == 1.0).count();
         assert_eq!((pixels.len(), inside), (10, 5));
-        for pixel in pixels.iter().filter(|pixel| pixel.of(2).upper < 1.0) {
-            let share = pixel.of(1);
+        for pixel in pixels.iter().filter(|pixel| pixel.of(2.into()).upper < 1.0) {
+            let share = pixel.of(1.into());
             assert!((share.middle() - 0.305159).abs() < 1e-2, "{depth}: {share:?}");
         }
     }
     // Above, the speeds themselves are labelled.
     let wide = edge_window(&fates, &chart, &circle, 3.0, 50).unwrap();
     assert!(wide.iter().all(|pixel| pixel.undecided() < 1e-9));
-    assert!(wide.iter().any(|pixel| pixel.of(1).lower == 1.0));
+    assert!(wide.iter().any(|pixel| pixel.of(1.into()).lower == 1.0));
     assert!(matches!(
         edge_window(&fates, &chart, &circle, 1e9, 4),
         Err(Error::Asymptotics(hopper_asymptotics::Error::Offset { .. }))

@@ -2,15 +2,15 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use basin_of_attraction::{Grid, Interval};
+use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{Error, Fates, HopperFate, basin_columns, basin_raster, first_humps};
 use passive_hopper::{MassRatio, alpha_star};
 use proptest::prelude::*;
 use std::ops::ControlFlow::Continue;
 
 /// A label is that of the fate; where the fate is undecided alone, the orbits around it may prove a label.
-fn assert_same(label: u16, fate: u16, m: f64, alpha: f64) {
-    let same = label == fate || HopperFate::is_undecided(fate);
+fn assert_same(label: Label, fate: Label, m: f64, alpha: f64) {
+    let same = label == fate || fate.is_undecided();
     assert!(same, "M = {m}, α = {alpha}: label {label}, fate {fate}");
 }
 

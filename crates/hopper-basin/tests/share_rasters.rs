@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use basin_of_attraction::{Grid, Interval};
+use basin_of_attraction::{Grid, Interval, Label};
 use hopper_asymptotics::{Offset, Phase};
 use hopper_basin::{
     CircleLimits, Error, Fates, HopperFate, PhaseBasins, ShareRaster, Upwards, share_raster,
@@ -134,7 +134,7 @@ fn deep_pixels_have_the_local_fractions() {
         }
     }
     assert!(deep.at(3, 0).is_none() && deep.at(0, 40).is_none());
-    assert_eq!(deep.labels(), [0, 1]);
+    assert_eq!(deep.labels(), [0, 1].map(Label::from));
 }
 
 /// A raster over mass ratios covers the phases of all its mass ratios: no stripes appear where a turn is higher than a pixel's
@@ -145,7 +145,7 @@ fn pixels_cover_the_phases_of_all_their_mass_ratios() {
     let found = raster(2, grid((0.19, 0.21), (9.0, 9.001), 2, 1), Upwards::Depth);
     for column in 0..2 {
         let circle = circle(&fates(found.grid().x_at(column)), 2);
-        let local = circle.fractions().of(1).middle();
+        let local = circle.fractions().of(1.into()).middle();
         let share = f64::from(found.at(column, 0).unwrap()[1]);
         assert!((share - local).abs() < 0.35 * local, "{share} {local}");
     }

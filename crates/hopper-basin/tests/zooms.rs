@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::{Grid, Interval};
-use hopper_basin::{Fates, HopperFate, basin_columns};
+use hopper_basin::{Fates, basin_columns};
 use passive_hopper::{MassRatio, alpha_star};
 use proptest::prelude::*;
 
@@ -28,7 +28,7 @@ fn check(m: f64, edge: f64, half: f64, (columns, rows): (usize, usize)) -> usize
         for (row, &label) in labels.iter().enumerate() {
             let alpha = grid.y_at(row);
             let fate = fates.fate(alpha).unwrap().label();
-            assert!(!HopperFate::is_undecided(label), "M = {m}, α = {alpha}: {label}");
+            assert!(!label.is_undecided(), "M = {m}, α = {alpha}: {label}");
             assert_eq!(label, fate, "M = {m}, α = {alpha}");
             different.insert(label);
         }

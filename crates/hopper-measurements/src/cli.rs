@@ -19,6 +19,8 @@ enum Command {
     CheckReference(commands::check_reference::Options),
     /// Compare every error bound with the actual error, on millions of hops
     CheckBounds(commands::check_bounds::Options),
+    /// Measure how often every interval of `basin-of-attraction` contains the true number
+    IntervalCoverage(commands::interval_coverage::Options),
     /// Measure time against error of every way to compute a hop
     WorkPrecision(commands::work_precision::Options),
     /// Measure how fast hops and rasters are; the output of each is checked first
@@ -34,6 +36,7 @@ pub fn run() -> Result<(), Error> {
     match Cli::parse().command {
         Command::CheckReference(options) => commands::check_reference::run(&options),
         Command::CheckBounds(options) => commands::check_bounds::run(&options),
+        Command::IntervalCoverage(options) => commands::interval_coverage::run(&options),
         Command::WorkPrecision(options) => commands::work_precision::run(&options),
         Command::Speed(options) => commands::speed::run(&options),
         Command::ComparePeers(options) => commands::compare_peers::run(&options),

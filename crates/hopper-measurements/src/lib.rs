@@ -8,6 +8,7 @@
 //! | [`commands`] | the commands, one file each |
 //! | `reference` | which question and which answer does a line of a reference file contain? |
 //! | `bounds` | is every error bound at least the actual error? |
+//! | `coverage` | how often does every interval of `basin-of-attraction` contain the true number? |
 //! | `work_precision` | how much time and error does each way to compute a hop have? |
 //! | `speed` | how fast are hops and rasters, with their output checked first? |
 //! | `peers` | how do heyoka, SciPy and numba compare on the same hops? |
@@ -16,6 +17,7 @@
 mod bounds;
 pub mod cli;
 pub mod commands;
+mod coverage;
 mod error;
 mod events;
 mod peers;

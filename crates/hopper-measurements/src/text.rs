@@ -28,8 +28,8 @@ pub(crate) fn duration(time: Duration) -> String {
 pub(crate) fn replace_block(text: &str, name: &str, block: &str) -> Result<String, Error> {
     let (begin, end) = (format!("<!-- begin {name} -->\n"), format!("<!-- end {name} -->"));
     let missing = || Error::Render {
-        what: "docs/accuracy.md".to_owned(),
-        reason: format!("it has no markers for '{name}'"),
+        what: format!("the block '{name}'"),
+        reason: "its document has no markers for it".to_owned(),
     };
     let (before, rest) = text.split_once(&begin).ok_or_else(missing)?;
     let (_, after) = rest.split_once(&end).ok_or_else(missing)?;

@@ -1,5 +1,6 @@
 //! Colours and names of fates in figures.
 
+use basin_of_attraction::Label;
 use hopper_basin::HopperFate;
 use journal_figures::palette::{Color, GREY, ORDERED, WHITE, YELLOW};
 
@@ -7,40 +8,40 @@ use journal_figures::palette::{Color, GREY, ORDERED, WHITE, YELLOW};
 ///
 /// The basins of α*₁, α*₂, α*₃ are green, red and blue as in the paper. All fixed points from the
 /// sixth on share the last colour.
-fn color(label: u16) -> Color {
-    match label {
-        0 => WHITE,
-        HopperFate::GROUNDED => GREY,
-        label if HopperFate::is_undecided(label) => YELLOW,
-        n => ORDERED[usize::from(n - 1).min(ORDERED.len() - 1)],
+fn color(label: Label) -> Color {
+    match label.basin_number() {
+        Some(0) => WHITE,
+        _ if label == HopperFate::GROUNDED => GREY,
+        Some(n) => ORDERED[usize::from(n - 1).min(ORDERED.len() - 1)],
+        None => YELLOW,
     }
 }
 
 /// The colour of a label, as CSS.
-pub(crate) fn css(label: u16) -> &'static str {
+pub(crate) fn css(label: Label) -> &'static str {
     color(label).css
 }
 
 /// The colour of a label.
-pub(crate) fn rgb(label: u16) -> [u8; 3] {
+pub(crate) fn rgb(label: Label) -> [u8; 3] {
     color(label).rgb
 }
 
 /// The name of a label, as markup.
-pub(crate) fn name(label: u16) -> String {
-    match label {
-        0 => "decaying".into(),
-        HopperFate::GROUNDED => "grounded".into(),
-        label if HopperFate::is_undecided(label) => "undecided".into(),
-        n if usize::from(n) >= ORDERED.len() => {
+pub(crate) fn name(label: Label) -> String {
+    match label.basin_number() {
+        Some(0) => "decaying".into(),
+        _ if label == HopperFate::GROUNDED => "grounded".into(),
+        Some(n) if usize::from(n) >= ORDERED.len() => {
             format!("to $α$^{{∗}}_{{{}}} …", ORDERED.len())
         }
-        n => format!("to $α$^{{∗}}_{{{n}}}"),
+        Some(n) => format!("to $α$^{{∗}}_{{{n}}}"),
+        None => "undecided".into(),
     }
 }
 
 /// The colour of a pixel that covers several fates: the light of their colours mixed by their shares. The rest to 1 is undecided.
-pub(crate) fn mixed(shares: impl Iterator<Item = (u16, f64)>) -> [u8; 3] {
+pub(crate) fn mixed(shares: impl Iterator<Item = (Label, f64)>) -> [u8; 3] {
     let (mut light, mut rest) = ([0.0; 3], 1.0);
     let mut add = |color: Color, share: f64| {
         for (sum, byte) in light.iter_mut().zip(color.rgb) {
@@ -77,12 +78,13 @@ mod tests {
 
     #[test]
     fn one_fate_keeps_its_colour_and_two_mix_as_light() {
-        for label in [0, 1, 2, 3, HopperFate::GROUNDED] {
+        let fixed_points = (0..4).map(Label::from);
+        for label in fixed_points.chain([HopperFate::GROUNDED]) {
             assert_eq!(mixed([(label, 1.0)].into_iter()), rgb(label));
         }
         assert_eq!(mixed([].into_iter()), YELLOW.rgb);
         // Half of the light of white and black is 0.5, the sRGB byte 188.
-        assert_eq!(mixed([(0, 0.5), (6, 0.5)].into_iter()), [188; 3]);
+        assert_eq!(mixed([0, 6].map(|n| (Label::from(n), 0.5)).into_iter()), [188; 3]);
         for byte in 0..=255 {
             assert_eq!(encoded(linear(byte)), byte);
         }

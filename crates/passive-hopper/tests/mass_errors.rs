@@ -38,13 +38,17 @@ fn hops_of_a_box_are_within_its_bound() {
             continue;
         }
         for (i, j) in [(-1, -1), (-1, 1), (1, -1), (1, 1), (0, 1), (1, 0), (0, -1), (-1, 0)] {
-            let (start, of) = (speed + 0.9999 * error * f64::from(i), m + 0.9999 * width * f64::from(j));
+            let (start, of) =
+                (speed + 0.9999 * error * f64::from(i), m + 0.9999 * width * f64::from(j));
             let next = LiftOffMap::new(ratio(of)).image(start).unwrap();
             match (found, next) {
                 (HopWithin::Next { speed: middle, error: bound }, Some(next)) => {
                     conclusive += 1;
                     let off = (next - middle).abs();
-                    assert!(off <= bound, "M = {m} ± {width:e}, α = {speed} ± {error:e}: {off:e} > {bound:e}");
+                    assert!(
+                        off <= bound,
+                        "M = {m} ± {width:e}, α = {speed} ± {error:e}: {off:e} > {bound:e}"
+                    );
                     largest = largest.max(off / bound);
                 }
                 (HopWithin::Grounded, None) => grounded += 1,
@@ -80,12 +84,13 @@ fn orbits_of_a_box_are_where_the_tangent_says() {
         let kappa_radius = kappa(m + width) - kappa(m);
         let orbit = ExtendedOrbit::new(&map, speed, Arithmetic::Bits256).unwrap();
         let mut orbit = orbit.with_radii(radius, kappa_radius);
-        let mut others = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0)].map(|(i, j)| {
-            let (start, of) = (speed + 0.99 * i * radius, m + 0.98 * j * width);
-            let (y, k) = (start - speed, kappa(of) - kappa(m));
-            let map = LiftOffMap::new(ratio(of));
-            (y, k, ExtendedOrbit::new(&map, start, Arithmetic::Bits256).unwrap())
-        });
+        let mut others =
+            [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0)].map(|(i, j)| {
+                let (start, of) = (speed + 0.99 * i * radius, m + 0.98 * j * width);
+                let (y, k) = (start - speed, kappa(of) - kappa(m));
+                let map = LiftOffMap::new(ratio(of));
+                (y, k, ExtendedOrbit::new(&map, start, Arithmetic::Bits256).unwrap())
+            });
         for _ in 0..4 {
             if orbit.hop().unwrap() != ExtendedStep::LiftsOff {
                 break;

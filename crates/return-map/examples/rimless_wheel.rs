@@ -213,6 +213,34 @@ mod tests {
         }
     }
 
+    /// The return map is a labelling in one line. From the least speed on the wheel comes to its periodic motion; from lower speeds it
+    /// stops, and such starts are reported.
+    #[test]
+    fn the_basin_of_rolling_begins_at_the_least_speed() {
+        use basin_of_attraction::{
+            Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits, UnmatchedReason,
+        };
+        let wheel = Wheel { slope: 0.08, half_angle: 0.3 };
+        let section = AfterCollision(wheel);
+        let map = ReturnMap::new(&wheel, &section, Limits::new(100.0, 10));
+        let step = |speed: &[f64]| map.image(speed[0]).ok().flatten().map(|image| vec![image]);
+        let (least, rolling) = (wheel.least_speed(), wheel.rolling_speed());
+        let speeds = Interval::new(0.5 * least, 3.0 * rolling).unwrap();
+        let starts: Vec<Vec<f64>> =
+            [0.6, 0.9, 0.999, 1.001, 1.5, 4.0].map(|factor| vec![factor * least]).to_vec();
+        let limits = RecurrenceLimits { locate: 50, tests: 50, ..RecurrenceLimits::default() };
+        let region = Hyperrectangle::try_from(speeds).unwrap();
+        let found = Attractors::search(&step, region, &starts, limits).unwrap();
+        assert_eq!(found.attractors().len(), 1);
+        assert!((found.attractors()[0].points[49][0] - rolling).abs() < 1e-9);
+        for (start, factor) in starts.iter().zip([0.6, 0.9, 0.999, 1.001, 1.5, 4.0]) {
+            let expected = if factor > 1.0 { Label::from(1) } else { Label::UNDECIDED_MAP };
+            assert_eq!(found.label(&step, start), expected, "{factor}");
+        }
+        let stopped = found.unmatched().iter().map(|orbit| orbit.reason);
+        assert!(stopped.eq([UnmatchedReason::Stopped; 3]));
+    }
+
     /// Below the least speed the wheel never passes the vertical. It rocks, and finally rests on two spokes.
     #[test]
     fn too_small_a_speed_ends_at_rest() {

@@ -5,7 +5,7 @@ use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::common_circles::CommonCircles;
 use crate::raster::labels::labels_of_columns;
-use basin_of_attraction::{Grid, LabelImage, raster_by_strips};
+use basin_of_attraction::{Grid, Label, LabelImage, raster_by_strips};
 use passive_hopper::{MassRatio, alpha_star};
 use std::ops::{ControlFlow, Range};
 
@@ -67,7 +67,7 @@ fn strip_width(grid: &Grid) -> usize {
 ///
 /// # Errors
 /// As [`basin_raster`]; [`Error::ColumnRange`] if `columns` ends beyond the last column of the grid.
-pub fn basin_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<u16>>, Error> {
+pub fn basin_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<Label>>, Error> {
     check_speeds(grid)?;
     grid.pixels()?;
     if columns.end > grid.columns {
@@ -97,7 +97,7 @@ fn strip(
     ratios: &[f64],
     speeds: &[f64],
     common: Option<&CommonCircles>,
-) -> Result<Vec<Vec<u16>>, Error> {
+) -> Result<Vec<Vec<Label>>, Error> {
     let fates = |&m: &f64| Fates::new(MassRatio::new(m)?);
     let fates = ratios.iter().map(fates).collect::<Result<Vec<_>, Error>>()?;
     labels_of_columns(&fates.iter().collect::<Vec<_>>(), speeds, common)

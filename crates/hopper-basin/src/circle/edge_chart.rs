@@ -6,6 +6,8 @@ use crate::circle::local_fractions::LocalFractions;
 use crate::circle::phase_basins::PhaseBasins;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::hopper_fate::HopperFate;
+use basin_of_attraction::Label;
 use hopper_asymptotics::{FatouCoordinate, Offset, Phase, Side};
 use passive_hopper::{FixedPointSpeed, MassRatio};
 
@@ -30,8 +32,8 @@ use passive_hopper::{FixedPointSpeed, MassRatio};
 /// let circle = PhaseBasins::new(&fates, 2, CircleLimits::default())?;
 /// // A pixel at 10⁻¹⁰⁰ left of the edge has the local fractions, at 10⁻¹² it has those of its own phases.
 /// let (from, to): (Offset, Offset) = ("-2e-100".parse()?, "-1e-100".parse()?);
-/// assert!((chart.share(&circle, from, to)?.of(1).middle() - 0.305159).abs() < 1e-6);
-/// assert_eq!(chart.label(&circle, "1e-100".parse()?)?, Some(2));
+/// assert!((chart.share(&circle, from, to)?.of(1.into()).middle() - 0.305159).abs() < 1e-6);
+/// assert_eq!(chart.label(&circle, "1e-100".parse()?)?, Some(2.into()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -228,12 +230,12 @@ impl EdgeChart {
     ///
     /// # Errors
     /// [`Error::OtherCircle`] unless `circle` is that of n at this mass ratio; as [`phase`](Self::phase).
-    pub fn label(&self, circle: &PhaseBasins, y: Offset) -> Result<Option<u16>, Error> {
+    pub fn label(&self, circle: &PhaseBasins, y: Offset) -> Result<Option<Label>, Error> {
         self.check(circle)?;
         let (delta, relative) = self.offset(y)?;
         if delta.mantissa() > 0.0 {
             let inside = delta.nearest() * (1.0 + relative) <= self.trap;
-            return Ok(inside.then_some(self.n as u16));
+            return Ok(inside.then_some(HopperFate::label_of_fixed_point(self.n)));
         }
         if delta.mantissa() == 0.0 {
             return Ok(None);
@@ -328,7 +330,10 @@ impl EdgeChart {
     /// All speeds up to δ are in the trap, or it is not known.
     fn basin_share(&self, a: Offset, b: Offset) -> LocalFractions {
         let inside = a.nearest().max(b.nearest()) * (1.0 + self.slope_error) <= self.trap;
-        LocalFractions::new(inside.then_some((self.n as u16, 1.0)).into_iter(), 0.0)
+        LocalFractions::new(
+            inside.then_some((HopperFate::label_of_fixed_point(self.n), 1.0)).into_iter(),
+            0.0,
+        )
     }
 
     fn check(&self, circle: &PhaseBasins) -> Result<(), Error> {

@@ -5,7 +5,7 @@ use crate::circle::local_fractions::LocalFractions;
 use crate::circle::phase_basins::PhaseBasins;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
-use crate::fates::hopper_fate::HopperFate;
+use basin_of_attraction::Label;
 use hopper_asymptotics::Offset;
 
 /// Offsets up to this use the chart. There the orders of a chart beyond the second are small, and single speeds would show a part of
@@ -74,11 +74,11 @@ fn by_chart(
 }
 
 /// The shares of equally likely speeds. Undecided ones have no share.
-pub(crate) fn shares_of(labels: &[u16]) -> LocalFractions {
-    let mut known: Vec<u16> = labels.to_vec();
-    known.retain(|&label| !HopperFate::is_undecided(label));
+pub(crate) fn shares_of(labels: &[Label]) -> LocalFractions {
+    let mut known: Vec<Label> = labels.to_vec();
+    known.retain(|&label| !label.is_undecided());
     known.sort_unstable();
     let runs = known.chunk_by(|a, b| a == b);
-    let share = |run: &[u16]| (run[0], run.len() as f64 / labels.len() as f64);
+    let share = |run: &[Label]| (run[0], run.len() as f64 / labels.len() as f64);
     LocalFractions::new(runs.map(share), 0.0)
 }

@@ -11,7 +11,7 @@ use crate::circle::share_raster::ShareRaster;
 use crate::circle::upwards::Upwards;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
-use basin_of_attraction::{Grid, Interval};
+use basin_of_attraction::{Grid, Interval, Label};
 use hopper_asymptotics::Offset;
 
 /// Most pixels of a frame each way: its shares then take a gigabyte.
@@ -36,7 +36,7 @@ const FATES: usize = 2;
 /// let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default())?;
 /// // Half of a window of height 2·10⁻¹⁰⁰ belongs to the basin of α*_2.
 /// let pixels = edge_window(&fates, &chart, &circle, 100.0, 16)?;
-/// let inside = pixels.iter().filter(|pixel| pixel.of(2).lower == 1.0).count();
+/// let inside = pixels.iter().filter(|pixel| pixel.of(2.into()).lower == 1.0).count();
 /// assert_eq!(inside, 8);
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```
@@ -117,7 +117,7 @@ fn sampled(
         rows: FATES * grid.rows,
     };
     let labels = basin_columns(&fine, 0..fine.columns)?;
-    let column = |pair: &[Vec<u16>]| {
+    let column = |pair: &[Vec<Label>]| {
         let pixel = |row: usize| {
             let within = FATES * row..FATES * (row + 1);
             shares_of(&pair.iter().flat_map(|one| one[within.clone()].to_vec()).collect::<Vec<_>>())

@@ -7,8 +7,7 @@ use crate::circle::fundamental_domain::DomainSpeeds;
 
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
-use crate::fates::hopper_fate::HopperFate;
-use basin_of_attraction::{Interval, Refinement, interval_basins};
+use basin_of_attraction::{Interval, Label, Refinement, interval_basins_from_known};
 use std::f64::consts::PI;
 
 /// (α*_1² − 1)/(α*_1² + 1): for M up to this a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).
@@ -44,7 +43,7 @@ const END_ULPS: [f64; 5] = [16.0, 64.0, 256.0, 1024.0, 4096.0];
 pub(crate) struct LabelledSpeeds {
     pub(crate) left: f64,
     pub(crate) right: f64,
-    pub(crate) label: u16,
+    pub(crate) label: Label,
 }
 
 /// The intervals of the domain from left to right, and how they were found.
@@ -78,7 +77,7 @@ fn sides_of_one_label(
     fates: &Fates,
     n: u64,
     limits: &CircleLimits,
-) -> Result<Vec<(Interval, u16)>, Error> {
+) -> Result<Vec<(Interval, Label)>, Error> {
     let refinement = Refinement { intervals: MOST_INTERVALS_OF_ONE_LABEL, ..limits.refinement };
     let limits = CircleLimits { refinement, ..*limits };
     let mut sides = Vec::new();
@@ -104,7 +103,7 @@ fn sides_of_one_label(
 fn by_branches(
     fates: &Fates,
     domain: &DomainSpeeds,
-    sides: &[(Interval, u16)],
+    sides: &[(Interval, Label)],
     limits: &CircleLimits,
 ) -> Result<Vec<LabelledSpeeds>, Error> {
     let top = domain.top;
@@ -133,7 +132,7 @@ fn by_branches(
         shortest: (limits.refinement.shortest * per_turn).max(ulps),
         ..limits.refinement
     };
-    let basins = interval_basins(fates, &known, &found, window, refinement)?;
+    let basins = interval_basins_from_known(fates, &known, &found, window, refinement)?;
     let parts = basins.intervals().iter().map(|part| LabelledSpeeds {
         left: part.interval.left,
         right: part.interval.right,
@@ -165,7 +164,7 @@ fn by_spacing(
     // An undecided speed ends an interval.
     let mut decided = false;
     for (&speed, &label) in speeds.iter().zip(&labels) {
-        if HopperFate::is_undecided(label) {
+        if label.is_undecided() {
             decided = false;
             continue;
         }
@@ -203,7 +202,7 @@ fn changes(
             last.right = middle;
         } else if let Some(goal) = ahead.last_mut().filter(|goal| goal.label == label) {
             goal.left = middle;
-        } else if HopperFate::is_undecided(label) || parts.len() + ahead.len() >= most {
+        } else if label.is_undecided() || parts.len() + ahead.len() >= most {
             parts.push(goal);
             ahead.pop();
         } else {

@@ -1,6 +1,6 @@
 //! The local fractions: the shares of the fates next to a fixed point, with bounds.
 
-use basin_of_attraction::Bounds;
+use basin_of_attraction::{Bounds, Label};
 
 /// The share of every fate in a set of phases, with bounds.
 ///
@@ -10,14 +10,14 @@ use basin_of_attraction::Bounds;
 #[derive(Debug, Clone, PartialEq)]
 pub struct LocalFractions {
     /// Labels in increasing order.
-    bounds: Vec<(u16, Bounds)>,
+    bounds: Vec<(Label, Bounds)>,
     undecided: f64,
 }
 
 impl LocalFractions {
     /// From certain shares by label, labels in increasing order, each with an error of at most `rounding`.
-    pub(crate) fn new(certain: impl Iterator<Item = (u16, f64)>, rounding: f64) -> Self {
-        let certain: Vec<(u16, f64)> = certain.filter(|&(_, share)| share > 0.0).collect();
+    pub(crate) fn new(certain: impl Iterator<Item = (Label, f64)>, rounding: f64) -> Self {
+        let certain: Vec<(Label, f64)> = certain.filter(|&(_, share)| share > 0.0).collect();
         let sum: f64 = certain.iter().map(|(_, share)| share).sum();
         let undecided = (1.0 - sum).max(0.0);
         let bound = |share: f64| Bounds {
@@ -40,11 +40,11 @@ impl LocalFractions {
 
     /// `part` of these shares and 1 − `part` of `other`.
     pub(crate) fn mixed(&self, part: f64, other: &LocalFractions) -> Self {
-        let mut labels: Vec<u16> = self.labels().chain(other.labels()).collect();
+        let mut labels: Vec<Label> = self.labels().chain(other.labels()).collect();
         labels.sort_unstable();
         labels.dedup();
         let mix = |own: f64, other: f64| part * own + (1.0 - part) * other;
-        let bound = |label: u16| {
+        let bound = |label: Label| {
             let (own, other) = (self.of(label), other.of(label));
             let (lower, upper) = (mix(own.lower, other.lower), mix(own.upper, other.upper));
             (label, Bounds { lower, upper })
@@ -54,19 +54,19 @@ impl LocalFractions {
     }
 
     /// The labels that occur, in increasing order.
-    pub fn labels(&self) -> impl Iterator<Item = u16> + '_ {
+    pub fn labels(&self) -> impl Iterator<Item = Label> + '_ {
         self.bounds.iter().map(|&(label, _)| label)
     }
 
     /// The share of `label`. The lower bound counts the phases that certainly have the label, the upper bound adds all that are
     /// undecided.
-    pub fn of(&self, label: u16) -> Bounds {
+    pub fn of(&self, label: Label) -> Bounds {
         let found = self.bounds.iter().find(|(own, _)| *own == label);
         found.map_or(Bounds { lower: 0.0, upper: self.undecided }, |&(_, bounds)| bounds)
     }
 
     /// The certain share of `label`.
-    pub(crate) fn certain(&self, label: u16) -> f64 {
+    pub(crate) fn certain(&self, label: Label) -> f64 {
         self.of(label).lower
     }
 

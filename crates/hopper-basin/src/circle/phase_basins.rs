@@ -9,6 +9,7 @@ use crate::circle::phase_shares::{PhasePart, PhaseShares};
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
+use basin_of_attraction::Label;
 use hopper_asymptotics::{FatouCoordinate, Offset, Phase};
 use passive_hopper::{LiftOffMap, MassRatio};
 
@@ -20,9 +21,9 @@ pub struct BoundaryPhase {
     /// Bound on its error, as far as that of [`PhaseBasins::phase_error`] is one.
     pub error: f64,
     /// The label below the phase.
-    pub below: u16,
+    pub below: Label,
     /// The label above the phase.
-    pub above: u16,
+    pub above: Label,
     /// The speed of the boundary point on the fundamental domain, to some ulps.
     pub speed: f64,
     /// What the orbit of `speed` comes to; `None` if `f64` does not tell.
@@ -54,7 +55,7 @@ pub struct UndecidedPhases {
 /// let fates = Fates::new(MassRatio::new(0.2)?)?;
 /// let circle = PhaseBasins::new(&fates, 2, CircleLimits::default())?;
 /// // Next to α*_2 on its left, 3 % of all speeds belong to the basin of α*_1, at every scale.
-/// let share = circle.fractions().of(1);
+/// let share = circle.fractions().of(1.into());
 /// assert!((share.middle() - 0.030).abs() < 5e-4 && share.half_width() < 1e-10);
 /// // Two points of a turn are boundary points.
 /// assert_eq!(circle.boundary().len(), 2);
@@ -219,7 +220,7 @@ impl PhaseBasins {
 
     /// The label of all phases within `error` of `phase`; `None` if they do not have one label, or it is not known. The integer
     /// part of `phase` does not matter.
-    pub fn label_at(&self, phase: f64, error: f64) -> Option<u16> {
+    pub fn label_at(&self, phase: f64, error: f64) -> Option<Label> {
         self.shares.label(phase, error)
     }
 
@@ -275,7 +276,7 @@ impl PhaseBasins {
             let label = self.label_at(from, 0.0);
             return LocalFractions::new(label.map(|label| (label, 1.0)).into_iter(), 0.0);
         }
-        let part = |(label, length): (u16, f64)| (label, length / turns);
+        let part = |(label, length): (Label, f64)| (label, length / turns);
         let rounding = self.rounding() * (1.0 + 1.0 / turns);
         LocalFractions::new(self.shares.lengths(from, turns).map(part), rounding)
     }

@@ -1,5 +1,7 @@
 //! Labelled intervals of the circle with the sums of their lengths: labels and shares by binary search.
 
+use basin_of_attraction::Label;
+
 /// An interval of phases that all have one label.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PhasePart {
@@ -8,7 +10,7 @@ pub struct PhasePart {
     /// Highest phase, in (0, 1].
     pub to: f64,
     /// The [label](crate::HopperFate::label).
-    pub label: u16,
+    pub label: Label,
 }
 
 /// Disjoint parts in increasing order, with sums.
@@ -16,14 +18,14 @@ pub struct PhasePart {
 pub(crate) struct PhaseShares {
     parts: Vec<PhasePart>,
     /// In increasing order.
-    labels: Vec<u16>,
+    labels: Vec<Label>,
     /// Row k has the length of every label in the first k parts.
     sums: Vec<f64>,
 }
 
 impl PhaseShares {
     pub(crate) fn new(parts: Vec<PhasePart>) -> Self {
-        let mut labels: Vec<u16> = parts.iter().map(|part| part.label).collect();
+        let mut labels: Vec<Label> = parts.iter().map(|part| part.label).collect();
         labels.sort_unstable();
         labels.dedup();
         let mut sums = vec![0.0; labels.len()];
@@ -42,7 +44,7 @@ impl PhaseShares {
     }
 
     /// The label of all phases within `error` of `phase`; `None` if they have none, or several.
-    pub(crate) fn label(&self, phase: f64, error: f64) -> Option<u16> {
+    pub(crate) fn label(&self, phase: f64, error: f64) -> Option<Label> {
         if !(phase.is_finite() && error >= 0.0) {
             return None;
         }
@@ -64,7 +66,7 @@ impl PhaseShares {
     }
 
     /// The length of every label in a number of turns from `from` on.
-    pub(crate) fn lengths(&self, from: f64, turns: f64) -> impl Iterator<Item = (u16, f64)> + '_ {
+    pub(crate) fn lengths(&self, from: f64, turns: f64) -> impl Iterator<Item = (Label, f64)> + '_ {
         let start = from - from.floor();
         let whole = turns.floor();
         let end = start + (turns - whole);
@@ -94,19 +96,19 @@ mod tests {
     use super::*;
 
     fn circle() -> PhaseShares {
-        let part = |from, to, label| PhasePart { from, to, label };
+        let part = |from, to, label: u8| PhasePart { from, to, label: label.into() };
         PhaseShares::new(vec![part(0.0, 0.25, 0), part(0.25, 0.5, 1), part(0.625, 1.0, 0)])
     }
 
     #[test]
     fn labels_hold_for_all_phases_within_the_error() {
         let circle = circle();
-        assert_eq!(circle.label(0.125, 0.0625), Some(0));
+        assert_eq!(circle.label(0.125, 0.0625), Some(Label::from(0)));
         assert_eq!(circle.label(0.125, 0.126), None);
         assert_eq!(circle.label(0.55, 0.0), None);
         // Through phase 0, and from another turn.
-        assert_eq!(circle.label(0.0, 0.25), Some(0));
-        assert_eq!(circle.label(-7.0 + 0.9, 0.2), Some(0));
+        assert_eq!(circle.label(0.0, 0.25), Some(Label::from(0)));
+        assert_eq!(circle.label(-7.0 + 0.9, 0.2), Some(Label::from(0)));
         assert_eq!(circle.label(0.9, 0.3), None);
         assert_eq!(circle.label(f64::NAN, 0.0), None);
         assert_eq!(circle.label(0.1, f64::NAN), None);

@@ -10,6 +10,7 @@ use crate::circle::upwards::Upwards;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use basin_of_attraction::Grid;
+use basin_of_attraction::Label;
 use hopper_asymptotics::{Offset, Phase};
 use passive_hopper::MassRatio;
 
@@ -17,7 +18,7 @@ use passive_hopper::MassRatio;
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShareColumn {
     /// The labels that occur, in increasing order.
-    pub labels: Vec<u16>,
+    pub labels: Vec<Label>,
     /// Row by row from below, one certain share for every label.
     pub shares: Vec<f32>,
 }
@@ -25,7 +26,7 @@ pub struct ShareColumn {
 impl ShareColumn {
     /// A column of pixels, the lowest first. Shares are lower bounds.
     pub(crate) fn new(pixels: &[LocalFractions]) -> Self {
-        let mut labels: Vec<u16> = pixels.iter().flat_map(LocalFractions::labels).collect();
+        let mut labels: Vec<Label> = pixels.iter().flat_map(LocalFractions::labels).collect();
         labels.sort_unstable();
         labels.dedup();
         let row = |pixel: &LocalFractions| {

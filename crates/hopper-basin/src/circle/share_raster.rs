@@ -4,7 +4,7 @@ use crate::circle::circle_limits::CircleLimits;
 use crate::circle::share_column::ShareColumn;
 use crate::circle::upwards::Upwards;
 use crate::error::Error;
-use basin_of_attraction::{Grid, columns_in_parallel};
+use basin_of_attraction::{Grid, Label, columns_in_parallel};
 use std::ops::ControlFlow;
 
 /// The share of every fate in each pixel of a raster.
@@ -13,7 +13,7 @@ pub struct ShareRaster {
     grid: Grid,
     upwards: Upwards,
     /// In increasing order.
-    labels: Vec<u16>,
+    labels: Vec<Label>,
     /// Row by row from below, each from left to right; one number for every label.
     shares: Vec<f32>,
     /// The columns without shares.
@@ -37,7 +37,7 @@ impl ShareRaster {
             return Err(basin_of_attraction::Error::BadRaster { columns, rows }.into());
         }
         let all = columns.iter().flatten();
-        let mut labels: Vec<u16> = all.flat_map(|column| column.labels.clone()).collect();
+        let mut labels: Vec<Label> = all.flat_map(|column| column.labels.clone()).collect();
         labels.sort_unstable();
         labels.dedup();
         let mut shares = vec![0.0; pixels * labels.len()];
@@ -72,7 +72,7 @@ impl ShareRaster {
     }
 
     /// The labels that occur, in increasing order.
-    pub fn labels(&self) -> &[u16] {
+    pub fn labels(&self) -> &[Label] {
         &self.labels
     }
 
@@ -86,7 +86,7 @@ impl ShareRaster {
     }
 
     /// The mean share of every label over the columns that are not blank.
-    pub fn means(&self) -> Vec<(u16, f64)> {
+    pub fn means(&self) -> Vec<(Label, f64)> {
         let count = self.labels.len();
         let columns = self.blank.iter().filter(|blank| !**blank).count();
         let pixels = (columns * self.grid.rows).max(1) as f64;
@@ -110,13 +110,13 @@ impl ShareRaster {
 ///
 /// ```
 /// use basin_of_attraction::{Grid, Interval};
-/// use hopper_basin::{CircleLimits, Upwards, share_raster};
+/// use hopper_basin::{CircleLimits, HopperFate, Upwards, share_raster};
 /// use std::ops::ControlFlow::Continue;
 /// // From 10⁻² to 10⁻³⁰⁰ below α*_1, all speeds decay at small M.
 /// let (x, y) = (Interval::new(0.1, 0.3)?, Interval::new(2.0, 300.0)?);
 /// let grid = Grid { x, y, columns: 2, rows: 50 };
 /// let raster = share_raster(1, grid, Upwards::Depth, CircleLimits::default(), |_| Continue(()))?;
-/// assert_eq!(raster.labels(), [0]);
+/// assert_eq!(raster.labels(), [HopperFate::Decaying.label()]);
 /// assert!(raster.means()[0].1 > 0.999_999);
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```

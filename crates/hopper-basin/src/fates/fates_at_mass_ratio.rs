@@ -5,7 +5,7 @@ use crate::fates::certain_fate::{CertainFates, Verdict};
 use crate::fates::hopper_fate::HopperFate;
 use crate::fates::slow_sides::SlowSides;
 use crate::traps::trap::Trap;
-use basin_of_attraction::{Image, ScalarMap, Traps, UndecidedReason};
+use basin_of_attraction::{Image, Label, ScalarMap, Traps, UndecidedReason};
 use passive_hopper::{LiftOffMap, MassRatio, index_below};
 use std::sync::OnceLock;
 
@@ -135,9 +135,9 @@ impl ScalarMap for Fates {
 impl Traps for Fates {
     /// The index of the trap that contains `alpha`. All indices from 65 000 up share the label 65 000, because the
     /// generic tools have labels of 16 bits.
-    fn label(&self, alpha: f64) -> Option<u16> {
+    fn label(&self, alpha: f64) -> Option<Label> {
         let n = index_below(alpha).ok()?;
         let trap = self.trap(n).ok()?;
-        trap.contains(alpha).then_some(n.min(HopperFate::LARGEST_LABEL) as u16)
+        trap.contains(alpha).then_some(HopperFate::label_of_fixed_point(n))
     }
 }

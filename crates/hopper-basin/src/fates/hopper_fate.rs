@@ -1,6 +1,6 @@
 //! The fates of a hopper, and their labels in images.
 
-use basin_of_attraction::UndecidedReason;
+use basin_of_attraction::{Label, UndecidedReason};
 
 /// The long-term behaviour of a hopper.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,52 +25,66 @@ pub enum HopperFate {
 
 impl HopperFate {
     /// The label of a hopper that is grounded.
-    pub const GROUNDED: u16 = u16::MAX - 1;
+    pub const GROUNDED: Label = Label::numbered::<65_534>();
     /// The label of a fate that is undecided because the budget of hops was used up.
-    pub const UNDECIDED: u16 = u16::MAX;
+    pub const UNDECIDED: Label = Label::UNDECIDED;
     /// The label of a fate that is undecided because the error of the orbit in `f64` reaches a verdict, and longer
     /// arithmetic would need too many hops or more than 1024 bits.
-    pub const UNDECIDED_PRECISION: u16 = u16::MAX - 2;
+    pub const UNDECIDED_PRECISION: Label = Label::UNDECIDED_PRECISION;
     /// The label of a fate that is undecided because the map could not decide a hop.
-    pub const UNDECIDED_HOP: u16 = u16::MAX - 3;
+    pub const UNDECIDED_HOP: Label = Label::UNDECIDED_MAP;
     /// The label of all fixed points whose index exceeds [`LARGEST_LABEL`](Self::LARGEST_LABEL).
-    pub const BEYOND_LABELS: u16 = u16::MAX - 4;
+    pub const BEYOND_LABELS: Label = Label::numbered::<65_531>();
     /// The largest index of a fixed point that has its own label.
     ///
     /// Labels have 16 bits. The round number leaves some 500 labels above it for other fates.
     pub const LARGEST_LABEL: u64 = 65_000;
 
-    /// The label of this fate: n for convergence to α*_n, hence 0 for decaying.
+    /// The label of this fate: basin n for convergence to α*_n, hence basin 0 for decaying.
     ///
     /// All n above [`LARGEST_LABEL`](Self::LARGEST_LABEL) share the label
     /// [`BEYOND_LABELS`](Self::BEYOND_LABELS). Rasters refuse windows with such fixed points.
-    pub fn label(self) -> u16 {
+    pub const fn label(self) -> Label {
         match self {
-            HopperFate::Decaying => 0,
-            HopperFate::Incessant { n } if n <= Self::LARGEST_LABEL => n as u16,
+            HopperFate::Decaying => Self::label_of_fixed_point(0),
+            HopperFate::Incessant { n } => Self::label_of_fixed_point(n),
             HopperFate::Grounded => Self::GROUNDED,
-            HopperFate::Undecided(UndecidedReason::Precision { .. }) => Self::UNDECIDED_PRECISION,
-            HopperFate::Undecided(UndecidedReason::Map { .. }) => Self::UNDECIDED_HOP,
-            HopperFate::Incessant { .. } => Self::BEYOND_LABELS,
-            HopperFate::Undecided(UndecidedReason::Budget) => Self::UNDECIDED,
+            HopperFate::Undecided(reason) => Label::undecided(reason),
         }
     }
 
+    /// The label of convergence to α*_n: basin n up to [`LARGEST_LABEL`](Self::LARGEST_LABEL), else
+    /// [`BEYOND_LABELS`](Self::BEYOND_LABELS).
+    pub const fn label_of_fixed_point(n: u64) -> Label {
+        if n > Self::LARGEST_LABEL {
+            return Self::BEYOND_LABELS;
+        }
+        // Numbers up to 65 000 are basins, so that the second arm is never taken.
+        match Label::basin(n as u16) {
+            Some(label) => label,
+            None => Self::BEYOND_LABELS,
+        }
+    }
+
+    /// Whether `label` is that of convergence to an α*_n with 1 ≤ n ≤ [`LARGEST_LABEL`](Self::LARGEST_LABEL).
+    pub fn is_incessant(label: Label) -> bool {
+        let fixed_points = 1..=Self::LARGEST_LABEL;
+        label.basin_number().is_some_and(|number| fixed_points.contains(&u64::from(number)))
+    }
+
     /// The name of `label` for legends.
-    pub fn label_name(label: u16) -> String {
+    pub fn label_name(label: Label) -> String {
         match label {
-            0 => "decaying".into(),
             Self::GROUNDED => "grounded".into(),
             Self::UNDECIDED => "undecided: budget of hops".into(),
             Self::UNDECIDED_PRECISION => "undecided: precision".into(),
             Self::UNDECIDED_HOP => "undecided: a hop".into(),
             Self::BEYOND_LABELS => "to a fixed point beyond the labels".into(),
-            n => format!("to α*_{n}"),
+            label => match label.basin_number() {
+                Some(0) => "decaying".into(),
+                Some(n) => format!("to α*_{n}"),
+                None => label.to_string(),
+            },
         }
-    }
-
-    /// Whether `label` is one of the labels of undecided fates.
-    pub fn is_undecided(label: u16) -> bool {
-        [Self::UNDECIDED, Self::UNDECIDED_PRECISION, Self::UNDECIDED_HOP].contains(&label)
     }
 }

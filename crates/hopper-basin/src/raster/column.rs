@@ -7,10 +7,10 @@ use crate::fates::slow_sides::SlowZones;
 use crate::raster::arcs::Arcs;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
-use crate::raster::rising_windows::trap_with_window;
 use crate::raster::laps::Laps;
+use crate::raster::rising_windows::trap_with_window;
 use crate::traps::trap_index::{Lookup, TrapIndex};
-use basin_of_attraction::Traps;
+use basin_of_attraction::{Label, Traps};
 use passive_hopper::index_below;
 use std::ops::Range;
 
@@ -23,7 +23,7 @@ pub(crate) struct Column<'a> {
     pub(crate) traps: TrapIndex,
     /// The laps of the map; `None` for mass ratios without laps.
     pub(crate) laps: Option<Laps>,
-    pub(crate) labels: Vec<u16>,
+    pub(crate) labels: Vec<Label>,
     /// The itineraries of the speeds whose orbits have ended; `None` for all other speeds.
     itineraries: Vec<Option<Itinerary>>,
     /// For every speed, whether the gap up to the next speed is closed: all speeds in a closed gap have the fate of
@@ -114,7 +114,7 @@ impl<'a> Column<'a> {
     pub(crate) fn closed_intervals(
         &self,
         range: Range<usize>,
-    ) -> Vec<(Range<usize>, Itinerary, u16)> {
+    ) -> Vec<(Range<usize>, Itinerary, Label)> {
         let mut found = Vec::new();
         let mut at = range.start;
         while at < range.end {
@@ -130,5 +130,8 @@ impl<'a> Column<'a> {
 }
 
 fn fate_in_trap(n: u32) -> KnownFate {
-    KnownFate { itinerary: Itinerary::in_trap(n), label: n as u16 }
+    KnownFate {
+        itinerary: Itinerary::in_trap(n),
+        label: HopperFate::label_of_fixed_point(n.into()),
+    }
 }

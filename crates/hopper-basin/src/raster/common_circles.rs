@@ -10,8 +10,8 @@ use crate::fates::hopper_fate::HopperFate;
 use crate::raster::arcs::Arcs;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
-use crate::raster::rising_windows::trap_with_window;
 use crate::raster::laps::{HUMPS_WITH_LAPS, Laps};
+use crate::raster::rising_windows::trap_with_window;
 use crate::raster::slow_orbits::speed_at;
 use crate::raster::strip::is_inside;
 use crate::traps::trap_index::{Lookup, TrapIndex};
@@ -223,7 +223,10 @@ impl CommonCircles {
         for _ in 0..MOST_HOPS {
             if let Some(trap) = self.trap(speed, error) {
                 itinerary.end_in(&Itinerary::in_trap(trap));
-                return Some(KnownFate { itinerary, label: trap as u16 });
+                return Some(KnownFate {
+                    itinerary,
+                    label: HopperFate::label_of_fixed_point(trap.into()),
+                });
             }
             itinerary.hop(self.lap((speed, error)));
             match self.middle.map().hop_within_masses(speed, error, self.masses()) {
@@ -259,6 +262,7 @@ impl Orbit {
                 Some((at, KnownFate { itinerary: known.itinerary.after(hops)?, ..known }))
             })
         };
-        known.flat_map(move |known| std::iter::once(((self.offset, 0.0), known)).chain(later(known)))
+        known
+            .flat_map(move |known| std::iter::once(((self.offset, 0.0), known)).chain(later(known)))
     }
 }

@@ -1,6 +1,7 @@
 //! Intervals of speeds with a known fate, and a table in which to find them.
 
 use crate::raster::itinerary::Itinerary;
+use basin_of_attraction::Label;
 use std::ops::Range;
 
 /// The fate of all speeds of an interval.
@@ -9,7 +10,7 @@ pub(crate) struct KnownFate {
     /// The itinerary that all orbits from the interval share.
     pub(crate) itinerary: Itinerary,
     /// The label of their fate.
-    pub(crate) label: u16,
+    pub(crate) label: Label,
 }
 
 /// The intervals of known fate of several columns, all with the same speeds. An interval is a trap, or lies between two
@@ -79,7 +80,7 @@ impl SpeedIndex {
 impl KnownIntervals {
     /// No intervals yet, for `columns` columns of `speeds`, of which the first `lower` are the lower part.
     pub(crate) fn new(columns: usize, speeds: &[f64], lower: usize) -> Self {
-        let unused = KnownFate { itinerary: Itinerary::START, label: 0 };
+        let unused = KnownFate { itinerary: Itinerary::START, label: Label::UNDECIDED };
         KnownIntervals {
             speed_index: SpeedIndex::new(speeds, lower),
             count: speeds.len(),

@@ -5,6 +5,7 @@ use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::common_circles::CommonCircles;
 use crate::raster::strip;
+use basin_of_attraction::Label;
 
 /// Fewer speeds than this are classified one by one.
 ///
@@ -25,13 +26,13 @@ impl Fates {
     /// use hopper_basin::{Fates, HopperFate};
     /// use passive_hopper::MassRatio;
     /// let fates = Fates::new(MassRatio::new(0.2)?)?;
-    /// assert_eq!(fates.labels(&[4.55, 4.60])?, [1, HopperFate::Decaying.label()]);
+    /// assert_eq!(fates.labels(&[4.55, 4.60])?, [1, 0].map(HopperFate::label_of_fixed_point));
     /// # Ok::<(), hopper_basin::Error>(())
     /// ```
     ///
     /// # Errors
     /// As [`fate`](Self::fate), for any of the speeds; [`Error::TooManySpeeds`] for more than 10⁹ speeds.
-    pub fn labels(&self, speeds: &[f64]) -> Result<Vec<u16>, Error> {
+    pub fn labels(&self, speeds: &[f64]) -> Result<Vec<Label>, Error> {
         Ok(labels_of_columns(&[self], speeds, None)?.pop().unwrap_or_default())
     }
 }
@@ -41,7 +42,7 @@ pub(crate) fn labels_of_columns(
     columns: &[&Fates],
     speeds: &[f64],
     common: Option<&CommonCircles>,
-) -> Result<Vec<Vec<u16>>, Error> {
+) -> Result<Vec<Vec<Label>>, Error> {
     if speeds.len() < FEWEST_SPEEDS {
         let one_by_one = |fates: &&Fates| {
             speeds.iter().map(|&speed| fates.fate(speed).map(HopperFate::label)).collect()
@@ -60,7 +61,7 @@ pub(crate) fn labels_of_columns(
     let mut order: Vec<usize> = (0..speeds.len()).collect();
     order.sort_by(|&a, &b| speeds[a].total_cmp(&speeds[b]));
     let sorted: Vec<f64> = order.iter().map(|&at| speeds[at]).collect();
-    let in_given_order = |labels: Vec<u16>| {
+    let in_given_order = |labels: Vec<Label>| {
         let mut all = vec![HopperFate::UNDECIDED; speeds.len()];
         for (&at, label) in order.iter().zip(labels) {
             all[at] = label;

@@ -182,12 +182,11 @@ impl<'a> Strip<'a> {
             Some((edge.n, offset, *itinerary))
         });
         let Some((n, (offset, error), itinerary)) = found else { return false };
-        let in_trap = fates
-            .trap(n)
-            .is_ok_and(|trap| trap.side_of_offset(offset, error) == TrapSide::Inside);
+        let in_trap =
+            fates.trap(n).is_ok_and(|trap| trap.side_of_offset(offset, error) == TrapSide::Inside);
         let found = if in_trap {
             let itinerary = Itinerary::in_trap(n as u32);
-            Some((KnownFate { itinerary, label: n as u16 }, 0))
+            Some((KnownFate { itinerary, label: HopperFate::label_of_fixed_point(n) }, 0))
         } else if offset < -error {
             self.fate_from(column, n, (offset, error), f64::INFINITY)
         } else {
@@ -220,7 +219,9 @@ impl<'a> Strip<'a> {
         let lap = |speed: f64, reach: f64| {
             let of = |column: Option<&Column>| column?.laps.as_ref()?.lap(speed, reach);
             match radius > 0.0 {
-                true => of(self.columns.first()).filter(|lap| of(self.columns.last()) == Some(*lap)),
+                true => {
+                    of(self.columns.first()).filter(|lap| of(self.columns.last()) == Some(*lap))
+                }
                 false => of(Some(column)),
             }
         };

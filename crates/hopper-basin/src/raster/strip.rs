@@ -20,6 +20,7 @@ use crate::raster::common_circles::CommonCircles;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
+use basin_of_attraction::Label;
 use passive_hopper::{HopWithin, LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
 
@@ -94,7 +95,7 @@ pub(crate) fn labels(
     all: &[&Fates],
     speeds: &[f64],
     common: Option<&CommonCircles>,
-) -> Result<Vec<Vec<u16>>, Error> {
+) -> Result<Vec<Vec<Label>>, Error> {
     let (speeds, lower) = with_lower_speeds(speeds);
     // Orbits and intervals are numbered by `u32`, at most one for each speed of each column.
     if speeds.len().saturating_mul(all.len()) > LARGEST_STRIP {

@@ -3,7 +3,7 @@
 use super::{Measured, median};
 use crate::error::Error;
 use basin_of_attraction::{Grid, Interval};
-use hopper_basin::{Fates, HopperFate, basin_columns, first_humps};
+use hopper_basin::{Fates, basin_columns, first_humps};
 use passive_hopper::MassRatio;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
@@ -56,12 +56,12 @@ fn check(grid: &Grid) -> Result<usize, Error> {
         let (m, alpha) = (grid.x_at(pixel / SIDE), grid.y_at(pixel % SIDE));
         let fate = Fates::new(MassRatio::new(m)?)?.fate(alpha)?.label();
         let label = labels[pixel];
-        if label == fate || HopperFate::is_undecided(fate) {
+        if label == fate || fate.is_undecided() {
             return Ok(());
         }
         Err(Error::CheckFailed(format!("M = {m}, α = {alpha}: {label} instead of {fate}")))
     })?;
-    Ok(labels.into_iter().filter(|&label| HopperFate::is_undecided(label)).count())
+    Ok(labels.into_iter().filter(|&label| label.is_undecided()).count())
 }
 
 /// The figures of zooms.

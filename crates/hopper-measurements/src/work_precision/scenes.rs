@@ -259,8 +259,7 @@ fn raster() -> Result<Scene, Error> {
     const SIDE: usize = 256;
     let grid = Grid { x: Interval::new(0.1, 1.0)?, y: first_humps(5), columns: SIDE, rows: SIDE };
     let image = || basin_raster(grid, |_| ControlFlow::Continue(()));
-    let undecided =
-        image()?.labels.iter().filter(|&&label| HopperFate::is_undecided(label)).count();
+    let undecided = image()?.labels.iter().filter(|&&label| label.is_undecided()).count();
     let time = median_time(1, |_| image()).div_f64((SIDE * SIDE) as f64);
     Ok(Scene {
         question: "the basins over (M, α), as in Fig. 6",

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    IntervalBasins, PowerLaw, Refinement, Warning, occupied_boxes, power_law, uncertain_fraction,
+    IntervalBasins, PowerLaw, Refinement, SplitMix64, occupied_boxes, power_law, uncertain_fraction,
 };
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::hopper_basins;
@@ -60,14 +60,14 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
     ]);
     let mut data = Vec::new();
     for (n, (marker, color)) in HUMPS.into_iter().zip(LOOKS) {
-        let part = basins.within(hump(n)?);
+        let part = basins.within(hump(n)?)?;
         let points = part.boundary(RESOLUTION);
         let left = part.window().left;
         let count = |size: f64| Ok((size, occupied_boxes(&points, left, size)? as f64));
         let counts: Vec<(f64, f64)> = (0..=18)
             .map(|k| count(pxfm::f_exp10(-10.0 + 0.5 * f64::from(k))))
             .collect::<Result<_, Error>>()?;
-        let law = power_law(&counts)?;
+        let law = power_law(&[&counts])?;
         // Counts are half a decade apart. The mean of two local slopes is the slope over a decade.
         for (k, pair) in law.local.chunks(2).enumerate() {
             let [a, b] = *pair else { continue };
@@ -92,7 +92,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
             slope(14),
             slope(8),
             slope(0),
-            fit(&law),
+            fit(&power_law(&at_random_offsets(&points, left, &counts)?)?),
         ]);
         let y = 50.0 + 17.0 * (n as f64 - 1.0);
         svg.marker((frame.left + 16.0, y), marker, 7.0, color);
@@ -136,14 +136,31 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
     })
 }
 
+/// Random offsets of the boxes for the interval of a fit.
+const OFFSETS: u64 = 16;
+
+/// The counts again, at the same sizes, with boxes at random offsets.
+fn at_random_offsets(
+    points: &[f64],
+    left: f64,
+    counts: &[(f64, f64)],
+) -> Result<Vec<Vec<(f64, f64)>>, Error> {
+    let random = SplitMix64::from_seed(1);
+    let once = |offset: u64| {
+        let part = random.uniform(offset);
+        let count = |&(size, _): &(f64, f64)| {
+            Ok((size, occupied_boxes(points, left - part * size, size)? as f64))
+        };
+        counts.iter().map(count).collect()
+    };
+    (0..OFFSETS).map(once).collect()
+}
+
 fn fit(law: &PowerLaw) -> String {
-    let text = format!("{:.3} ± {:.3}", -law.exponent.value, law.exponent.half_width());
-    match law.warning {
-        None => text,
-        Some(Warning::Drifts { fine, coarse }) => {
-            format!("{text}; warning: slopes drift from {:.2} to {:.2}", -coarse, -fine)
-        }
-        Some(_) => format!("{text}; warning: few scales"),
+    let exponent = -law.exponent;
+    match law.interval {
+        Ok(interval) => format!("{exponent:.3} ± {:.3}", interval.half_width()),
+        Err(reason) => format!("{exponent:.3}, no interval: {reason}"),
     }
 }
 
@@ -182,7 +199,7 @@ fn single(svg: &mut Svg, frame: &Frame, generations: &[f64]) -> Result<(), Error
     let counts: Vec<(f64, f64)> = (0..=14)
         .map(|k| count(pxfm::f_exp10(-16.0 + f64::from(k))))
         .collect::<Result<_, Error>>()?;
-    let law = power_law(&counts)?;
+    let law = power_law(&[counts])?;
     let slopes: Vec<(f64, f64)> = law
         .local
         .iter()
@@ -242,7 +259,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
             Ok((epsilon, fraction.middle()))
         })
         .collect::<Result<_, Error>>()?;
-    let law = power_law(&exact)?;
+    let law = power_law(&[&exact])?;
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame::linear(70.0, 20.0, 540.0, 350.0, (1e-10, 1e-1), (1e-8, 1.0)).log_x().log_y();
     let guide: Vec<_> =

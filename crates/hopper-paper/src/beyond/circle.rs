@@ -7,7 +7,7 @@ use crate::fate_colors;
 use crate::figure::Figure;
 use crate::figures::share_plot::png;
 use crate::job::Job;
-use basin_of_attraction::{Grid, Interval, Refinement};
+use basin_of_attraction::{Grid, Interval, Label, Refinement};
 use hopper_basin::{
     CircleLimits, HopperFate, PhaseBasins, ShareRaster, Upwards, crisis, grounding, share_raster,
 };
@@ -56,13 +56,13 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
             };
             let points: Vec<(f64, f64)> =
                 (0..COLUMNS).map(|column| (raster.grid().x_at(column), share(column))).collect();
-            let color = if own == 0 { "#000000" } else { fate_colors::css(own) };
+            let color = if own == Label::from(0) { "#000000" } else { fate_colors::css(own) };
             below.clipped(&mut svg, |svg| {
                 for run in points.split(|point| !(point.1 > LEAST)).filter(|run| run.len() > 1) {
                     below.polyline(svg, run, Pen::solid(color, 1.6));
                 }
             });
-            let label = f64::from(own);
+            let label = f64::from(own.code());
             let row =
                 |&(m, share): &(f64, f64)| vec![Some(n as f64), Some(m), Some(label), Some(share)];
             data.extend(points.iter().map(row));
@@ -75,11 +75,11 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
     legend(&mut svg);
     for (n, m) in [(1, 0.2), (2, 0.12), (2, 0.2), (3, 0.2), (1, 0.8), (2, 0.8), (3, 0.8)] {
         let found = PhaseBasins::new(&fates(m)?, n, CircleLimits::default())?.fractions();
-        let cell = |label: u16| {
+        let cell = |label: Label| {
             let share = found.of(label);
             format!("{:.7} ± {:.0e}", share.middle(), share.half_width())
         };
-        let shares = [0, 1, 2, HopperFate::GROUNDED].map(cell);
+        let shares = [0.into(), 1.into(), 2.into(), HopperFate::GROUNDED].map(cell);
         table.row([format!("{n}"), format!("{m}")].into_iter().chain(shares));
     }
     Ok(Finding {
@@ -126,7 +126,8 @@ fn raster(n: u64) -> Result<ShareRaster, Error> {
 }
 
 fn legend(svg: &mut Svg) {
-    for (at, label) in [0, 1, 2, HopperFate::GROUNDED].into_iter().enumerate() {
+    for (at, label) in [0.into(), 1.into(), 2.into(), HopperFate::GROUNDED].into_iter().enumerate()
+    {
         let x = 62.0 + 90.0 * at as f64;
         svg.fill_rect(x, 10.0, 12.0, 12.0, fate_colors::css(label));
         svg.rect(x, 10.0, 12.0, 12.0, Pen::solid("#000", 0.6));
@@ -137,7 +138,7 @@ fn legend(svg: &mut Svg) {
 /// A mass ratio from which a share opens: left of α*_n all speeds have the fate `label` below it.
 struct Opening {
     n: u64,
-    label: u16,
+    label: Label,
     from: f64,
     text: &'static str,
     look: (Marker, &'static str),
@@ -148,21 +149,21 @@ pub(super) fn openings(job: &Job) -> Result<Finding, Error> {
     let all = [
         Opening {
             n: 1,
-            label: 0,
+            label: Label::from(0),
             from: grounding(0)?.mass_ratio,
             text: "left of $α$^{∗}_{1}: grounded, from $M$ = 0.3275",
             look: (Marker::Disc, "#22a672"),
         },
         Opening {
             n: 2,
-            label: 1,
+            label: Label::from(1),
             from: crisis(1)?.mass_ratio,
             text: "left of $α$^{∗}_{2}: not to $α$^{∗}_{1}, from $M$_{c}(1)",
             look: (Marker::Square, "#d03a2b"),
         },
         Opening {
             n: 3,
-            label: 2,
+            label: Label::from(2),
             from: crisis(2)?.mass_ratio,
             text: "left of $α$^{∗}_{3}: not to $α$^{∗}_{2}, from $M$_{c}(2)",
             look: (Marker::Triangle, "#1f4e96"),

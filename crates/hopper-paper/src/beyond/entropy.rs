@@ -6,7 +6,7 @@ use super::measure::ratio_ticks;
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::entropy;
+use basin_of_attraction::{Label, entropy};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -25,7 +25,7 @@ fn entropies(mass_ratio: f64) -> Result<(f64, f64, usize), Error> {
     let fates = fates(mass_ratio)?;
     let humps = (TO - FROM) as f64;
     let of_box = |number: usize| {
-        let mut counts: BTreeMap<u16, usize> = BTreeMap::new();
+        let mut counts: BTreeMap<Label, usize> = BTreeMap::new();
         for start in 0..STARTS {
             let part = (number as f64 + (start as f64 + 0.5) / STARTS as f64) / BOXES as f64;
             *counts.entry(label(&fates, by_humps(humps * part))).or_insert(0) += 1;

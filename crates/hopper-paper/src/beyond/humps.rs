@@ -7,7 +7,7 @@ use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::Refinement;
-use hopper_basin::hopper_basins;
+use hopper_basin::{HopperFate, hopper_basins};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.
@@ -36,11 +36,12 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     ]);
     let mut fractions: Vec<Vec<FractionBounds>> = Vec::new();
     for n in 1..=LAST {
-        let part = basins.within(hump(n)?);
+        let part = basins.within(hump(n)?)?;
         let length = part.window().length();
         let undecided = part.undecided() / length;
-        let row: Vec<f64> =
-            (1..=n as u16).map(|label| part.resolved_length(label) / length).collect();
+        let row: Vec<f64> = (1..=n)
+            .map(|k| part.resolved_length(HopperFate::label_of_fixed_point(k)) / length)
+            .collect();
         let cell = |fraction: Option<&f64>| {
             fraction.map_or("–".into(), |s| format!("{:.4} %", 100.0 * s))
         };
@@ -55,10 +56,10 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let frame =
         Frame::linear(70.0, 20.0, 440.0, 350.0, (0.8, LAST as f64 + 0.2), (1e-4, 0.1)).log_y();
     // Five curves: one for each colour. The sixth fixed point is in the data.
-    for m in 1..=5u16 {
+    for m in 1..=5u8 {
         let at = |n: u64| fractions[n as usize - 1][usize::from(m) - 1];
         let points: Vec<_> = (u64::from(m)..=LAST).map(|n| (n as f64, at(n).0)).collect();
-        let color = fate_colors::css(m);
+        let color = fate_colors::css(m.into());
         frame.polyline(&mut svg, &points, Pen::solid(color, 1.5));
         for (n, &point) in (u64::from(m)..).zip(&points) {
             let (x, y) = frame.at(point);
@@ -68,7 +69,7 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
         let y = 318.0 - 18.0 * f64::from(5 - m);
         svg.line((90.0, y), (112.0, y), Pen::solid(color, 1.5));
         svg.dot(101.0, y, 3.2, color);
-        svg.text(120.0, y + 4.0, Anchor::Start, 11.5, &fate_colors::name(m));
+        svg.text(120.0, y + 4.0, Anchor::Start, 11.5, &fate_colors::name(m.into()));
     }
     let n_ticks: Vec<_> = (1..=LAST).map(|n| (n as f64, format!("{n}"))).collect();
     frame.axes(&mut svg, &n_ticks, &decades(frame.y, 1), "hump $n$", "fraction of hump $n$");

@@ -1,7 +1,7 @@
 //! Starts on the humps of the paper's window, their fates, and fractions as text.
 
 use crate::error::Error;
-use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval};
+use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval, Label};
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{MassRatio, alpha_star};
 
@@ -14,12 +14,12 @@ pub(super) fn fates(mass_ratio: f64) -> Result<Fates, Error> {
 }
 
 /// The label of a start; [`HopperFate::UNDECIDED_HOP`] if the fate cannot be computed.
-pub(super) fn label(fates: &Fates, alpha: f64) -> u16 {
+pub(super) fn label(fates: &Fates, alpha: f64) -> Label {
     fates.fate(alpha).map_or(HopperFate::UNDECIDED_HOP, HopperFate::label)
 }
 
-pub(super) fn is_incessant(label: u16) -> bool {
-    (1..=HopperFate::LARGEST_LABEL as u16).contains(&label)
+pub(super) fn is_incessant(label: Label) -> bool {
+    HopperFate::is_incessant(label)
 }
 
 pub(super) fn hump(n: u64) -> Result<Interval, Error> {

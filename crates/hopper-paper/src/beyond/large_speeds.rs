@@ -8,7 +8,8 @@ use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::{random_fractions, uncertain_fraction};
+use basin_of_attraction::{Label, random_fractions, uncertain_fraction};
+use hopper_basin::HopperFate;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.
@@ -33,7 +34,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     let fates = fates(M)?;
     let scan = job.scan("large speeds", HUMPS.len() * DECADES, |k| {
         let (n, decade) = (HUMPS[k / DECADES], k % DECADES + 1);
-        let at = |x: f64| if x > 0.0 { label(&fates, x) } else { 0 };
+        let at = |x: f64| if x > 0.0 { label(&fates, x) } else { Label::from(0) };
         let epsilon = pxfm::f_exp10(-(decade as f64));
         let fraction = uncertain_fraction(hump(n)?, epsilon, starts(n), n, at)?;
         Ok(vec![epsilon, fraction.value, fraction.lower, fraction.upper])
@@ -58,7 +59,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         data.extend(rows.iter().map(|row| {
             std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()
         }));
-        let color = fate_colors::css(k as u16 + 1);
+        let color = fate_colors::css(HopperFate::label_of_fixed_point(k as u64 + 1));
         let seen: Vec<_> = points
             .iter()
             .filter(|(_, fraction)| fraction.value > 0.0)
@@ -75,8 +76,9 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         let y = 250.0 + 17.0 * k as f64;
         svg.marker((430.0, y), LOOKS[k], 6.5, color);
         svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("$n$ = {n}"));
-        let incessant =
-            random_fractions(window, starts(n), n, |x| u16::from(is_incessant(label(&fates, x))))?;
+        let incessant = random_fractions(window, starts(n), n, |x| {
+            Label::from(is_incessant(label(&fates, x)))
+        })?;
         let cell = |decade: usize| {
             let fraction = points[decade - 1].1;
             format!("{:.2} ± {:.2} %", 100.0 * fraction.value, 100.0 * fraction.half_width())
@@ -84,7 +86,9 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         table.row([
             format!("{n}"),
             format!("{:.1}", window.left),
-            incessant.get(&1).map_or("0".into(), |&fraction| percent(&fraction.into())),
+            incessant
+                .get(&Label::from(1))
+                .map_or("0".into(), |&fraction| percent(&fraction.into())),
             cell(2),
             cell(4),
             cell(6),

@@ -10,8 +10,8 @@ use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    Bounds, Interval, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
-    random_fractions, wilson_interval,
+    Bounds, Interval, Label, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
+    proportion_interval, random_fractions,
 };
 use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
@@ -26,21 +26,28 @@ const RATIOS: (f64, f64, usize) = (0.02, 50.0, 121);
 const BY_INTERVALS: f64 = 0.905;
 /// Shortest interval whose preimages are computed. Shorter intervals widen the bounds of the measure.
 const SHORTEST: f64 = 1e-7;
-/// Points of a golden rotation, and rotations with random starts. Together 64 000 points, about the 50 000 of the
-/// paper; sixteen replicates give a 95 % interval.
-const POINTS: usize = 4000;
-const REPLICATES: usize = 16;
-/// Seed of the random starts. Another seed changes the data within their intervals.
+/// Points, one at random in each of as many parts of the window: about the 50 000 of the paper.
+const POINTS: usize = 64_000;
+/// Seed of the random points. Another seed changes the data within their intervals.
 const SEED: u64 = 2002;
 
-/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000 or among the last four
-/// of `u16`. This label lies between them and belongs to no fate.
-const ALL: u16 = HopperFate::UNDECIDED - 10;
+/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000, or above 65 530. This label
+/// lies between them and belongs to no fate.
+const ALL: Label = Label::numbered::<65_525>();
 
 /// Labels in the order of the columns of the data.
-const LABELS: [u16; 8] = [1, 2, 3, 4, 5, ALL, 0, HopperFate::GROUNDED];
+const LABELS: [Label; 8] = [
+    Label::numbered::<1>(),
+    Label::numbered::<2>(),
+    Label::numbered::<3>(),
+    Label::numbered::<4>(),
+    Label::numbered::<5>(),
+    ALL,
+    Label::numbered::<0>(),
+    HopperFate::GROUNDED,
+];
 
-type FractionsWithBars = BTreeMap<u16, FractionWithBar>;
+type FractionsWithBars = BTreeMap<Label, FractionWithBar>;
 
 /// The window as an interval in which each hump has length one.
 fn window() -> Result<Interval, Error> {
@@ -54,14 +61,14 @@ fn fractions_with_bars(mass_ratio: f64) -> Result<FractionsWithBars, Error> {
         return fractions_by_intervals(&fates, SHORTEST);
     }
     let at = |place: f64| label(&fates, by_humps(place));
-    let mut fractions = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, at)?;
-    let together = |place: f64| if is_incessant(at(place)) { ALL } else { 0 };
-    let all = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, together)?;
+    let mut fractions = low_discrepancy_fractions(window()?, POINTS, SEED, at)?;
+    let together = |place: f64| if is_incessant(at(place)) { ALL } else { Label::from(0) };
+    let all = low_discrepancy_fractions(window()?, POINTS, SEED, together)?;
     fractions.extend(all.get(&ALL).map(|&fraction| (ALL, fraction)));
     let mut fractions: FractionsWithBars =
         fractions.into_iter().map(|(label, fraction)| (label, fraction.into())).collect();
     // A label that no point has may still have a fraction: its interval is that of 0 hits.
-    let unseen = wilson_interval(0, POINTS * REPLICATES)?;
+    let unseen = proportion_interval(0, POINTS)?;
     LABELS.into_iter().for_each(|label| {
         fractions.entry(label).or_insert(unseen.into());
     });
@@ -74,9 +81,9 @@ fn fractions_by_intervals(fates: &Fates, shortest: f64) -> Result<FractionsWithB
     let found = hopper_basins(fates, FROM, TO, 400, refinement)?.basins;
     let mut fractions = FractionsWithBars::new();
     for n in FROM..TO {
-        let part = found.within(hump(n)?);
+        let part = found.within(hump(n)?)?;
         let scale = 1.0 / (part.window().length() * (TO - FROM) as f64);
-        let mut add = |label: u16, resolved: f64, length: Bounds| {
+        let mut add = |label: Label, resolved: f64, length: Bounds| {
             let none = FractionWithBar { value: 0.0, lower: 0.0, upper: 0.0 };
             let fraction = fractions.entry(label).or_insert(none);
             fraction.value += scale * resolved;
@@ -98,7 +105,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     let scan = job.scan("measures", ratios.len(), |k| {
         let fractions = fractions_with_bars(ratios[k])?;
         let numbers =
-            |label: u16| fractions.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
+            |label: Label| fractions.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
         Ok(LABELS.into_iter().flat_map(numbers).collect())
     })?;
     let fractions_of =
@@ -117,8 +124,8 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     svg.text(x - 4.0, frame.top + frame.height - 8.0, Anchor::End, 11.0, "$M$_{c}(1)");
     let x = frame.at((1.0 / touch, 1.0)).0;
     svg.text(x + 4.0, frame.top + frame.height - 8.0, Anchor::Start, 11.0, "1/$M$_{c}(1)");
-    for n in (FROM as u16..TO as u16).rev() {
-        curve(&mut svg, &frame, &all, n, fate_colors::css(n), 1.1);
+    for label in (FROM..TO).rev().map(HopperFate::label_of_fixed_point) {
+        curve(&mut svg, &frame, &all, label, fate_colors::css(label), 1.1);
     }
     curve(&mut svg, &frame, &all, ALL, "#000000", 2.0);
     frame.axes(
@@ -130,7 +137,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     );
     legend(&mut svg);
     let rows = all.iter().map(|(m, fractions)| {
-        let cells = |label: u16| {
+        let cells = |label: Label| {
             let fraction = fractions.get(&label);
             [fraction.map(|s| s.value), fraction.map(|s| s.lower), fraction.map(|s| s.upper)]
         };
@@ -152,8 +159,7 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
             notes: format!(
                 "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with bounds that hold for the branches found \
-                 and up to rounding; beyond, by {POINTS} points of a golden rotation with {REPLICATES} random \
-                 starts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
+                 and up to rounding; beyond, by one random point in each of {POINTS} equal parts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
                  there it falls through its fixed point. Between it and its inverse the measure falls and \
                  rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
                  $α$^{{∗}}_{{1}} at once (near $M$ = 0.172, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
@@ -171,7 +177,7 @@ fn curve(
     svg: &mut Svg,
     frame: &Frame,
     all: &[(f64, FractionsWithBars)],
-    label: u16,
+    label: Label,
     color: &'static str,
     width: f64,
 ) {
@@ -203,7 +209,7 @@ fn legend(svg: &mut Svg) {
     svg.line((x, 455.0), (x + 20.0, 455.0), Pen::solid("#000000", 2.0));
     svg.text(x + 25.0, 459.0, Anchor::Start, 11.5, "all together");
     x += 110.0;
-    for n in FROM as u16..TO as u16 {
+    for n in (FROM..TO).map(HopperFate::label_of_fixed_point) {
         svg.line((x, 455.0), (x + 20.0, 455.0), Pen::solid(fate_colors::css(n), 1.4));
         svg.text(x + 25.0, 459.0, Anchor::Start, 11.5, &fate_colors::name(n));
         x += 82.0;
@@ -217,15 +223,15 @@ fn three_ways() -> Result<Table, Error> {
         "intervals (bounds)",
         "equally spaced, 50 000 (as the paper)",
         "random, 50 000",
-        "low discrepancy, 16 × 3125",
+        "low discrepancy, 50 000",
     ]);
-    fn percent_of_all<F: Copy + Into<FractionWithBar>>(fractions: &BTreeMap<u16, F>) -> String {
+    fn percent_of_all<F: Copy + Into<FractionWithBar>>(fractions: &BTreeMap<Label, F>) -> String {
         fractions.get(&ALL).map_or("0".into(), |&fraction| percent(&fraction.into()))
     }
     for m in [0.1, 0.15, 0.2, 0.3, 0.5, 0.8] {
         let fates = fates(m)?;
         let together = |place: f64| {
-            if is_incessant(label(&fates, by_humps(place))) { ALL } else { 0 }
+            if is_incessant(label(&fates, by_humps(place))) { ALL } else { Label::from(0) }
         };
         let certain = fractions_by_intervals(&fates, 1e-7)?;
         table.row([
@@ -233,7 +239,7 @@ fn three_ways() -> Result<Table, Error> {
             certain.get(&ALL).map_or("0".into(), bounds),
             percent_of_all(&equally_spaced_fractions(window()?, 50_000, together)?),
             percent_of_all(&random_fractions(window()?, 50_000, SEED, together)?),
-            percent_of_all(&low_discrepancy_fractions(window()?, 3125, 16, SEED, together)?),
+            percent_of_all(&low_discrepancy_fractions(window()?, 50_000, SEED, together)?),
         ]);
     }
     Ok(table)
@@ -250,19 +256,25 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
         let compare = |place: f64| {
             let alpha = by_humps(place);
             let (one, two) = (label(&light, alpha), label(&heavy, alpha));
-            u16::from(is_incessant(one))
-                + 2 * u16::from(is_incessant(two))
-                + 4 * u16::from(one != two)
+            Label::from(
+                u8::from(is_incessant(one))
+                    + 2 * u8::from(is_incessant(two))
+                    + 4 * u8::from(one != two),
+            )
         };
-        let counts = low_discrepancy_fractions(window()?, POINTS, REPLICATES, SEED, compare)?;
+        let counts = low_discrepancy_fractions(window()?, POINTS, SEED, compare)?;
         let sum = |bit: u16| -> f64 {
-            counts.iter().filter(|(k, _)| *k & bit != 0).map(|(_, fraction)| fraction.value).sum()
+            counts
+                .iter()
+                .filter(|(k, _)| k.code() & bit != 0)
+                .map(|(_, fraction)| fraction.value)
+                .sum()
         };
         // The bit belongs to several counted kinds. The sum of their half widths bounds the half width of the sum.
         let width = |bit: u16| -> f64 {
             counts
                 .iter()
-                .filter(|(k, _)| *k & bit != 0)
+                .filter(|(k, _)| k.code() & bit != 0)
                 .map(|(_, fraction)| fraction.half_width())
                 .sum()
         };

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
-use hopper_basin::{ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
+use hopper_basin::{HopperFate, ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// Spacings of the scans. A needle narrower than the spacing is missed. A scan at a tenth of the spacing takes ten
@@ -51,7 +51,7 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
     let frame = Frame::linear(70.0, 20.0, 540.0, 350.0, (1e-5, 1e-1), (8.0, 120.0)).log_x().log_y();
     let mut data = Vec::new();
     for n in 1..=humps as u64 {
-        let color = fate_colors::css(n as u16);
+        let color = fate_colors::css(HopperFate::label_of_fixed_point(n));
         let contact = 1.0 / crisis(n)?.mass_ratio;
         frame.polyline(
             &mut svg,

@@ -5,7 +5,7 @@ use super::humps_of_window::{FROM, TO, fates};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::{Interval, PreimageTree, Refinement, ResidualSet};
+use basin_of_attraction::{Interval, Label, PreimageTree, Refinement, ResidualSet};
 use hopper_basin::{branches, hopper_basins};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::alpha_star;
@@ -28,11 +28,14 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let refinement = Refinement { shortest: SHORTEST, undecided: 0.0, ..Refinement::default() };
     let basins = hopper_basins(&fates, FROM, TO, 400, refinement)?.basins;
     let long = |level: usize| {
-        let own = basins.intervals().iter().filter(|part| part.label == 1 && part.level == level);
+        let own = basins
+            .intervals()
+            .iter()
+            .filter(|part| part.label == Label::from(1) && part.level == level);
         own.filter(|part| part.interval.length() >= SHORTEST).count()
     };
-    let levels = basins.levels(1);
-    let (resolved, total) = (basins.resolved_length(1), basins.basin_length(1));
+    let levels = basins.levels(1.into());
+    let (resolved, total) = (basins.resolved_length(1.into()), basins.basin_length(1.into()));
     let window = Interval::new(alpha_star(FROM), alpha_star(TO))?;
     let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
     let all = branches(&fates, FROM, TO, 400)?;

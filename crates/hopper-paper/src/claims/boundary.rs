@@ -104,7 +104,7 @@ pub(super) fn boundary_points() -> Result<[Vec<f64>; 2], Error> {
     let fates = Fates::new(MassRatio::new(M)?)?;
     let basins = hopper_basins(&fates, 1, 3, 400, refinement)?.basins;
     let hump = |n: u64| -> Result<Vec<f64>, Error> {
-        Ok(basins.within(Interval::new(alpha_star(n), alpha_star(n + 1))?).boundary(1e-12))
+        Ok(basins.within(Interval::new(alpha_star(n), alpha_star(n + 1))?)?.boundary(1e-12))
     };
     Ok([hump(1)?, hump(2)?])
 }

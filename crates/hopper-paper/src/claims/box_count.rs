@@ -58,7 +58,7 @@ pub(super) fn first_hump() -> Result<IntervalBasins, Error> {
 
 fn hump(basins: &IntervalBasins, n: u64) -> Result<Vec<f64>, Error> {
     // Gaps of ten of the shortest parts are rounding.
-    Ok(basins.within(Interval::new(alpha_star(n), alpha_star(n + 1))?).boundary(1e-12))
+    Ok(basins.within(Interval::new(alpha_star(n), alpha_star(n + 1))?)?.boundary(1e-12))
 }
 
 /// A point and its preimages on the left of α*_2, as distances from it.

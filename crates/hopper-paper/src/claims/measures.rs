@@ -56,7 +56,7 @@ pub(super) struct Fractions {
 /// The fractions by counting points: this number on each interval.
 pub(super) fn counted(mass_ratio: f64, points: usize) -> Result<Fractions, Error> {
     let found = basin_fractions(MassRatio::new(mass_ratio)?, HUMPS.start, HUMPS.end, points)?;
-    Ok(Fractions { all: found.incessant(), first: found.of(1) })
+    Ok(Fractions { all: found.incessant(), first: found.of(1.into()) })
 }
 
 /// A measure that the paper prints.

@@ -7,7 +7,7 @@ use super::share_files::{self, Shares};
 use super::zoom_files::{self, Zoom};
 use crate::error::Error;
 use crate::figures::basin_plot::{PIXELS, Window, draw_basins};
-use basin_of_attraction::{Grid, Interval, LabelImage};
+use basin_of_attraction::{Grid, Interval, Label, LabelImage};
 use hopper_asymptotics::Offset;
 use hopper_basin::{HopperFate, basin_columns, first_humps};
 use journal_figures::render;
@@ -144,7 +144,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let header = npy_header(Order::Fortran, grid.rows, grid.columns);
     kept.assemble(&array, &header, tiles, |tile, bytes| {
         for pair in bytes.chunks_exact(2) {
-            *counts.entry(u16::from_le_bytes([pair[0], pair[1]])).or_insert(0) += 1;
+            *counts.entry(label(pair)).or_insert(0) += 1;
         }
         picture.add(tile, bytes);
     })?;
@@ -163,7 +163,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
         .iter()
         .map(|(&label, &pixels)| {
             let name = HopperFate::label_name(label);
-            serde_json::json!({ "label": label, "name": name, "pixels": pixels })
+            serde_json::json!({ "label": label.code(), "name": name, "pixels": pixels })
         })
         .collect();
     let text = serde_json::to_string_pretty(&legend)
@@ -176,7 +176,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let mut out = std::io::stdout().lock();
     let said = (|| {
         for (&label, pixels) in &counts {
-            writeln!(out, "label {label:5}  {:40} {pixels} pixels", HopperFate::label_name(label))?;
+            let (code, name) = (label.code(), HopperFate::label_name(label));
+            writeln!(out, "label {code:5}  {name:40} {pixels} pixels")?;
         }
         writeln!(out, "{}\n{}", array.display(), folder.path().join(PICTURE_FILE).display())
     })();
@@ -219,7 +220,15 @@ fn columns(grid: &Grid, tile: usize) -> Result<Vec<u8>, Error> {
     let first = tile * TILE;
     let count = TILE.min(grid.columns - first);
     let labels = basin_columns(grid, first..first + count)?;
-    Ok(labels.iter().flatten().flat_map(|label| label.to_le_bytes()).collect())
+    Ok(labels.iter().flatten().flat_map(|label| label.code().to_le_bytes()).collect())
+}
+
+/// The label in two bytes of a tile.
+fn label(pair: &[u8]) -> Label {
+    match *pair {
+        [low, high] => Label::from_code(u16::from_le_bytes([low, high])),
+        _ => Label::UNDECIDED,
+    }
 }
 
 /// The picture of a raster that may be larger: ⌊k · size / picture size⌋ of its columns and rows.
@@ -233,7 +242,7 @@ struct Picture {
 impl Picture {
     fn new(grid: &Grid) -> Self {
         let (columns, rows) = (grid.columns.min(PICTURE), grid.rows.min(PICTURE));
-        let labels = vec![0; columns * rows];
+        let labels = vec![Label::OUTSIDE; columns * rows];
         let image = LabelImage { grid: Grid { columns, rows, ..*grid }, labels };
         Picture { grid: *grid, image, next: 0 }
     }
@@ -250,7 +259,7 @@ impl Picture {
             for row in 0..rows {
                 let at = 2 * (base + row * self.grid.rows / rows);
                 let pair = bytes.get(at..at + 2);
-                let label = pair.map_or(0, |pair| u16::from_le_bytes([pair[0], pair[1]]));
+                let label = pair.map_or(Label::UNDECIDED, label);
                 self.image.labels[row * columns + self.next] = label;
             }
             self.next += 1;
@@ -318,7 +327,10 @@ mod tests {
             for column in 0..shown.columns {
                 for row in 0..shown.rows {
                     let from = (column * columns / shown.columns, row * rows / shown.rows);
-                    assert_eq!(image.at(column, row), Some(label(from.0, from.1)));
+                    assert_eq!(
+                        image.at(column, row),
+                        Some(Label::from_code(label(from.0, from.1)))
+                    );
                 }
             }
         }
@@ -335,8 +347,7 @@ mod tests {
             let bytes = columns(&grid, tile).unwrap();
             for (k, pair) in bytes.chunks(2).enumerate() {
                 let (column, row) = (tile * TILE + k / 25, k % 25);
-                let label = u16::from_le_bytes([pair[0], pair[1]]);
-                assert_eq!(Some(label), whole.at(column, row), "{column} {row}");
+                assert_eq!(Some(label(pair)), whole.at(column, row), "{column} {row}");
             }
         }
     }

@@ -5,6 +5,7 @@
 //! ```
 
 use crate::error::Error;
+use basin_of_attraction::Label;
 use hopper_basin::ShareColumn;
 
 /// A column as bytes; `None` is a blank column.
@@ -12,7 +13,7 @@ pub(super) fn bytes(column: Option<&ShareColumn>) -> Vec<u8> {
     let Some(ShareColumn { labels, shares }) = column else { return Vec::new() };
     let mut bytes = Vec::with_capacity(2 + 2 * labels.len() + 4 * shares.len());
     bytes.extend((labels.len() as u16).to_le_bytes());
-    bytes.extend(labels.iter().flat_map(|label| label.to_le_bytes()));
+    bytes.extend(labels.iter().flat_map(|label| label.code().to_le_bytes()));
     bytes.extend(shares.iter().flat_map(|share| share.to_le_bytes()));
     bytes
 }
@@ -26,7 +27,12 @@ pub(super) fn column(bytes: &[u8]) -> Result<Option<ShareColumn>, Error> {
     let count = 2 * usize::from(u16::from_le_bytes(*count));
     let short = || Error::unreadable("a column of shares", "its bytes end too early");
     let (labels, shares) = rest.split_at_checked(count).ok_or_else(short)?;
-    let labels = labels.as_chunks::<2>().0.iter().map(|pair| u16::from_le_bytes(*pair)).collect();
+    let labels = labels
+        .as_chunks::<2>()
+        .0
+        .iter()
+        .map(|pair| Label::from_code(u16::from_le_bytes(*pair)))
+        .collect();
     let shares = shares.as_chunks::<4>().0.iter().map(|word| f32::from_le_bytes(*word)).collect();
     Ok(Some(ShareColumn { labels, shares }))
 }
@@ -38,7 +44,7 @@ mod tests {
     #[test]
     fn columns_come_back_and_a_blank_one_too() {
         let own = ShareColumn {
-            labels: vec![0, 7, 60_000],
+            labels: [0, 7, 60_000].map(Label::from_code).to_vec(),
             shares: vec![0.25, 0.5, 0.125, 1.0, 0.0, 0.0],
         };
         assert_eq!(column(&bytes(Some(&own))).unwrap(), Some(own.clone()));

@@ -88,7 +88,8 @@ pub(super) fn run(options: &Shares) -> Result<(), Error> {
     folder.write(PICTURE_FILE, &rendered.png)?;
     let mut legend = Vec::new();
     for (at, (label, mean)) in raster.means().into_iter().enumerate() {
-        let (file, name) = (format!("share_{label}.npy"), HopperFate::label_name(label));
+        let (file, name) = (format!("share_{}.npy", label.code()), HopperFate::label_name(label));
+        let label = label.code();
         folder.write(&file, &npy(&raster, at))?;
         say(format_args!("label {label:5}  {name:40} {:9.5} %  {file}", 100.0 * mean))?;
         legend.push(

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::fate_colors::mixed;
 use crate::figures::basin_plot::legend;
 use crate::figures::share_plot;
+use basin_of_attraction::Label;
 use hopper_basin::{
     CircleLimits, EdgeChart, Fates, FollowedEdge, LocalFractions, PhaseBasins, edge_frame,
     edge_window, frame_slant,
@@ -70,7 +71,7 @@ pub(super) fn run(zoom: &Zoom) -> Result<(), Error> {
         let depth = step * at as f64;
         let strip = edge_window(&fates, &chart, &circle, depth, rows)?;
         let window = edge_frame(&fates, (&chart, &edge), &circle, depth, (columns, rows))?;
-        let mut labels: Vec<u16> = strip.iter().flat_map(LocalFractions::labels).collect();
+        let mut labels: Vec<Label> = strip.iter().flat_map(LocalFractions::labels).collect();
         labels.extend(window.labels());
         labels.sort_unstable();
         labels.dedup();
@@ -131,7 +132,7 @@ fn checked(zoom: &Zoom) -> Result<Zoom, Error> {
 /// A frame in colours, the highest row first.
 struct Drawn {
     /// In increasing order.
-    labels: Vec<u16>,
+    labels: Vec<Label>,
     /// One column, at the mass ratio of the middle.
     strip: Vec<u8>,
     /// The window of mass ratio and speed.
@@ -142,7 +143,7 @@ impl Drawn {
     /// The number of labels, the labels, the strip and the window.
     fn bytes(&self) -> Vec<u8> {
         let mut bytes = (self.labels.len() as u16).to_le_bytes().to_vec();
-        bytes.extend(self.labels.iter().flat_map(|label| label.to_le_bytes()));
+        bytes.extend(self.labels.iter().flat_map(|label| label.code().to_le_bytes()));
         bytes.extend(&self.strip);
         bytes.extend(&self.window);
         bytes
@@ -159,7 +160,11 @@ impl Drawn {
         if window.len() != 3 * zoom.rows * zoom.columns {
             return Err(short());
         }
-        let labels = labels.as_chunks::<2>().0.iter().map(|pair| u16::from_le_bytes(*pair));
+        let labels = labels
+            .as_chunks::<2>()
+            .0
+            .iter()
+            .map(|pair| Label::from_code(u16::from_le_bytes(*pair)));
         Ok(Drawn { labels: labels.collect(), strip: strip.to_vec(), window: window.to_vec() })
     }
 }
@@ -203,7 +208,7 @@ fn draw_all(zoom: &Zoom, chart: &EdgeChart, all: &[Drawn]) -> Result<Svg, Error>
         .map(|(depth, _)| (depth, format!("10^{{{}}}", exponent(depth))))
         .collect();
     frame.axes(&mut svg, &scales, &half_heights("$h$"), "half height $h$", "speed $α$ − $p$");
-    let mut labels: Vec<u16> = all.iter().flat_map(|drawn| drawn.labels.clone()).collect();
+    let mut labels: Vec<Label> = all.iter().flat_map(|drawn| drawn.labels.clone()).collect();
     labels.sort_unstable();
     labels.dedup();
     legend(&mut svg, frame.left, labels.into_iter());

@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
-use basin_of_attraction::{Grid, Interval, LabelImage};
-use hopper_basin::basin_raster;
+use basin_of_attraction::{Grid, Interval, Label, LabelImage};
+use hopper_basin::{HopperFate, basin_raster};
 use journal_figures::{Anchor, DataFile, Frame, Pen, Svg, indexed_png, ticks};
 use repository_tools::Progress;
 use resumable_job::{Order, npy_header};
@@ -92,7 +92,7 @@ pub(crate) fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Er
 }
 
 /// The legend, with one entry for each colour: fixed points beyond the last colour share it. Returns where the next entry begins.
-pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = u16>) -> f64 {
+pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = Label>) -> f64 {
     let mut x = left;
     let mut last = "";
     for label in labels {
@@ -104,7 +104,7 @@ pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = u16>
         svg.fill_rect(x, 18.0, 12.0, 12.0, color);
         svg.rect(x, 18.0, 12.0, 12.0, Pen::solid("#000", 0.6));
         svg.text(x + 17.0, 28.5, Anchor::Start, 11.5, &fate_colors::name(label));
-        x += if (1..60_000).contains(&label) { 58.0 } else { 84.0 };
+        x += if HopperFate::is_incessant(label) { 58.0 } else { 84.0 };
     }
     x
 }
@@ -112,7 +112,7 @@ pub(crate) fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = u16>
 /// The fraction of every label, in words.
 fn basin_fractions(image: &LabelImage) -> String {
     let pixels = image.labels.len() as f64;
-    let fraction = |(label, count): (u16, usize)| {
+    let fraction = |(label, count): (Label, usize)| {
         format!("{} {:.2} %", fate_colors::name(label), 100.0 * count as f64 / pixels)
     };
     format!(
@@ -142,6 +142,6 @@ fn png(name: &str, image: &LabelImage) -> Result<Vec<u8>, Error> {
 /// The labels as a NumPy file; rows start from the lowest α.
 fn npy(image: &LabelImage) -> Vec<u8> {
     let mut bytes = npy_header(Order::C, image.grid.rows, image.grid.columns);
-    bytes.extend(image.labels.iter().flat_map(|label| label.to_le_bytes()));
+    bytes.extend(image.labels.iter().flat_map(|label| label.code().to_le_bytes()));
     bytes
 }

@@ -1,0 +1,131 @@
+//! Attractors found by recurrences: known ones are found, and slow passages are not attractors.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use basin_of_attraction::{
+    Attractors, Error, Hyperrectangle, Interval, Label, RecurrenceLimits, SplitMix64,
+    UnmatchedReason, region_fractions,
+};
+
+fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
+    let side = |&(left, right): &(f64, f64)| Interval::new(left, right).unwrap();
+    Hyperrectangle::new(sides.iter().map(side).collect()).unwrap()
+}
+
+fn starts(region: &Hyperrectangle, count: u64) -> Vec<Vec<f64>> {
+    let random = SplitMix64::from_seed(5);
+    (0..count).map(|k| region.random_point(&random, k)).collect()
+}
+
+/// The fixed point 0 of x + x² attracts [−1, 0] and no point on its right. Orbits pass it in 10⁴ and more steps.
+#[test]
+fn a_slow_passage_is_no_attractor() {
+    let map = |x: &[f64]| Some(vec![x[0] + x[0] * x[0]]);
+    let line = region(&[(-1.5, 0.5)]);
+    let limits = RecurrenceLimits { escape: Some(10.0), ..RecurrenceLimits::default() };
+    for cells in [10, 100, 999, 10_000] {
+        let limits = RecurrenceLimits { cells, ..limits };
+        let mut points = starts(&line, 100);
+        points.extend([vec![1e-3], vec![1e-4], vec![-0.5], vec![-1e-3]]);
+        let found = Attractors::search(&map, line.clone(), &points, limits).unwrap();
+        assert!(found.attractors().is_empty(), "{cells}");
+        // No start of [−1, 0] is called escaped, and each is reported.
+        for point in &points {
+            let label = found.label(&map, point);
+            let attracted = (-1.0..=0.0).contains(&point[0]);
+            let reported = found.unmatched().iter().any(|orbit| orbit.start == *point);
+            assert_eq!(reported, label.is_undecided());
+            assert!(!attracted || label.is_undecided(), "{cells} {point:?}");
+            assert!(label.is_undecided() || label == Attractors::ESCAPED);
+        }
+        assert!(found.unmatched().iter().any(|orbit| orbit.reason == UnmatchedReason::NoTrap));
+    }
+}
+
+#[test]
+fn fixed_points_cycles_and_chaotic_attractors_are_found() {
+    // x → 3x/2 − x³/2 has the attractors ±1.
+    let cubic = |x: &[f64]| Some(vec![1.5 * x[0] - 0.5 * x[0] * x[0] * x[0]]);
+    let line = region(&[(-1.7, 1.6)]);
+    let limits = RecurrenceLimits::default();
+    let found = Attractors::search(&cubic, line.clone(), &starts(&line, 50), limits).unwrap();
+    assert_eq!((found.attractors().len(), found.unmatched().len()), (2, 0));
+    for attractor in found.attractors() {
+        let sign = attractor.points[0][0].signum();
+        assert!((attractor.points[0][0] - sign).abs() < 1e-9);
+        assert_eq!(found.label(&cubic, &[0.3 * sign]), attractor.label);
+    }
+    // The logistic map at 3.2 has a cycle of two points, at 3.9 a chaotic attractor.
+    for (r, least) in [(3.2, 2), (3.9, 60)] {
+        let logistic = move |x: &[f64]| Some(vec![r * x[0] * (1.0 - x[0])]);
+        let unit = region(&[(0.0, 1.0)]);
+        let found =
+            Attractors::search(&logistic, unit.clone(), &starts(&unit, 20), limits).unwrap();
+        assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{r}");
+        let mut cells: Vec<i64> =
+            found.attractors()[0].points.iter().map(|x| (100.0 * x[0]) as i64).collect();
+        cells.sort_unstable();
+        cells.dedup();
+        assert!(cells.len() >= least, "{r} {}", cells.len());
+    }
+}
+
+/// Hénon's map has one attractor in the square, with the area of `known_planes.rs`.
+#[test]
+fn henons_attractor_is_found_and_other_orbits_escape() {
+    let henon = |p: &[f64]| Some(vec![1.0 - 1.4 * p[0] * p[0] + p[1], 0.3 * p[0]]);
+    let square = region(&[(-2.0, 2.0), (-2.0, 2.0)]);
+    let limits =
+        RecurrenceLimits { cells: 400, escape: Some(100.0), ..RecurrenceLimits::default() };
+    let found = Attractors::search(&henon, square.clone(), &starts(&square, 100), limits).unwrap();
+    assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0));
+    let counts = region_fractions(&square, 20_000, 3, |x| found.label(&henon, x)).unwrap();
+    let area = counts.fraction(Label::from(1)).unwrap();
+    assert!(area.covers(0.432_495) && counts.undecided() == 0, "{area:?}");
+}
+
+/// The stroboscopic map of ẍ + 0.15 ẋ − x + x³ = 0.2 cos t, by 100 steps of Runge and Kutta's method a period.
+fn duffing(start: &[f64]) -> Option<Vec<f64>> {
+    let slope = |t: f64, x: f64, v: f64| (v, x - x * x * x - 0.15 * v + 0.2 * t.cos());
+    let (mut x, mut v) = (start[0], start[1]);
+    let h = std::f64::consts::TAU / 100.0;
+    for k in 0..100 {
+        let t = h * f64::from(k);
+        let a = slope(t, x, v);
+        let b = slope(t + 0.5 * h, x + 0.5 * h * a.0, v + 0.5 * h * a.1);
+        let c = slope(t + 0.5 * h, x + 0.5 * h * b.0, v + 0.5 * h * b.1);
+        let d = slope(t + h, x + h * c.0, v + h * c.1);
+        x += h / 6.0 * (a.0 + 2.0 * b.0 + 2.0 * c.0 + d.0);
+        v += h / 6.0 * (a.1 + 2.0 * b.1 + 2.0 * c.1 + d.1);
+    }
+    Some(vec![x, v])
+}
+
+/// 1000 points in the literature gave 0.512 and 0.488; three of their standard deviations are 0.047.
+#[test]
+fn duffings_oscillator_has_its_two_basins() {
+    let square = region(&[(-2.2, 2.2), (-2.2, 2.2)]);
+    let limits = RecurrenceLimits { locate: 200, budget: 10_000, ..RecurrenceLimits::default() };
+    let found = Attractors::search(&duffing, square.clone(), &starts(&square, 50), limits).unwrap();
+    assert_eq!((found.attractors().len(), found.unmatched().len()), (2, 0), "{found:?}");
+    let counts = region_fractions(&square, 5000, 3, |x| found.label(&duffing, x)).unwrap();
+    assert_eq!(counts.undecided(), 0);
+    let mut shares = [1, 2].map(|n| counts.fraction(Label::from(n)).unwrap().value);
+    shares.sort_by(f64::total_cmp);
+    assert!((shares[1] - 0.512).abs() < 0.047, "{shares:?}");
+}
+
+#[test]
+fn points_without_a_value_and_of_another_dimension_are_reported() {
+    let stops = |x: &[f64]| (x[0] > 0.0).then(|| vec![x[0] - 0.1]);
+    let away = |x: &[f64]| Some(vec![x[0] + 1.0]);
+    let line = region(&[(-1.0, 1.0)]);
+    let limits = RecurrenceLimits::default();
+    let found = Attractors::search(&stops, line.clone(), &[vec![0.5]], limits).unwrap();
+    assert_eq!(found.unmatched()[0].reason, UnmatchedReason::Stopped);
+    assert_eq!(found.label(&stops, &[0.5]), Label::UNDECIDED_MAP);
+    let found = Attractors::search(&away, line.clone(), &[vec![0.5]], limits).unwrap();
+    assert_eq!(found.unmatched()[0].reason, UnmatchedReason::LeftRegion);
+    let error = Attractors::search(&away, line, &[vec![0.5, 0.5]], limits).unwrap_err();
+    assert_eq!(error, Error::WrongDimension { dimension: 2, expected: 1 });
+}

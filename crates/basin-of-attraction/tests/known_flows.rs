@@ -1,0 +1,122 @@
+//! Flows whose basin fractions are known from the literature: their attractors are found by recurrences, their basins by random points.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use basin_of_attraction::{
+    Attractors, Hyperrectangle, Interval, LabelCounts, RecurrenceLimits, SplitMix64,
+    UnmatchedReason, region_fractions,
+};
+
+/// The state after `steps` steps of Runge and Kutta's method, each of length `h`.
+fn after<const N: usize>(
+    field: impl Fn([f64; N]) -> [f64; N],
+    start: &[f64],
+    h: f64,
+    steps: usize,
+) -> Option<Vec<f64>> {
+    let mut z: [f64; N] = start.try_into().ok()?;
+    for _ in 0..steps {
+        let step = |slope: [f64; N], part: f64| std::array::from_fn(|i| z[i] + part * h * slope[i]);
+        let a = field(z);
+        let b = field(step(a, 0.5));
+        let c = field(step(b, 0.5));
+        let d = field(step(c, 1.0));
+        z = std::array::from_fn(|i| z[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+    }
+    Some(z.to_vec())
+}
+
+fn region(sides: &[(f64, f64)]) -> Hyperrectangle {
+    let side = |&(left, right): &(f64, f64)| Interval::new(left, right).unwrap();
+    Hyperrectangle::new(sides.iter().map(side).collect()).unwrap()
+}
+
+/// The attractors that the first `starts` points of `window` find, and the labels of `count` others. `lift` makes a state of a point.
+fn basins(
+    step: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
+    space: Hyperrectangle,
+    window: &Hyperrectangle,
+    lift: impl Fn(&[f64]) -> Vec<f64> + Sync,
+    limits: RecurrenceLimits,
+    (starts, count): (u64, usize),
+) -> (Attractors, LabelCounts) {
+    let random = SplitMix64::from_seed(11);
+    let starts: Vec<Vec<f64>> =
+        (0..starts).map(|k| lift(&window.random_point(&random, k))).collect();
+    let found = Attractors::search(step, space, &starts, limits).unwrap();
+    let counts = region_fractions(window, count, 3, |x| found.label(step, &lift(x))).unwrap();
+    (found, counts)
+}
+
+/// The fractions in decreasing order.
+fn fractions(counts: &LabelCounts) -> Vec<f64> {
+    let mut found: Vec<f64> =
+        counts.basins().map(|label| counts.fraction(label).unwrap().value).collect();
+    found.sort_by(|a, b| b.total_cmp(a));
+    found
+}
+
+/// A fixed point has 0.645 of the cube. A cycle and a chaotic attractor share the rest. Their basins reach into the cells beside them:
+/// on this grid neither is a trap, and their orbits are reported instead of being given to one of the two.
+#[test]
+fn lorenz_84_has_its_fixed_point_and_reports_all_other_orbits() {
+    let (f, g, a, b) = (6.886, 1.347, 0.255, 4.0);
+    let field = move |[x, y, z]: [f64; 3]| {
+        [-y * y - z * z - a * x + a * f, x * y - y - b * x * z + g, b * x * y + x * z - z]
+    };
+    let step = move |z: &[f64]| after(field, z, 0.02, 25);
+    let window = region(&[(-3.0, 3.0); 3]);
+    let limits = RecurrenceLimits { cells: 60, ..RecurrenceLimits::default() };
+    let (found, counts) =
+        basins(&step, window.clone(), &window, <[f64]>::to_vec, limits, (20, 600));
+    assert_eq!(found.attractors().len(), 1);
+    let share = fractions(&counts)[0];
+    assert!((share - 0.645).abs() < 0.06, "{share}");
+    assert!(counts.undecided() > 0 && !found.unmatched().is_empty());
+    assert!(found.unmatched().iter().all(|orbit| orbit.reason == UnmatchedReason::NoTrap));
+}
+
+/// Thomas' cyclically symmetric system at b = 0.1665, from the plane z = 0.
+#[test]
+fn thomas_has_its_three_cycles() {
+    let field = move |[x, y, z]: [f64; 3]| {
+        [y.sin() - 0.1665 * x, z.sin() - 0.1665 * y, x.sin() - 0.1665 * z]
+    };
+    let step = move |z: &[f64]| after(field, z, 0.05, 20);
+    let window = region(&[(-6.0, 6.0); 2]);
+    let limits = RecurrenceLimits { cells: 400, ..RecurrenceLimits::default() };
+    let lift = |x: &[f64]| vec![x[0], x[1], 0.0];
+    let space = region(&[(-6.0, 6.0); 3]);
+    let (found, counts) = basins(&step, space, &window, lift, limits, (20, 600));
+    assert_eq!((found.attractors().len(), found.unmatched().len(), counts.undecided()), (3, 0, 0));
+    // Three standard deviations of 600 points are 0.06.
+    for (share, published) in fractions(&counts).into_iter().zip([0.454, 0.28, 0.266]) {
+        assert!((share - published).abs() < 0.06, "{share} {published}");
+    }
+}
+
+#[test]
+fn the_magnetic_pendulum_comes_to_each_magnet_equally_often() {
+    let field = move |[x, y, u, v]: [f64; 4]| {
+        let (mut ax, mut ay) = (-0.64 * x - 0.2 * u, -0.64 * y - 0.2 * v);
+        for k in 0..3 {
+            let angle = std::f64::consts::TAU * f64::from(k) / 3.0;
+            let (dx, dy) = (x - angle.cos(), y - angle.sin());
+            let square = dx * dx + dy * dy + 0.04;
+            let cube = square * square.sqrt();
+            ax -= dx / cube;
+            ay -= dy / cube;
+        }
+        [u, v, ax, ay]
+    };
+    let step = move |z: &[f64]| after(field, z, 0.02, 50);
+    let window = region(&[(-2.0, 2.0); 2]);
+    let limits = RecurrenceLimits { locate: 100, ..RecurrenceLimits::default() };
+    let lift = |x: &[f64]| vec![x[0], x[1], 0.0, 0.0];
+    let space = region(&[(-3.0, 3.0); 4]);
+    let (found, counts) = basins(&step, space, &window, lift, limits, (20, 600));
+    assert_eq!((found.attractors().len(), found.unmatched().len(), counts.undecided()), (3, 0, 0));
+    for share in fractions(&counts) {
+        assert!((share - 1.0 / 3.0).abs() < 0.06, "{share}");
+    }
+}

@@ -1,0 +1,72 @@
+//! Basins as intervals say what they rest on, and agree with the fates of single speeds where their branches are proved.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use basin_of_attraction::{Refinement, StopReason};
+use hopper_basin::{
+    BranchGround, Error, Fates, HopperBasins, HopperFate, basin_fractions, branches, hopper_basins,
+};
+use passive_hopper::MassRatio;
+
+fn mass_ratio(m: f64) -> MassRatio {
+    MassRatio::new(m).unwrap()
+}
+
+fn fates(m: f64) -> Fates {
+    Fates::new(mass_ratio(m)).unwrap()
+}
+
+fn basins(fates: &Fates, samples: usize) -> HopperBasins {
+    let refinement = Refinement { shortest: 1e-7, intervals: 200_000, ..Refinement::default() };
+    hopper_basins(fates, 1, 6, samples, refinement).unwrap()
+}
+
+/// A search with 400 samples in each window misses branches at these mass ratios. At M = 5 it calls this speed decaying.
+#[test]
+fn above_the_proved_mass_ratios_no_search_calls_itself_resolved() {
+    for m in [0.92, 2.0, 5.0] {
+        let fates = fates(m);
+        let found = basins(&fates, 400);
+        assert!(matches!(found.ground, BranchGround::Spacing { spacing } if spacing > 0.0), "{m}");
+        let reason = found.basins.stop_reason();
+        assert_ne!(reason, StopReason::Resolved, "{m}");
+        // Wrong branches show themselves by intervals that overlap, or by probes.
+        assert_eq!(reason == StopReason::Contradiction, m > 1.0, "{m} {:?}", found.probes);
+        let probes = found.probe(&fates, 20_000, 7).unwrap();
+        assert_eq!(probes.wrong > 0, m > 1.0, "{m} {probes:?}");
+        if let Some(speed) = probes.first_wrong {
+            assert_ne!(found.basins.label(speed), Some(fates.fate(speed).unwrap().label()));
+        }
+    }
+    let speed = 15.718_418_184_199_06;
+    assert_eq!(fates(5.0).fate(speed).unwrap(), HopperFate::Incessant { n: 2 });
+}
+
+#[test]
+fn where_the_branches_are_proved_every_probe_has_the_fate_of_its_interval() {
+    for m in [0.05, 0.1, 0.2, 0.5, 0.8] {
+        let fates = fates(m);
+        let found = basins(&fates, 400);
+        assert_eq!(found.ground, BranchGround::Proved, "{m}");
+        let probes = found.probe(&fates, 20_000, 7).unwrap();
+        assert_eq!((probes.wrong, found.probes.wrong), (0, 0), "{m} {probes:?}");
+        assert!(probes.compared > 19_000);
+    }
+    let refinement = Refinement { shortest: 1e-9, ..Refinement::default() };
+    let found = hopper_basins(&fates(0.2), 1, 2, 400, refinement).unwrap();
+    assert_eq!(found.basins.stop_reason(), StopReason::Resolved);
+}
+
+#[test]
+fn ranges_of_humps_that_never_end_are_errors() {
+    let (m, f) = (mass_ratio(0.2), fates(0.2));
+    assert!(matches!(basin_fractions(m, 0, u64::MAX, 0), Err(Error::NoPoints { .. })));
+    assert!(matches!(basin_fractions(m, 0, u64::MAX, 1), Err(Error::Window { .. })));
+    assert!(basin_fractions(m, 0, 65_000, usize::MAX).is_err());
+    assert!(matches!(branches(&f, 0, 100_000, 3), Err(Error::Window { .. })));
+    assert!(matches!(branches(&f, 0, u64::MAX, 3), Err(Error::Window { .. })));
+    for (to, samples) in [(65_000, 10_000), (2, usize::MAX)] {
+        assert!(matches!(branches(&f, 0, to, samples), Err(Error::BasinOfAttraction(_))));
+    }
+    assert_eq!(branches(&f, 5, 5, 3).unwrap(), []);
+}

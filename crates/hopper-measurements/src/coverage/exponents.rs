@@ -1,0 +1,140 @@
+//! Exponents of power laws: dimensions from boxes at random offsets, and uncertainty exponents from pairs.
+
+use super::known_sets::{cantor_boxes, cantor_dimension, cube_boxes, tent_label};
+use super::tally::{Promise, Row, Trial, repeat};
+use crate::error::Error;
+use basin_of_attraction::{Interval, SplitMix64, power_law, uncertain_fraction};
+
+/// Replicates of a trial.
+const REPLICATES: u64 = 8;
+
+/// Pairs at each scale of a replicate.
+const PAIRS: usize = 300;
+
+/// A range of scales: the finest, the decades, and the number of scales.
+#[derive(Debug, Clone, Copy)]
+struct Range(f64, f64, u64);
+
+impl Range {
+    /// 8 to 40 scales over 3 to 4.5 decades up to 0.03 … 0.3 of a unit; short ranges of few scales are the most frequent.
+    fn at_random(random: &SplitMix64, unit: f64) -> Range {
+        let decades = 3.0 + 1.5 * random.uniform(0) * random.uniform(1);
+        let scales = 8 + (33.0 * random.uniform(2) * random.uniform(3)) as u64;
+        Range(unit * pxfm::f_exp10(-0.5 - random.uniform(4) - decades), decades, scales)
+    }
+
+    fn scale(&self, k: u64) -> f64 {
+        let &Range(finest, decades, scales) = self;
+        finest * pxfm::f_exp10(decades * k as f64 / (scales - 1) as f64)
+    }
+}
+
+/// The values of one replicate at one scale, from its random numbers and the index of the next one.
+type Measurement<'a> = &'a (dyn Fn(f64, u64) -> Result<f64, Error> + Sync);
+
+/// A set with its exponent.
+struct Set<'a> {
+    name: &'a str,
+    exponent: f64,
+    value: Measurement<'a>,
+}
+
+impl Set<'_> {
+    /// The row for the ranges of the trials.
+    fn row(
+        &self,
+        ranges: &str,
+        trials: u64,
+        range: impl Fn(u64) -> Range + Send + Sync,
+    ) -> Result<Row, Error> {
+        let scene = format!("{}, {ranges}", self.name);
+        repeat("power_law", scene, Promise::Probable, trials, |trial| {
+            let (random, range) = (SplitMix64::from_seed(trial), range(trial));
+            let Range(_, _, scales) = range;
+            let replicate = |r: u64| -> Result<Vec<(f64, f64)>, Error> {
+                let at = |k: u64| {
+                    let scale = range.scale(k);
+                    Ok((scale, (self.value)(scale, random.bits(scales * r + k))?))
+                };
+                (0..scales).map(at).collect()
+            };
+            let replicates: Vec<_> = (0..REPLICATES).map(replicate).collect::<Result<_, _>>()?;
+            let law = power_law(&replicates)?;
+            Ok(law.interval.ok().map(|interval| Trial::of(interval, self.exponent)))
+        })
+    }
+
+    /// One row for each fixed range.
+    fn rows(&self, ranges: &[Range], trials: u64) -> Result<Vec<Row>, Error> {
+        let row = |&range: &Range| {
+            let Range(finest, decades, scales) = range;
+            let coarsest = finest * pxfm::f_exp10(decades);
+            let text = format!("{scales} scales from {finest:.0e} to {coarsest:.0e}");
+            self.row(&text, trials, |_| range)
+        };
+        ranges.iter().map(row).collect()
+    }
+
+    /// A row with another range in each trial.
+    fn row_of_random_ranges(&self, unit: f64, trials: u64) -> Result<Row, Error> {
+        self.row("random ranges of 8 to 40 scales", trials, |trial| {
+            Range::at_random(&SplitMix64::from_seed(!trial), unit)
+        })
+    }
+}
+
+/// Where a box of this size starts, at a place given by a random number: x ∈ (−ε, 0].
+fn offset(size: f64, bits: u64) -> f64 {
+    -size * SplitMix64::from_seed(bits).uniform(0)
+}
+
+/// All exponents.
+pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
+    let third = 1.0 / 3.0;
+    let ranges = [Range(1e-4, 3.0, 8), Range(1e-4, 3.0, 40), Range(1e-5, 4.0, 20)];
+    let mut found = Vec::new();
+    for (name, ratios) in [
+        ("Cantor set", (third, third)),
+        ("Cantor set of ratios 1/2, 1/4", (0.5, 0.25)),
+        ("Cantor set of ratios 1/5, 9/20", (0.2, 0.45)),
+    ] {
+        let value = |size: f64, bits: u64| Ok(cantor_boxes(ratios, size, offset(size, bits)));
+        let set = Set { name, exponent: -cantor_dimension(ratios), value: &value };
+        found.extend(set.rows(&ranges, trials)?);
+        found.push(set.row_of_random_ranges(1.0, trials)?);
+    }
+    let ranges =
+        [Range(1e-4, 3.0, 13), Range(1e-7, 3.0, 20), Range(1e-8, 5.0, 8), Range(1e-9, 3.0, 40)];
+    let value = |size: f64, bits: u64| Ok(cube_boxes(size, offset(size, bits)));
+    let set = Set { name: "{k⁻³}", exponent: -0.25, value: &value };
+    found.extend(set.rows(&ranges, trials)?);
+    found.push(set.row_of_random_ranges(1e-3, trials)?);
+    let unit = Interval::new(0.0, 1.0)?;
+    for (slope, ranges) in [
+        (2.2, [Range(1e-5, 4.0, 20), Range(1e-4, 3.0, 8)]),
+        (3.0, [Range(1e-5, 4.0, 20), Range(1e-4, 3.0, 8)]),
+        (5.0, [Range(1e-4, 3.0, 20), Range(1e-4, 3.0, 8)]),
+    ] {
+        let value = |epsilon: f64, bits: u64| {
+            Ok(uncertain_fraction(unit, epsilon, PAIRS, bits, |x| tent_label(slope, x))?.value)
+        };
+        let exponent = 1.0 - cantor_dimension((1.0 / slope, 1.0 / slope));
+        let name = format!("pairs on the tent map of slope {slope}");
+        found.extend(Set { name: &name, exponent, value: &value }.rows(&ranges, trials)?);
+    }
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of 60 samples of 93 % coverage fewer than 48 cover in one of 1000 cases.
+    #[test]
+    fn every_interval_of_an_exponent_covers_as_often_as_stated() {
+        for row in measure(60).unwrap() {
+            // The fraction of uncertain starts near ε = 0.1 is not yet a power law: some trials show a drift and are refused.
+            assert!(row.given >= 40 && 60 * row.covered >= 48 * row.given, "{row:?}");
+        }
+    }
+}
