@@ -159,7 +159,7 @@ pub fn interval_basins_from_known(
     } else {
         stop_reason
     };
-    Ok(IntervalBasins { window, parts, stop_reason, grounds: Vec::new() })
+    Ok(IntervalBasins { window, parts, stop_reason, grounds: Vec::new() }.without_undecided())
 }
 
 /// Ulps of the window by which an end of a part may be wrong, with the rounding of sums of lengths: four ends of two neighbours, and
@@ -337,6 +337,27 @@ mod tests {
             interval_basins(&cubic, &traps, &[one], window, limits),
             Err(Error::BranchMissed { .. })
         ));
+    }
+
+    #[test]
+    fn undecided_intervals_are_gaps_and_no_basins() {
+        let (branches, mut traps) = branches_and_traps();
+        let window = Interval { left: -2.2, right: 2.2 };
+        let limits = Refinement::default();
+        let known = interval_basins(&cubic, &traps, &branches, window, limits).unwrap();
+        traps[1].1 = Label::UNDECIDED;
+        let found = interval_basins(&cubic, &traps, &branches, window, limits).unwrap();
+        let same = known.relabelled(|part| match part.label {
+            two if two == Label::from(2) => Label::UNDECIDED_PRECISION,
+            label => label,
+        });
+        for basins in [&found, &same] {
+            assert_eq!(basins.labels(), [Label::from(1)]);
+            assert_eq!(basins.stop_reason(), StopReason::AllFollowed);
+            assert!((basins.undecided() - 2.2).abs() < 1e-5);
+            let count = basins.boxes(0.1, 1e-9).unwrap();
+            assert!(count.mixed == 0 && count.open > 20 && count.half_open > 0, "{count:?}");
+        }
     }
 
     #[test]

@@ -61,7 +61,8 @@ impl IntervalBasins {
         })
     }
 
-    /// The same intervals with other labels, such as their levels or the union of several basins.
+    /// The same intervals with other labels, such as their levels or the union of several basins. An interval whose new label is no
+    /// basin is undecided.
     ///
     /// ```
     /// use basin_of_attraction::{Branch, Interval, Label, Refinement, interval_basins};
@@ -79,6 +80,16 @@ impl IntervalBasins {
     pub fn relabelled(mut self, label: impl Fn(&LabelledInterval) -> Label) -> IntervalBasins {
         for part in &mut self.parts {
             part.label = label(part);
+        }
+        self.without_undecided()
+    }
+
+    /// Makes gaps of the intervals whose label is no basin. With such intervals a search is not resolved.
+    pub(crate) fn without_undecided(mut self) -> IntervalBasins {
+        let all = self.parts.len();
+        self.parts.retain(|part| part.label.is_basin());
+        if self.parts.len() < all && self.stop_reason == StopReason::Resolved {
+            self.stop_reason = StopReason::AllFollowed;
         }
         self
     }

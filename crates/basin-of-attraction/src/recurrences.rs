@@ -10,7 +10,7 @@ use crate::label::Label;
 use crate::split_mix::SplitMix64;
 use crate::state_grid::StateGrid;
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, VecDeque};
 
 /// How attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,7 +20,7 @@ pub struct RecurrenceLimits {
     /// Consecutive steps to cells that the orbit has visited, after which these cells are a candidate.
     pub recurrences: usize,
     /// Steps that a candidate is followed before its cells are taken, and steps without a new cell after which all are taken. An orbit
-    /// of a test must stay at the candidate for as many steps, after as many others.
+    /// of a test must visit the candidate within as many steps, three times, after as many others.
     pub locate: usize,
     /// Most steps of an orbit.
     pub budget: usize,
@@ -112,7 +112,7 @@ impl Attractors {
     /// are of interest: starts on a plane are points of the whole state space.
     ///
     /// A candidate is tested by orbits that start in its cells and in the cells beside them, at random points. Each must come to the cells of the
-    /// candidate, and after [`RecurrenceLimits::locate`] steps keep to these and the cells beside them for as many steps. So an attractor is a trap at the scale of the grid, as far as the
+    /// candidate, and after [`RecurrenceLimits::locate`] steps visit them in each of three stretches of as many steps. So an attractor is a trap at the scale of the grid, as far as the
     /// tests see: a part of its neighbourhood from which orbits leave is missed with n tests if it is smaller than 3/n, in 5 of 100 cases.
     ///
     /// ```
@@ -229,19 +229,23 @@ impl Attractors {
     ) -> Result<bool, Error> {
         // The first points may still approach the attractor, and their cells are no part of it.
         let Some(mut at) = self.after(map, from, self.limits.locate) else { return Ok(false) };
-        let (mut points, mut cells) = (Vec::new(), BTreeSet::new());
-        let mut left = self.limits.budget;
-        // A chaotic orbit visits new cells for long. It is followed until it visits none in `locate` steps.
-        while points.len() < self.limits.locate {
-            let Some(cell) = self.grid.cell(&at).filter(|_| left > 0) else { return Ok(false) };
-            if cells.insert(cell) {
-                points.clear();
+        let (mut points, mut cells) = (VecDeque::new(), BTreeSet::new());
+        let mut known = 0;
+        // A chaotic orbit visits new cells for long. It is followed until it visits none in `locate` steps, or to the budget: on a
+        // fine grid some cells of the attractor remain unknown.
+        for _ in 0..self.limits.budget.max(self.limits.locate) {
+            if known >= self.limits.locate {
+                break;
             }
-            points.push(at.clone());
+            let Some(cell) = self.grid.cell(&at) else { return Ok(false) };
+            known = if cells.insert(cell) { 0 } else { known + 1 };
+            if points.len() >= self.limits.locate {
+                points.pop_front();
+            }
             let Some(next) = map(&at) else { return Ok(false) };
-            left -= 1;
-            at = next;
+            points.push_back(std::mem::replace(&mut at, next));
         }
+        let points: Vec<Vec<f64>> = points.into();
         if !self.is_trap(map, &cells) {
             return Ok(false);
         }
@@ -264,7 +268,7 @@ impl Attractors {
         (0..steps).try_fold(from, |at, _| map(&at))
     }
 
-    /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and stay at them.
+    /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and come back to them.
     fn is_trap(
         &self,
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
@@ -272,6 +276,9 @@ impl Attractors {
     ) -> bool {
         /// Seed of the points. Another one tests other points.
         const SEED: u64 = 1;
+        /// Stretches of `locate` steps in each of which an orbit must visit the cells. A passage that is left within some
+        /// thousand steps shows itself in one of three. More would take longer.
+        const STRETCHES: usize = 3;
         let mut near: BTreeSet<u64> = cells.clone();
         near.extend(cells.iter().flat_map(|&cell| self.grid.neighbours(cell)));
         let beside: Vec<u64> = near.difference(cells).copied().collect();
@@ -288,16 +295,15 @@ impl Attractors {
             let start = self.grid.point(cell, |k| random.uniform(first + 1 + k));
             // A map may expand before it contracts: excursions are allowed at first.
             let Some(mut at) = self.after(map, start, self.limits.locate) else { return false };
-            let mut comes = false;
-            for _ in 0..self.limits.locate {
-                let Some(cell) = self.grid.cell(&at).filter(|cell| near.contains(cell)) else {
-                    return false;
-                };
-                comes |= cells.contains(&cell);
-                let Some(next) = map(&at) else { return false };
-                at = next;
-            }
-            comes
+            (0..STRETCHES).all(|_| {
+                let mut comes = false;
+                for _ in 0..self.limits.locate {
+                    comes |= self.grid.cell(&at).is_some_and(|cell| cells.contains(&cell));
+                    let Some(next) = map(&at) else { return false };
+                    at = next;
+                }
+                comes
+            })
         };
         (0..self.limits.tests.max(1)).into_par_iter().all(stays)
     }

@@ -3,10 +3,10 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use basin_of_attraction::{Grid, Interval};
+use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{
-    CircleLimits, EdgeChart, Error, Fates, FollowedEdge, PhaseBasins, ShareColumn, ShareRaster,
-    Upwards, basin_raster, edge_frame, frame_slant,
+    CircleLimits, EdgeChart, Error, Fates, FollowedEdge, HopperFate, PhaseBasins, ShareColumn,
+    ShareRaster, Upwards, basin_raster, edge_frame, frame_slant,
 };
 use passive_hopper::MassRatio;
 use std::ops::ControlFlow::Continue;
@@ -90,7 +90,7 @@ fn frames_of_the_chart_have_the_fates_of_their_points() {
         }
         // An edge inside a pixel is seen in steps of 1/8 there, and in steps of 1/16 here.
         assert!(mean / pixels < 0.01, "{m}: {}", mean / pixels);
-        assert!(frame.labels().contains(&(n as u16)), "{m}");
+        assert!(frame.labels().contains(&HopperFate::label_of_fixed_point(n)), "{m}");
     }
 }
 
@@ -129,13 +129,13 @@ fn columns_about_a_preimage_have_both_sides() {
     let raster = ShareRaster::from_columns(grid, Upwards::BothSides, columns).unwrap();
     assert!(!raster.is_blank(0) && raster.is_blank(1) && raster.is_blank(2));
     let circle = PhaseBasins::new(&fates(grid.x_at(0)), 2, limits).unwrap();
-    let share = |row: usize, label: u16| {
-        let place = raster.labels().iter().position(|own| *own == label).unwrap();
+    let share = |row: usize, label: u8| {
+        let place = raster.labels().iter().position(|own| *own == Label::from(label)).unwrap();
         f64::from(raster.at(0, row).unwrap()[place])
     };
     // The rows from some 10⁻¹⁰⁰ on, below and above.
     for row in 7..20 {
-        let local = circle.fractions().of(1).middle();
+        let local = circle.fractions().of(Label::from(1)).middle();
         assert!((share(row, 1) - local).abs() < 1e-4, "{row}: {} {local}", share(row, 1));
     }
     assert!((20..38).all(|row| share(row, 2) > 0.999_999));
