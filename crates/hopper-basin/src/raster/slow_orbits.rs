@@ -98,8 +98,10 @@ impl<'a> Strip<'a> {
         (offset, error): (f64, f64),
         largest: f64,
     ) -> Option<(KnownFate, u64)> {
-        let sides = self.columns[column].fates.slow_sides();
-        if sides.is_beyond_jumps(n, offset) {
+        let Column { fates, zones, .. } = &self.columns[column];
+        let sides = fates.slow_sides();
+        // Farther away the coordinate is not needed.
+        if !zones.may_jump(n, offset) || sides.is_beyond_jumps(n, offset) {
             return Some((self.behind_jumps(column, (n, offset, error))?, 0));
         }
         let jump = sides.jump(n, offset, error).filter(|jump| jump.count.error <= largest)?;
