@@ -1,5 +1,7 @@
 //! Bounds for all speeds and mass ratios of a box: against the hops of its corners and of points inside.
 
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
 use basin_of_attraction::SplitMix64;
 use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, HopWithin, LiftOffMap, MassRatio, alpha_star,
@@ -38,13 +40,17 @@ fn hops_of_a_box_are_within_its_bound() {
             continue;
         }
         for (i, j) in [(-1, -1), (-1, 1), (1, -1), (1, 1), (0, 1), (1, 0), (0, -1), (-1, 0)] {
-            let (start, of) = (speed + 0.9999 * error * f64::from(i), m + 0.9999 * width * f64::from(j));
+            let (start, of) =
+                (speed + 0.9999 * error * f64::from(i), m + 0.9999 * width * f64::from(j));
             let next = LiftOffMap::new(ratio(of)).image(start).unwrap();
             match (found, next) {
                 (HopWithin::Next { speed: middle, error: bound }, Some(next)) => {
                     conclusive += 1;
                     let off = (next - middle).abs();
-                    assert!(off <= bound, "M = {m} ± {width:e}, α = {speed} ± {error:e}: {off:e} > {bound:e}");
+                    assert!(
+                        off <= bound,
+                        "M = {m} ± {width:e}, α = {speed} ± {error:e}: {off:e} > {bound:e}"
+                    );
                     largest = largest.max(off / bound);
                 }
                 (HopWithin::Grounded, None) => grounded += 1,
@@ -69,6 +75,19 @@ fn a_map_outside_its_own_masses_is_inconclusive() {
     }
 }
 
+/// docs/theory.md, Corollary 93: left of a fixed point α′ falls as κ grows, for M ≤ 1.
+#[test]
+fn left_of_a_fixed_point_the_next_speed_falls_with_kappa() {
+    for n in 1..=12 {
+        for k in 0..8 {
+            let speed = alpha_star(n) - 0.0109 * pxfm::f_exp2(-f64::from(k));
+            let next = |m: f64| LiftOffMap::new(ratio(m)).image(speed).unwrap().unwrap_or(0.0);
+            let falls = |m: f64| next(m) < next(0.98 * m);
+            assert!((1..=50).all(|m| falls(0.02 * f64::from(m))), "n = {n}, α = {speed}");
+        }
+    }
+}
+
 /// Orbits from the corners of a box of starts and mass ratios are where the tangent of the middle says.
 #[test]
 fn orbits_of_a_box_are_where_the_tangent_says() {
@@ -80,12 +99,13 @@ fn orbits_of_a_box_are_where_the_tangent_says() {
         let kappa_radius = kappa(m + width) - kappa(m);
         let orbit = ExtendedOrbit::new(&map, speed, Arithmetic::Bits256).unwrap();
         let mut orbit = orbit.with_radii(radius, kappa_radius);
-        let mut others = [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0)].map(|(i, j)| {
-            let (start, of) = (speed + 0.99 * i * radius, m + 0.98 * j * width);
-            let (y, k) = (start - speed, kappa(of) - kappa(m));
-            let map = LiftOffMap::new(ratio(of));
-            (y, k, ExtendedOrbit::new(&map, start, Arithmetic::Bits256).unwrap())
-        });
+        let mut others =
+            [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 1.0)].map(|(i, j)| {
+                let (start, of) = (speed + 0.99 * i * radius, m + 0.98 * j * width);
+                let (y, k) = (start - speed, kappa(of) - kappa(m));
+                let map = LiftOffMap::new(ratio(of));
+                (y, k, ExtendedOrbit::new(&map, start, Arithmetic::Bits256).unwrap())
+            });
         for _ in 0..4 {
             if orbit.hop().unwrap() != ExtendedStep::LiftsOff {
                 break;

@@ -16,8 +16,7 @@ const RADII: [f64; 3] = [1e-6, 3e-8, 1e-9];
 const SAME_EDGE: f64 = 1e-5;
 
 /// The steps of the differences, in units of the radii for the start and for κ: along both axes, and to the corners.
-const STEPS: [(i8, i8); 8] =
-    [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
+const STEPS: [(i8, i8); 8] = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
 /// A bound on the third order, over what the differences show of it. It is an estimate, and so is the bound.
 const OVER_SEEN: f64 = 2.0;
@@ -63,8 +62,15 @@ impl BesideEdge {
                 }
             }
             let (offset, tangent) = (orbit.offset_from(n), orbit.tangent()?);
-            let mut edge =
-                BesideEdge { start, mass_ratio, n, offset, tangent, second: [0.0; 3], third: [0.0; 3] };
+            let mut edge = BesideEdge {
+                start,
+                mass_ratio,
+                n,
+                offset,
+                tangent,
+                second: [0.0; 3],
+                third: [0.0; 3],
+            };
             edge.add_differences(hops)?;
             speeds.into_iter().for_each(|(speed, reach)| see(speed, reach));
             Some(edge)
@@ -140,7 +146,8 @@ impl BesideEdge {
         let t = if k == 0.0 { 0.0 } else { k / kappa_radius };
         let (size, both) = (s.abs().max(t.abs()), (s * t).abs());
         let [of_start, of_kappa, of_both] = self.third;
-        let third = of_start * (s * s * s).abs() + of_kappa * (t * t * t).abs() + of_both * both * size;
+        let third =
+            of_start * (s * s * s).abs() + of_kappa * (t * t * t).abs() + of_both * both * size;
         let (by_start, by_kappa) = (slope * y, kappa_slope * k);
         let offset = self.offset.0 + by_start + by_kappa + self.second_order(s, t);
         let error = self.offset.1

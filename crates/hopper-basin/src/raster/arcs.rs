@@ -100,7 +100,8 @@ impl Arcs {
 
     /// The arcs that these points show. Points that agree with both of their neighbours are left out: the same is known without them.
     pub(crate) fn from_points(points: Vec<((f64, f64), KnownFate)>) -> Self {
-        let point = |((offset, error), known)| Point { offsets: (offset - error, offset + error), known };
+        let point =
+            |((offset, error), known)| Point { offsets: (offset - error, offset + error), known };
         let mut all: Vec<Point> = points.into_iter().map(point).collect();
         all.sort_by(|a, b| a.offsets.0.total_cmp(&b.offsets.0));
         let mut kept: Vec<Point> = Vec::new();
@@ -149,7 +150,8 @@ mod tests {
     #[test]
     fn offsets_within_the_error_of_a_point_are_open() {
         let mut arcs = Arcs::default();
-        for (offset, error, n) in [(0.2, 0.01, 1), (0.4, 0.05, 1), (0.43, 0.001, 1), (0.6, 0.1, 0)] {
+        for (offset, error, n) in [(0.2, 0.01, 1), (0.4, 0.05, 1), (0.43, 0.001, 1), (0.6, 0.1, 0)]
+        {
             arcs.add((offset, error), known(n));
         }
         assert_eq!(arcs.find(0.3, 0.08), Arc::Known(known(1)));

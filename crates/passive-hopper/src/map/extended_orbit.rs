@@ -157,7 +157,14 @@ pub struct OrbitTangent {
 
 impl OrbitTangent {
     fn start(radius: f64, kappa_radius: f64) -> Self {
-        OrbitTangent { slope: 1.0, kappa_slope: 0.0, rounding: 0.0, second: 0.0, radius, kappa_radius }
+        OrbitTangent {
+            slope: 1.0,
+            kappa_slope: 0.0,
+            rounding: 0.0,
+            second: 0.0,
+            radius,
+            kappa_radius,
+        }
     }
 
     /// Bound on the part of the slopes.
@@ -233,7 +240,8 @@ impl<R: Extended + Send> Orbit for OrbitIn<R> {
     fn hop(&mut self) -> Result<ExtendedStep, Error> {
         let speed = self.speed.nearest();
         // The start of the orbit is exact, and the solver decides its first landing on the bits of α*_n and nπ.
-        let reach = |tangent: OrbitTangent| Changes { speed: tangent.reach(), kappa: tangent.kappa_radius };
+        let reach =
+            |tangent: OrbitTangent| Changes { speed: tangent.reach(), kappa: tangent.kappa_radius };
         let beside = self.tangent.map_or(Changes::of_speed(0.0), reach);
         let within = Changes { speed: self.error + beside.speed, ..beside };
         if within.speed > 0.0 && !on_one_side_in(self.speed, within.speed) {
