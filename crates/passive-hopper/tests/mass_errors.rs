@@ -1,5 +1,7 @@
 //! Bounds for all speeds and mass ratios of a box: against the hops of its corners and of points inside.
 
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
 use basin_of_attraction::SplitMix64;
 use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, HopWithin, LiftOffMap, MassRatio, alpha_star,
@@ -70,6 +72,19 @@ fn a_map_outside_its_own_masses_is_inconclusive() {
     let ends = (ratio(0.2), ratio(0.2));
     for (speed, error) in [(f64::NAN, 0.0), (-1.0, 0.0), (5.5, f64::NAN), (5.5, f64::INFINITY)] {
         assert_eq!(map.hop_within_masses(speed, error, ends), HopWithin::Inconclusive);
+    }
+}
+
+/// docs/theory.md, Corollary 93: left of a fixed point α′ falls as κ grows, for M ≤ 1.
+#[test]
+fn left_of_a_fixed_point_the_next_speed_falls_with_kappa() {
+    for n in 1..=12 {
+        for k in 0..8 {
+            let speed = alpha_star(n) - 0.0109 * pxfm::f_exp2(-f64::from(k));
+            let next = |m: f64| LiftOffMap::new(ratio(m)).image(speed).unwrap().unwrap_or(0.0);
+            let falls = |m: f64| next(m) < next(0.98 * m);
+            assert!((1..=50).all(|m| falls(0.02 * f64::from(m))), "n = {n}, α = {speed}");
+        }
     }
 }
 

@@ -158,6 +158,12 @@ impl SlowZones {
         SlowZones { zones: std::iter::once(empty).chain((1..=last).map(zone)).collect() }
     }
 
+    /// Whether an orbit at α*_n + `offset` may be near enough to jump.
+    pub(crate) fn may_jump(&self, n: u64, offset: f64) -> bool {
+        let zone = usize::try_from(n).ok().and_then(|n| self.zones.get(n));
+        zone.is_none_or(|&[_, jump, _]| alpha_star(n) + offset >= jump)
+    }
+
     /// The n ≥ 1 whose slow side may contain `alpha`.
     #[inline]
     pub(crate) fn find(&self, alpha: f64) -> Option<SlowZone> {

@@ -12,8 +12,7 @@ use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::KnownFate;
 use crate::raster::laps::{HUMPS_WITH_LAPS, Laps};
 use crate::raster::rising_windows::trap_with_window;
-use crate::raster::slow_orbits::speed_at;
-use crate::raster::strip::is_inside;
+use crate::raster::speed_within::{is_inside, speed_at};
 use crate::traps::trap_index::{Lookup, TrapIndex};
 use passive_hopper::{HopWithin, MassRatio};
 use std::collections::VecDeque;
@@ -264,5 +263,51 @@ impl Orbit {
         };
         known
             .flat_map(move |known| std::iter::once(((self.offset, 0.0), known)).chain(later(known)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::raster::arcs::Arc;
+    use basin_of_attraction::SplitMix64;
+    use passive_hopper::alpha_star;
+
+    /// Where a circle of many mass ratios is known, each of them has this fate; a narrow range leaves little open.
+    #[test]
+    fn a_common_arc_has_the_fate_of_each_mass_ratio() {
+        for (n, m, width, open) in
+            [(2, 0.2, 1e-6, 0.02), (3, 0.2, 1e-8, 0.02), (2, 0.12, 1e-5, 0.3), (1, 0.8, 1e-4, 0.1)]
+        {
+            let common = CommonCircles::new(m, m + width, alpha_star(n)).unwrap().unwrap();
+            let arcs = common.circle(n).unwrap();
+            let (turn, random) = (common.turn_of_jumps(n).unwrap(), SplitMix64::from_seed(n));
+            let outermost = common.outermost_turn(n).unwrap();
+            let (mut known, mut unknown) = (0, 0);
+            for k in 0..300 {
+                let (left, right) = if k % 2 == 0 { turn } else { outermost };
+                let offset = left + (right - left) * random.uniform(2 * k);
+                let fates =
+                    Fates::new(MassRatio::new(m + width * random.uniform(2 * k + 1)).unwrap());
+                let fate = fates.unwrap().fate(alpha_star(n) + offset).unwrap();
+                match arcs.find(offset, 1e-15) {
+                    Arc::Known(found) => {
+                        assert_eq!(found.label, fate.label(), "{n} {m} {offset:e}");
+                        known += 1;
+                    }
+                    Arc::Open(..) | Arc::Outside => unknown += 1,
+                }
+            }
+            assert!(f64::from(unknown) < open * f64::from(known), "{n} {m}: {unknown} {known}");
+        }
+    }
+
+    #[test]
+    fn wide_and_empty_ranges_have_no_common_circles() {
+        for (first, last) in
+            [(0.2, 0.2), (0.2, 0.21), (0.3, 0.2), (2.0, 2.000_001), (0.2, f64::NAN)]
+        {
+            assert!(CommonCircles::new(first, last, 20.0).unwrap().is_none(), "{first} {last}");
+        }
     }
 }

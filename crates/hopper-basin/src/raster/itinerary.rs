@@ -80,14 +80,15 @@ impl Itinerary {
 
     /// The itinerary without its first `hops` hops, if these and the hop after them are on one lap.
     pub(crate) fn after(&self, hops: u32) -> Option<Self> {
-        const FIRST: u32 = ID_BITS + 1;
-        let below_first = (63 - self.laps.leading_zeros()).checked_sub(FIRST)?;
+        if !self.is_known() {
+            return None;
+        }
+        let below_first = (63 - self.laps.leading_zeros()).checked_sub(ID_BITS + 1)?;
         let rest = self.laps & ((1 << below_first) - 1);
         // The zeros after the first lap's number are the hops that stay on it.
         let zeros = below_first - (64 - rest.leading_zeros());
         let first = self.laps >> below_first;
-        (self.is_known() && hops <= zeros)
-            .then(|| Itinerary { laps: first << (below_first - hops) | rest, ..*self })
+        (hops <= zeros).then(|| Itinerary { laps: first << (below_first - hops) | rest, ..*self })
     }
 
     /// True if the itinerary can agree with another.
@@ -191,5 +192,37 @@ mod tests {
             }
         }
         assert!(common > 300, "{common}");
+    }
+
+    /// The itinerary of an orbit has one form: however it is put together, and whether its first hops are cut off or were not made.
+    #[test]
+    fn parts_of_an_orbit_have_the_itinerary_of_the_whole() {
+        let ratio = MassRatio::new(0.4).unwrap();
+        let map = LiftOffMap::new(ratio);
+        let laps = Laps::below(ratio, 25.0).unwrap().unwrap();
+        let along = |orbit: &[f64]| {
+            let mut itinerary = Itinerary::START;
+            orbit.iter().for_each(|&alpha| itinerary.hop(laps.lap(alpha, 0.0)));
+            itinerary
+        };
+        let (mut joined, mut cut) = (0, 0);
+        for k in 0..2000u32 {
+            let start = 25.0 * (f64::from(k) * 0.618_033_988_75).fract() + 0.1;
+            let next = |alpha: &f64| map.image(*alpha).unwrap();
+            let orbit: Vec<f64> = std::iter::successors(Some(start), next).take(8).collect();
+            let whole = along(&orbit);
+            for at in 1..orbit.len() {
+                let rest = along(&orbit[at..]);
+                let mut parts = along(&orbit[..at]);
+                parts.end_in(&rest);
+                assert!(parts.agrees_with(&whole) || !whole.is_known(), "{orbit:?}");
+                joined += 1;
+                if let Some(found) = whole.after(at as u32) {
+                    assert!(found.agrees_with(&rest), "{orbit:?} after {at}");
+                    cut += 1;
+                }
+            }
+        }
+        assert!(joined > 5000 && cut > 500, "{joined} {cut}");
     }
 }

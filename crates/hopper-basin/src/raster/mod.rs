@@ -6,7 +6,8 @@
 //! The itinerary of an orbit lists the laps that it visits ([`laps`], [`rising_windows`], [`itinerary`]). Speeds
 //! between two orbits with the same itinerary need no orbit of their own. Their intervals are stored for orbits that
 //! descend into them ([`known_intervals`]). Along the slow side of a fixed point orbits jump ([`slow_orbits`]), and what they do
-//! after it is found on the known arcs of the circle of fates ([`arcs`]).
+//! after it is found on the known arcs of the circle of fates ([`arcs`]), which the columns of a narrow raster share
+//! ([`common_circles`]).
 //! [`labels`] takes speeds in any order.
 //!
 //! This room uses `traps` and `fates`. Every label equals the label that `Fates::fate` gives.
@@ -20,4 +21,5 @@ pub(crate) mod labels;
 pub(crate) mod laps;
 pub(crate) mod rising_windows;
 pub(crate) mod slow_orbits;
+pub(crate) mod speed_within;
 pub(crate) mod strip;

@@ -78,6 +78,7 @@ mod tests {
     #![allow(clippy::disallowed_methods)]
 
     use super::*;
+    use crate::fates::hopper_fate::HopperFate;
     use passive_hopper::{HalfFlight, LiftOffMap, MassRatio};
 
     /// The interval [low, high].
@@ -241,5 +242,35 @@ mod tests {
         }
         let window = rising_window(1).unwrap();
         assert!(window.largest_mass_ratio > 0.9 && window.part.contains(4.0));
+    }
+
+    /// A trap that reaches over its window has the fates of single orbits, up to the next fixed point.
+    #[test]
+    fn a_trap_over_a_window_has_the_fates_of_its_orbits() {
+        let mut extended = 0;
+        for k in 0..600u32 {
+            let part = |step: f64| (f64::from(k) * step).fract();
+            let fates = Fates::new(MassRatio::new(0.01 + 0.4 * part(0.618_033_988_75)).unwrap());
+            let (fates, n) = (fates.unwrap(), u64::from(k % 3));
+            let trap = trap_with_window(&fates, n).unwrap();
+            if fates.trap(n).unwrap().edge != TrapEdge::ContactEnd {
+                assert_eq!(trap, fates.trap(n).unwrap());
+                continue;
+            }
+            assert_eq!(trap.edge, TrapEdge::NextFixedPoint);
+            let (left, right) = ((n + 1) as f64 * PI, alpha_star(n + 1));
+            for alpha in [left + (right - left) * part(0.754_877_666_25), right - 1e-9 * right] {
+                assert!(trap.contains(alpha));
+                let label = fates.fate(alpha).unwrap().label();
+                assert_eq!(
+                    label,
+                    HopperFate::label_of_fixed_point(n),
+                    "M = {}, α = {alpha}",
+                    fates.map().mass_ratio().value()
+                );
+            }
+            extended += 1;
+        }
+        assert!(extended > 100, "{extended}");
     }
 }

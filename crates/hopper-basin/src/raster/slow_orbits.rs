@@ -7,9 +7,10 @@ use crate::raster::arcs::{Arc, Arcs};
 use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
-use crate::raster::strip::{Strip, is_inside, with_signs};
+use crate::raster::speed_within::{is_inside, speed_at, with_signs};
+use crate::raster::strip::Strip;
 use crate::traps::trap::TrapSide;
-use passive_hopper::{FixedPointSpeed, HopWithin, alpha_star};
+use passive_hopper::{FixedPointSpeed, HopWithin};
 
 /// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
 /// tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It affects the time only.
@@ -80,10 +81,12 @@ impl<'a> Strip<'a> {
         }
         if let Some((known, hops)) = self.fate_from(column, n, (offset, error), SMALL_ERROR) {
             self.end_with(at, known, hops, n);
-        } else if !self.end_beside_known_edge(at)
-            && !(self.find_edge(at, n) && self.end_beside_known_edge(at))
-            && !self.end_with_signs(at, n)
-        {
+            return None;
+        }
+        let decided = self.end_beside_known_edge(at)
+            || (self.find_edge(at, n) && self.end_beside_known_edge(at))
+            || self.end_with_signs(at, n);
+        if !decided {
             self.end_alone(at);
         }
         None
@@ -98,8 +101,10 @@ impl<'a> Strip<'a> {
         (offset, error): (f64, f64),
         largest: f64,
     ) -> Option<(KnownFate, u64)> {
-        let sides = self.columns[column].fates.slow_sides();
-        if sides.is_beyond_jumps(n, offset) {
+        let Column { fates, zones, .. } = &self.columns[column];
+        let sides = fates.slow_sides();
+        // Farther away the coordinate is not needed.
+        if !zones.may_jump(n, offset) || sides.is_beyond_jumps(n, offset) {
             return Some((self.behind_jumps(column, (n, offset, error))?, 0));
         }
         let jump = sides.jump(n, offset, error).filter(|jump| jump.count.error <= largest)?;
@@ -364,10 +369,4 @@ impl<'a> Strip<'a> {
         }
         None
     }
-}
-
-/// α*_n plus an offset, and the bound on the error of the sum: half an ulp each for α*_n and for the sum.
-pub(crate) fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
-    let speed = alpha_star(n) + offset;
-    (speed, error + f64::EPSILON * speed)
 }

@@ -20,6 +20,7 @@ use crate::raster::common_circles::CommonCircles;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
+use crate::raster::speed_within::{is_inside, with_signs};
 use basin_of_attraction::Label;
 use passive_hopper::{HopWithin, LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
@@ -374,28 +375,6 @@ impl Strip<'_> {
     }
 }
 
-/// A hop whose error is larger than the first number, and grows by more than the second, is computed with the second bound, which has
-/// the signs of the derivative. It takes about a microsecond, and a fate alone, where an error grows too large, some hundred.
-const LARGE_ERROR: f64 = 1e-10;
-const LARGE_GROWTH: f64 = 8.0;
-
-/// The `hop` that was made from a speed with its error; with the second bound if its error has grown much.
-#[inline]
-pub(crate) fn with_signs(map: &LiftOffMap, before: (f64, f64), hop: HopWithin) -> HopWithin {
-    let error = match hop {
-        HopWithin::Next { error, .. } => error,
-        HopWithin::Grounded => return hop,
-        HopWithin::Inconclusive => f64::INFINITY,
-    };
-    if error <= LARGE_ERROR || error <= LARGE_GROWTH * before.1 {
-        return hop;
-    }
-    match map.signed_hop_within(before.0, before.1) {
-        HopWithin::Inconclusive => hop,
-        found => found,
-    }
-}
-
 /// The current speed of an orbit and its error; NaN if the orbit has ended.
 #[inline]
 fn speed_and_error(hop: &HopWithin) -> (f64, f64) {
@@ -403,14 +382,4 @@ fn speed_and_error(hop: &HopWithin) -> (f64, f64) {
         HopWithin::Next { speed, error } => (speed, error),
         _ => (f64::NAN, f64::NAN),
     }
-}
-
-/// KNOWN: whether all speeds within `error` of `alpha` lie in the interval.
-#[inline]
-pub(crate) fn is_inside(alpha: f64, error: f64, (left, right): (f64, f64)) -> bool {
-    /// More than the rounding of the differences.
-    const ROUND_UP: f64 = 1.0 + 4.0 * f64::EPSILON;
-    // A speed without an error may be an end. The differences are then not negative exactly inside.
-    let error = ROUND_UP * error;
-    (alpha - left >= error) & (right - alpha >= error)
 }
