@@ -105,7 +105,9 @@ impl BesideEdge {
         let most = |of: &[f64]| OVER_SEEN * of.iter().copied().fold(0.0, f64::max);
         let (by_start, by_both) = left_over.split_at(2);
         let (by_kappa, by_both) = by_both.split_at(2);
-        self.third = [most(by_start), most(by_kappa), most(by_both)];
+        let (start, kappa) = (most(by_start), most(by_kappa));
+        // In a corner two terms may cancel, which do not elsewhere.
+        self.third = [start, kappa, most(by_both).max(start).max(kappa)];
         // The orders fall about like a geometric series.
         let first = self.tangent.first_order();
         let largest = |of: &[f64; 3]| of.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
