@@ -18,7 +18,7 @@ const SAME_EDGE: f64 = 1e-5;
 /// The steps of the differences, in units of the radii for the start and for κ: along both axes, and to the corners.
 const STEPS: [(i8, i8); 8] = [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// A bound on the third order, over what the differences show of it. It is an estimate, and so is the bound.
+/// A bound on the third and the fourth order, over what the differences show of them. It is an estimate, and so are the bounds.
 const OVER_SEEN: f64 = 2.0;
 
 /// The starts near one that falls onto α*_n, at mass ratios near to its own.
@@ -35,6 +35,8 @@ pub(crate) struct BesideEdge {
     second: [f64; 3],
     /// Bounds on the third order in the same way.
     third: [f64; 3],
+    /// Bound on the error of the second order, at the ends of the radii: the differences contain the fourth order.
+    fourth: f64,
 }
 
 impl BesideEdge {
@@ -62,15 +64,9 @@ impl BesideEdge {
                 }
             }
             let (offset, tangent) = (orbit.offset_from(n), orbit.tangent()?);
-            let mut edge = BesideEdge {
-                start,
-                mass_ratio,
-                n,
-                offset,
-                tangent,
-                second: [0.0; 3],
-                third: [0.0; 3],
-            };
+            let (second, third, fourth) = ([0.0; 3], [0.0; 3], 0.0);
+            let mut edge =
+                BesideEdge { start, mass_ratio, n, offset, tangent, second, third, fourth };
             edge.add_differences(hops)?;
             speeds.into_iter().for_each(|(speed, reach)| see(speed, reach));
             Some(edge)
@@ -109,8 +105,15 @@ impl BesideEdge {
         let most = |of: &[f64]| OVER_SEEN * of.iter().copied().fold(0.0, f64::max);
         let (by_start, by_both) = left_over.split_at(2);
         let (by_kappa, by_both) = by_both.split_at(2);
-        self.third = [most(by_start), most(by_kappa), most(by_both)];
-        self.third.iter().all(|third| third.is_finite()).then_some(())
+        let (start, kappa) = (most(by_start), most(by_kappa));
+        // In a corner two terms may cancel, which do not elsewhere.
+        self.third = [start, kappa, most(by_both).max(start).max(kappa)];
+        // The orders fall about like a geometric series.
+        let first = self.tangent.first_order();
+        let largest = |of: &[f64; 3]| of.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let ratio = (largest(&self.second) / first).max((largest(&self.third) / first).sqrt());
+        self.fourth = OVER_SEEN * first * ratio * ratio * ratio;
+        (self.fourth.is_finite() && self.third.iter().all(|third| third.is_finite())).then_some(())
     }
 
     /// The second order at a start and a κ in units of the radii.
@@ -151,7 +154,7 @@ impl BesideEdge {
         let (by_start, by_kappa) = (slope * y, kappa_slope * k);
         let offset = self.offset.0 + by_start + by_kappa + self.second_order(s, t);
         let error = self.offset.1
-            + rounding * size
+            + (rounding + self.fourth * size) * size
             + third
             + 4.0 * f64::EPSILON * (offset.abs() + by_start.abs() + by_kappa.abs());
         Some((offset, error))
@@ -167,4 +170,58 @@ fn edge(map: &LiftOffMap, near: f64, (n, hops): (u64, usize)) -> Option<f64> {
     }
     let start = near - FixedPointSpeed::new(n).offset_of(speed) / slope;
     (start.is_finite() && start > 0.0).then_some(start)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use basin_of_attraction::SplitMix64;
+
+    /// Starts and mass ratios beside random edges: their orbits in 256 bits are where the reference orbit says.
+    #[test]
+    fn orbits_beside_an_edge_are_within_the_bound() {
+        let random = SplitMix64::from_seed(91);
+        let (mut edges, mut points, mut largest) = (0, 0, 0.0_f64);
+        for k in 0..400 {
+            let part = |i: u64| random.uniform(64 * k + i);
+            let m = 0.03 + 0.9 * part(0);
+            let map = LiftOffMap::new(MassRatio::new(m).unwrap());
+            let (hops, mut speed) = (1 + (3.0 * part(1)) as usize, 5.0 + 25.0 * part(2));
+            let start = speed;
+            let lifts_off = (0..hops).all(|_| match map.image(speed).unwrap() {
+                Some(next) => {
+                    speed = next;
+                    true
+                }
+                None => false,
+            });
+            let n = (speed / std::f64::consts::PI) as u64;
+            if !lifts_off || n == 0 {
+                continue;
+            }
+            let kappa = if k % 2 == 0 { 1e-7 } else { 0.0 };
+            let Some(edge) = BesideEdge::new(&map, start, (n, hops), kappa, |_, _| ()) else {
+                continue;
+            };
+            edges += 1;
+            for i in 0..20 {
+                let step = |at: u64| (2.0 * part(at) - 1.0) * pxfm::f_exp10(-9.0 * part(at + 1));
+                let alpha = edge.start + edge.tangent.radius * step(4 + 3 * i);
+                let other = m + 0.9 * edge.tangent.kappa_radius * step(5 + 3 * i);
+                let ratio = MassRatio::new(other).unwrap();
+                let (offset, error) = edge.offset(alpha, ratio).unwrap();
+                let map = LiftOffMap::new(ratio);
+                let mut orbit = ExtendedOrbit::new(&map, alpha, Arithmetic::Bits256).unwrap();
+                assert!((0..hops).all(|_| orbit.hop() == Ok(ExtendedStep::LiftsOff)));
+                let off = (orbit.offset_from(n).0 - offset).abs();
+                assert!(
+                    off <= error,
+                    "M = {other}, α = {alpha}, {hops}: {off:e} {error:e} {edge:?}"
+                );
+                largest = largest.max(off / error);
+                points += 1;
+            }
+        }
+        assert!(edges > 60 && points > 1000 && largest > 0.1, "{edges} {points} {largest}");
+    }
 }

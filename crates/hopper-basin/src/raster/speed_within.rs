@@ -19,7 +19,7 @@ pub(crate) fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
 }
 
 /// A hop whose error is larger than the first number, and grows by more than the second, is computed with the second bound, which has
-/// the signs of the derivative. It takes about a microsecond, and a fate alone, where an error grows too large, some hundred.
+/// the signs of the derivative. It takes about half a microsecond, and a fate alone, where an error grows too large, some hundred microseconds.
 const LARGE_ERROR: f64 = 1e-9;
 const LARGE_GROWTH: f64 = 8.0;
 
