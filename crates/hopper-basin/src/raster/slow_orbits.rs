@@ -2,7 +2,7 @@
 
 use crate::fates::beside_edge::BesideEdge;
 use crate::fates::hopper_fate::HopperFate;
-use crate::fates::slow_sides::SlowZone;
+use crate::fates::slow_sides::{LARGEST_ERROR, SlowZone};
 use crate::raster::arcs::{Arc, Arcs};
 use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
@@ -107,7 +107,7 @@ impl<'a> Strip<'a> {
         if !zones.may_jump(n, offset) || sides.is_beyond_jumps(n, offset) {
             return Some((self.behind_jumps(column, (n, offset, error))?, 0));
         }
-        let jump = sides.jump(n, offset, error).filter(|jump| jump.count.error <= largest)?;
+        let jump = sides.jump(n, offset, error, largest)?;
         Some((self.on_circle(column, n, (jump.delta, jump.error))?, jump.hops))
     }
 
@@ -169,7 +169,7 @@ impl<'a> Strip<'a> {
         }
         let offset = FixedPointSpeed::new(n).offset_of(speed);
         let offset = (offset, error + f64::EPSILON * offset.abs());
-        let Some((known, hops)) = self.fate_from(column, n, offset, f64::INFINITY) else {
+        let Some((known, hops)) = self.fate_from(column, n, offset, LARGEST_ERROR) else {
             return false;
         };
         self.end_with(at, known, hops, n);
@@ -193,7 +193,7 @@ impl<'a> Strip<'a> {
             let itinerary = Itinerary::in_trap(n as u32);
             Some((KnownFate { itinerary, label: n as u16 }, 0))
         } else if offset < -error {
-            self.fate_from(column, n, (offset, error), f64::INFINITY)
+            self.fate_from(column, n, (offset, error), LARGEST_ERROR)
         } else {
             None
         };
@@ -345,7 +345,8 @@ impl<'a> Strip<'a> {
             {
                 let offset = FixedPointSpeed::new(n).offset_of(speed);
                 if offset < 0.0 && !sides.is_beyond_jumps(n, offset) {
-                    let jump = sides.jump(n, offset, error + f64::EPSILON * -offset)?;
+                    let error = error + f64::EPSILON * -offset;
+                    let jump = sides.jump(n, offset, error, LARGEST_ERROR)?;
                     if jump.hops > 0 {
                         // A circle inside the circle.
                         let known = self.arc(column, n, (jump.delta, jump.error))?;
