@@ -7,10 +7,10 @@ use crate::raster::arcs::{Arc, Arcs};
 use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
-use crate::raster::speed_within::{is_inside, speed_at, with_signs};
+use crate::raster::speed_within::{is_inside, offset_from, speed_at, with_signs};
 use crate::raster::strip::Strip;
 use crate::traps::trap::TrapSide;
-use passive_hopper::{FixedPointSpeed, HopWithin};
+use passive_hopper::HopWithin;
 
 /// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
 /// tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It affects the time only.
@@ -59,8 +59,7 @@ impl<'a> Strip<'a> {
                 return None;
             }
         }
-        let offset = FixedPointSpeed::new(n).offset_of(speed);
-        let error = error + f64::EPSILON * offset.abs();
+        let (offset, error) = offset_from(n, (speed, error));
         (offset < error).then_some((n, offset, error))
     }
 
@@ -167,8 +166,7 @@ impl<'a> Strip<'a> {
                 HopWithin::Grounded | HopWithin::Inconclusive => return false,
             }
         }
-        let offset = FixedPointSpeed::new(n).offset_of(speed);
-        let offset = (offset, error + f64::EPSILON * offset.abs());
+        let offset = offset_from(n, (speed, error));
         let Some((known, hops)) = self.fate_from(column, n, offset, LARGEST_ERROR) else {
             return false;
         };
@@ -221,14 +219,10 @@ impl<'a> Strip<'a> {
         let own = map.mass_ratio().kappa();
         let radius = kappas.map(|kappa| (kappa - own).abs()).into_iter().fold(0.0, f64::max);
         let mut itinerary = Itinerary::START;
+        // The lap of all columns: the ends of laps move in one direction with M.
         let lap = |speed: f64, reach: f64| {
             let of = |column: Option<&Column>| column?.laps.as_ref()?.lap(speed, reach);
-            match radius > 0.0 {
-                true => {
-                    of(self.columns.first()).filter(|lap| of(self.columns.last()) == Some(*lap))
-                }
-                false => of(Some(column)),
-            }
+            of(self.columns.first()).filter(|lap| of(self.columns.last()) == Some(*lap))
         };
         let see = |speed: f64, reach: f64| itinerary.hop(lap(speed, reach));
         let edge = BesideEdge::new(map, start, (n, hops), radius, see);
@@ -290,13 +284,12 @@ impl<'a> Strip<'a> {
 
     /// Follows the orbit from an offset and adds it to the arcs.
     fn add_orbit(&mut self, column: usize, n: u64, offset: f64) {
-        let KnownFate { itinerary, label } =
-            self.follow_from(column, n, (offset, 0.0)).unwrap_or_else(|| {
-                let mut itinerary = Itinerary::START;
-                itinerary.give_up();
-                KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
-            });
-        self.columns[column].arcs(n).add((offset, 0.0), KnownFate { itinerary, label });
+        let known = self.follow_from(column, n, (offset, 0.0)).unwrap_or_else(|| {
+            let mut itinerary = Itinerary::START;
+            itinerary.give_up();
+            KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
+        });
+        self.columns[column].arcs(n).add((offset, 0.0), known);
     }
 
     /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
@@ -343,9 +336,8 @@ impl<'a> Strip<'a> {
             if hops > 0
                 && let Some(SlowZone { n, jumps: true }) = self.columns[column].zones.find(speed)
             {
-                let offset = FixedPointSpeed::new(n).offset_of(speed);
+                let (offset, error) = offset_from(n, (speed, error));
                 if offset < 0.0 && !sides.is_beyond_jumps(n, offset) {
-                    let error = error + f64::EPSILON * -offset;
                     let jump = sides.jump(n, offset, error, LARGEST_ERROR)?;
                     if jump.hops > 0 {
                         // A circle inside the circle.
