@@ -28,6 +28,10 @@ impl FatouCoordinate {
     /// The point with the same fraction that an orbit on the left reaches later: the one of the last turn on which the series
     /// has an error below 10⁻⁸. `None` if the error of Ψ exceeds `largest`, or the offset is beyond this turn.
     pub fn jump(&self, delta: f64, error: f64, largest: f64) -> Option<SlowJump> {
+        // The error of Ψ is at least error/(3 A x⁴) (docs/theory.md, after Lemma 92).
+        if error > largest * 3.0 * self.drift() * delta.abs() * pxfm::f_cbrt(delta.abs()) {
+            return None;
+        }
         let count = self.count_within(delta, error).ok()?;
         let first = self.series.end_of_jump();
         let hops = (count.hops - first).floor();

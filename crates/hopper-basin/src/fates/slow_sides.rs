@@ -30,7 +30,7 @@ const JUMP: f64 = 0.12;
 
 /// Largest error of a phase with which an orbit jumps. Where it decides too little, longer arithmetic has a smaller one. The
 /// fates are right with any value below 1/2; a smaller one sends more orbits to longer arithmetic at once.
-const LARGEST_ERROR: f64 = 0.01;
+pub(crate) const LARGEST_ERROR: f64 = 0.01;
 
 /// The left sides of the fixed points.
 #[derive(Debug, Clone)]
@@ -60,9 +60,9 @@ impl SlowSides {
         (near && -offset <= farthest(n, self.mass_ratio, JUMP)).then_some(offset)
     }
 
-    /// The end of the slow hops of the orbit within `error` of α*_n + `offset`.
-    pub(crate) fn jump(&self, n: u64, offset: f64, error: f64) -> Option<SlowJump> {
-        self.with(n, |psi| psi.jump(offset, error, LARGEST_ERROR))
+    /// The end of the slow hops of the orbit within `error` of α*_n + `offset`; `None` for a phase with an error above `largest`.
+    pub(crate) fn jump(&self, n: u64, offset: f64, error: f64, largest: f64) -> Option<SlowJump> {
+        self.with(n, |psi| psi.jump(offset, error, largest))
     }
 
     /// The smallest Ψ of the turn on which jumps left of α*_n end.
@@ -93,7 +93,7 @@ impl SlowSides {
     /// The number of hops, the offset and its error where the orbit within `error` of α*_n + `offset` leaves: after a jump, or after
     /// one hop; `None` where it has left, and for an error too large.
     pub(crate) fn leave(&self, n: u64, offset: f64, error: f64) -> Option<(u64, f64, f64)> {
-        let jump = self.jump(n, offset, error).filter(|jump| jump.hops > 0);
+        let jump = self.jump(n, offset, error, LARGEST_ERROR).filter(|jump| jump.hops > 0);
         match jump {
             Some(jump) => Some((jump.hops, jump.delta, jump.error)),
             None => self.walk(n, (offset, error)).map(|(offset, error)| (1, offset, error)),

@@ -2,15 +2,15 @@
 
 use crate::fates::beside_edge::BesideEdge;
 use crate::fates::hopper_fate::HopperFate;
-use crate::fates::slow_sides::SlowZone;
+use crate::fates::slow_sides::{LARGEST_ERROR, SlowZone};
 use crate::raster::arcs::{Arc, Arcs};
 use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
-use crate::raster::speed_within::{is_inside, speed_at, with_signs};
+use crate::raster::speed_within::{is_inside, offset_from, speed_at, with_signs};
 use crate::raster::strip::Strip;
 use crate::traps::trap::TrapSide;
-use passive_hopper::{FixedPointSpeed, HopWithin};
+use passive_hopper::HopWithin;
 
 /// The error of a phase above which a reference orbit in 106 bits is made for the starts beside it. A reference takes about a
 /// tenth of a millisecond; a fate alone, where an error reaches a boundary, takes some tenths. It affects the time only.
@@ -59,8 +59,7 @@ impl<'a> Strip<'a> {
                 return None;
             }
         }
-        let offset = FixedPointSpeed::new(n).offset_of(speed);
-        let error = error + f64::EPSILON * offset.abs();
+        let (offset, error) = offset_from(n, (speed, error));
         (offset < error).then_some((n, offset, error))
     }
 
@@ -107,7 +106,7 @@ impl<'a> Strip<'a> {
         if !zones.may_jump(n, offset) || sides.is_beyond_jumps(n, offset) {
             return Some((self.behind_jumps(column, (n, offset, error))?, 0));
         }
-        let jump = sides.jump(n, offset, error).filter(|jump| jump.count.error <= largest)?;
+        let jump = sides.jump(n, offset, error, largest)?;
         Some((self.on_circle(column, n, (jump.delta, jump.error))?, jump.hops))
     }
 
@@ -167,9 +166,8 @@ impl<'a> Strip<'a> {
                 HopWithin::Grounded | HopWithin::Inconclusive => return false,
             }
         }
-        let offset = FixedPointSpeed::new(n).offset_of(speed);
-        let offset = (offset, error + f64::EPSILON * offset.abs());
-        let Some((known, hops)) = self.fate_from(column, n, offset, f64::INFINITY) else {
+        let offset = offset_from(n, (speed, error));
+        let Some((known, hops)) = self.fate_from(column, n, offset, LARGEST_ERROR) else {
             return false;
         };
         self.end_with(at, known, hops, n);
@@ -193,7 +191,7 @@ impl<'a> Strip<'a> {
             let itinerary = Itinerary::in_trap(n as u32);
             Some((KnownFate { itinerary, label: HopperFate::label_of_fixed_point(n) }, 0))
         } else if offset < -error {
-            self.fate_from(column, n, (offset, error), f64::INFINITY)
+            self.fate_from(column, n, (offset, error), LARGEST_ERROR)
         } else {
             None
         };
@@ -221,14 +219,10 @@ impl<'a> Strip<'a> {
         let own = map.mass_ratio().kappa();
         let radius = kappas.map(|kappa| (kappa - own).abs()).into_iter().fold(0.0, f64::max);
         let mut itinerary = Itinerary::START;
+        // The lap of all columns: the ends of laps move in one direction with M.
         let lap = |speed: f64, reach: f64| {
             let of = |column: Option<&Column>| column?.laps.as_ref()?.lap(speed, reach);
-            match radius > 0.0 {
-                true => {
-                    of(self.columns.first()).filter(|lap| of(self.columns.last()) == Some(*lap))
-                }
-                false => of(Some(column)),
-            }
+            of(self.columns.first()).filter(|lap| of(self.columns.last()) == Some(*lap))
         };
         let see = |speed: f64, reach: f64| itinerary.hop(lap(speed, reach));
         let edge = BesideEdge::new(map, start, (n, hops), radius, see);
@@ -290,13 +284,12 @@ impl<'a> Strip<'a> {
 
     /// Follows the orbit from an offset and adds it to the arcs.
     fn add_orbit(&mut self, column: usize, n: u64, offset: f64) {
-        let KnownFate { itinerary, label } =
-            self.follow_from(column, n, (offset, 0.0)).unwrap_or_else(|| {
-                let mut itinerary = Itinerary::START;
-                itinerary.give_up();
-                KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
-            });
-        self.columns[column].arcs(n).add((offset, 0.0), KnownFate { itinerary, label });
+        let known = self.follow_from(column, n, (offset, 0.0)).unwrap_or_else(|| {
+            let mut itinerary = Itinerary::START;
+            itinerary.give_up();
+            KnownFate { itinerary, label: HopperFate::UNDECIDED_PRECISION }
+        });
+        self.columns[column].arcs(n).add((offset, 0.0), known);
     }
 
     /// The fate from an offset left of α*_n that is known to within an error; `None` if `f64` does not decide it.
@@ -343,9 +336,9 @@ impl<'a> Strip<'a> {
             if hops > 0
                 && let Some(SlowZone { n, jumps: true }) = self.columns[column].zones.find(speed)
             {
-                let offset = FixedPointSpeed::new(n).offset_of(speed);
+                let (offset, error) = offset_from(n, (speed, error));
                 if offset < 0.0 && !sides.is_beyond_jumps(n, offset) {
-                    let jump = sides.jump(n, offset, error + f64::EPSILON * -offset)?;
+                    let jump = sides.jump(n, offset, error, LARGEST_ERROR)?;
                     if jump.hops > 0 {
                         // A circle inside the circle.
                         let known = self.arc(column, n, (jump.delta, jump.error))?;

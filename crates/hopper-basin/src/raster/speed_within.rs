@@ -1,6 +1,6 @@
 //! Speeds that are known to within an error.
 
-use passive_hopper::{HopWithin, LiftOffMap, alpha_star};
+use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, alpha_star};
 
 /// KNOWN: whether all speeds within `error` of `alpha` lie in the interval.
 #[inline]
@@ -10,6 +10,12 @@ pub(crate) fn is_inside(alpha: f64, error: f64, (left, right): (f64, f64)) -> bo
     // A speed without an error may be an end. The differences are then not negative exactly inside.
     let error = ROUND_UP * error;
     (alpha - left >= error) & (right - alpha >= error)
+}
+
+/// The offset from α*_n of a speed that is known to within `error`, and the bound on its error: the offset is rounded once.
+pub(crate) fn offset_from(n: u64, (speed, error): (f64, f64)) -> (f64, f64) {
+    let offset = FixedPointSpeed::new(n).offset_of(speed);
+    (offset, error + f64::EPSILON * offset.abs())
 }
 
 /// α*_n plus an offset, and the bound on the error of the sum: half an ulp each for α*_n and for the sum.
