@@ -57,21 +57,40 @@ pub enum Error {
         /// The error of the system.
         source: std::io::Error,
     },
-    /// A finished piece cannot be used.
-    #[error("{path}: {reason}; remove it, or give another folder")]
-    Piece {
-        /// The file of the piece.
-        path: PathBuf,
-        /// The defect.
-        reason: &'static str,
-    },
-    /// A piece belongs to another job, and its neighbours may do so too.
+    /// A file has the name of a piece and is not this piece.
+    #[error("{0}; remove it, and run again")]
+    Piece(#[from] UnusablePiece),
+    /// A part that does not exist.
     #[error(
-        "{path}: it belongs to another job, or another build of this program; give another folder, or remove the \
-         folder {}", .path.parent().unwrap_or(.path).display()
+        "'{text}' is no part of a job; write K/N, part K of N, with 1 ≤ K ≤ N ≤ {most}, such as 1/4"
     )]
-    ForeignPiece {
-        /// The file of the piece.
+    NoPart {
+        /// The text.
+        text: String,
+        /// The largest number of parts.
+        most: usize,
+    },
+    /// The folder has the results of another job.
+    #[error(
+        "{}: this folder has the results of another job, or of another version of the program: '{found}', and not \
+         '{wanted}'; give another folder, or replace the results",
+        .folder.display()
+    )]
+    OtherJob {
+        /// The folder.
+        folder: PathBuf,
+        /// The description of its job.
+        found: String,
+        /// The description of the job that was to be done.
+        wanted: String,
+    },
+    /// The folder has results, and no description of their job.
+    #[error(
+        "{path}: this result is here already, and no job.txt says which job made it; give another folder, or replace \
+         the results"
+    )]
+    UnknownJob {
+        /// The first such file or folder.
         path: PathBuf,
     },
     /// A piece was finished, and its file is missing now.
@@ -95,6 +114,16 @@ pub enum Error {
         /// The position in the file at which this part starts.
         offset: u64,
     },
+}
+
+/// A file that has the name of a piece and is not this piece.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("{path}: {reason}")]
+pub struct UnusablePiece {
+    /// The file.
+    pub path: PathBuf,
+    /// The defect.
+    pub reason: &'static str,
 }
 
 /// A process in words.

@@ -2,38 +2,42 @@
 //! result has the bytes of an undisturbed run.
 //!
 //! ```text
-//!   lock the folder ─► compute the missing pieces ─► assemble ─► check ─► rename ─► remove the pieces
-//!        │                      ▲      │                           │
-//!   one process           a killed run │                  compares the assembled file
-//!   per named part        goes on here └► each renamed    with every piece, byte for byte
-//!                                         when complete
+//!   lock ─► claim the folder ─► compute the missing pieces ─► assemble ─► check ─► rename ─► remove the pieces
+//!    │          │                    ▲      │                           │
+//!    │     one job a folder    a killed run │                  compares the assembled file
+//!   the whole, or              goes on here └► each renamed    with every piece, byte for byte
+//!   parts side by side                         when complete
 //! ```
 //!
 //! | item | role |
 //! |---|---|
-//! | [`Lock`] | gives one named part of a folder to one process; ends with the process |
-//! | [`Pieces`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
+//! | [`Lock`] | gives a job in a folder to one process, or each of its parts to one process; ends with the process |
+//! | [`Part`] | part K of N of a job: each N-th piece |
+//! | [`claim`], [`remove_results`] | `job.txt`: the one job whose results a folder has |
+//! | [`Pieces`], [`Found`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
 //! | [`AtomicFile`], [`write_atomically`] | a file that appears under its name complete or not at all |
 //! | [`make_folder`] | makes a folder with its parents, and tells a file that has its name |
 //! | [`remove_leftovers`] | removes temporary files of processes that no longer run |
-//! | [`npy_header`], [`Order`] | the header of a NumPy file for a two-dimensional array of 16-bit labels |
+//! | [`npy_header`], [`Order`], [`Element`] | the header of a NumPy file for a two-dimensional array of integers |
 //! | [`digest`], [`program_digest`] | 64-bit FNV-1a of bytes; of the running program |
-//! | [`Error`] | the reason of a failure, with path, process number and remedy |
+//! | [`Error`], [`UnusablePiece`] | the reason of a failure, with path, process number and remedy |
 //!
 //! ```
-//! use resumable_job::{Lock, Order, Pieces, npy_header};
+//! use resumable_job::{Element, Found, Lock, Order, Pieces, claim, npy_header};
 //! # let folder = std::env::temp_dir().join(format!("resumable_job_doc_{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder)?;
 //! let lock = Lock::take(&folder, "squares")?;
 //! assert!(Lock::take(&folder, "squares").is_err());
-//! let pieces = Pieces::open(&folder.join("pieces"), "squares of 0 to 3")?;
+//! let job = "squares of 0 to 3; computation 1";
+//! claim(&folder, job, |name| name == "squares.npy" || name == "pieces")?;
+//! let pieces = Pieces::open(&folder.join("pieces"), job)?;
 //! for k in 0..4u16 {
-//!     if pieces.read(k.into())?.is_none() {
+//!     if !matches!(pieces.find(k.into())?, Found::Finished(_)) {
 //!         pieces.write(k.into(), &(k * k).to_le_bytes())?;
 //!     }
 //! }
 //! let array = folder.join("squares.npy");
-//! let header = npy_header(Order::Fortran, 1, 4);
+//! let header = npy_header(Order::Fortran, Element::U16, 1, 4);
 //! pieces.assemble(&array, &header, 4, |_, _| ())?;
 //! pieces.remove(4)?;
 //! assert_eq!(std::fs::read(&array)?[header.len()..], [0, 0, 1, 0, 4, 0, 9, 0]);
@@ -50,7 +54,20 @@
 //! - A lock file that another process removes or replaces is noticed by [`Lock::confirm`].
 //! - Each file is flushed before it gets its name. A loss of power can therefore lose the newest file, but cannot leave
 //!   it half written. On systems that cannot flush a folder this depends on the file system.
-//! - A damaged piece, and a piece of another job or another build, is an error that names its file.
+//! - A damaged piece, and a piece of another job, is told with its file. It is never part of a result, and is written
+//!   again.
+//! - A folder has the results of one job. Another job is refused with the description of the job that is there.
+//!
+//! # Which job is it?
+//! The description of a job is all that its results depend on: the parameters, and the version of the computation. The
+//! version is a constant of the caller, to be raised when the computation gives other bytes. (The time at which the
+//! program was built says nothing about this: a new build mostly gives the same bytes, and a job of three weeks should
+//! survive it.) A test should compare a digest of some results with the one that belongs to the version.
+//!
+//! # Many processes
+//! The pieces of a job can be computed by many processes, also on several machines with one file system that has locks.
+//! Each takes its part: [`Lock::take_part`], [`Part::pieces`]. Another process assembles them with [`Lock::take`], which
+//! is refused while a part is at work.
 //!
 //! The check of [`Pieces::assemble`] reads the file through the operating system's cache. It finds errors of programs.
 //! It does not find data that a disk loses later.
@@ -64,17 +81,23 @@
 //! NumPy Enhancement Proposal 1 (the npy format); G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, *The FNV
 //! Non-Cryptographic Hash Algorithm*, RFC 9923.
 
+mod assembly;
 mod atomic_file;
+mod claim;
 mod digest;
 mod error;
 mod lock;
+mod locked_file;
 mod npy;
 mod open_file;
+mod part;
 mod pieces;
 
 pub use atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
+pub use claim::{claim, remove_results};
 pub use digest::{digest, program_digest};
-pub use error::Error;
+pub use error::{Error, UnusablePiece};
 pub use lock::Lock;
-pub use npy::{Order, npy_header};
-pub use pieces::Pieces;
+pub use npy::{Element, Order, npy_header};
+pub use part::Part;
+pub use pieces::{Found, Pieces};

@@ -1,77 +1,78 @@
-//! A lock on a named part of a folder, which ends with its process.
+//! A lock on a folder for one job, or for one part of a job.
 //!
-//! The lock belongs to the open file, not to its name: the system removes the lock when the process ends, also if it is
-//! killed. A lock file left on disk is therefore harmless, and the next process locks it again. A stopped process keeps
-//! its lock.
+//! ```text
+//!   whole job, assembly     JOB.lock, one holder
+//!   part K of N             JOB.lock together with other parts, and JOB.part-K-of-N.lock, one holder
+//! ```
 
 use crate::error::Error;
-use crate::open_file::is_named;
-use std::fs::{File, OpenOptions, TryLockError};
-use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
-use std::time::Duration;
+use crate::locked_file::{Holders, LockedFile, SECOND_TRY_AFTER, Trial, holder_of};
+use crate::part::Part;
+use std::path::Path;
 
-/// Time before a refused lock is tried once more. Between taking the lock and writing its number, a holder's file has
-/// no number or an old one. That takes microseconds. A longer time would delay the refusal without a gain.
-const SECOND_TRY_AFTER: Duration = Duration::from_millis(20);
+/// Trials of [`Lock::wait`], each after [`SECOND_TRY_AFTER`]: about ten seconds. The waiting processes write one short
+/// file each. A longer wait would only delay the message about a process that was stopped.
+const PATIENCE: usize = 500;
 
-/// Trials to lock a file that its last holder removes meanwhile. Each lost trial needs another process that ended at
-/// that instant, so that a few trials suffice. The limit is for file systems on which a name never shows the file that
-/// was opened.
-const TRIALS: usize = 100;
-
-/// The right of one process to write one part of a folder, until it is dropped.
+/// The right of one process to write one job in a folder, or one part of a job, until it is dropped.
 #[derive(Debug)]
 pub struct Lock {
-    file: File,
-    path: PathBuf,
+    /// Dropped first: another process that finds the part free also finds the job free or held in parts.
+    part: Option<LockedFile>,
+    whole: LockedFile,
 }
 
 impl Lock {
-    /// Takes the lock on `part` of a folder that exists. Different parts of one folder are independent.
+    /// Takes the lock on a job in a folder that exists, for this process alone. Different jobs of one folder are
+    /// independent.
     ///
-    /// `part` is a file name without its extension: the lock file is `folder/part.lock`. It holds the number of
+    /// `job` is a file name without its extension: the lock file is `folder/job.lock`. It holds the number of
     /// the process, for the message of others, and is removed with the lock.
     ///
     /// # Errors
-    /// [`Error::AtWork`] if another process holds the lock, [`Error::NoLocks`] if the file system has no locks,
-    /// [`Error::LockFile`] if the name of the lock file belongs to a folder, a link or a device, and [`Error::File`]
-    /// if the lock file cannot be opened or written.
-    pub fn take(folder: &Path, part: &str) -> Result<Self, Error> {
-        let path = folder.join(format!("{part}.lock"));
-        let mut refused = false;
-        for _ in 0..TRIALS {
-            // A link would lead to another file, and the process number would replace its bytes.
-            if std::fs::symlink_metadata(&path).is_ok_and(|data| !data.is_file()) {
-                return Err(Error::LockFile { path });
-            }
-            // The file is not truncated: the number in it may be the number of the holder.
-            let mut options = OpenOptions::new();
-            options.read(true).write(true).create(true).truncate(false);
-            let file = options.open(&path).map_err(Error::at(&path))?;
-            match file.try_lock() {
-                // The last holder removed the file after this process opened it: the lock protects nothing.
-                Ok(()) if !is_named(&file, &path).map_err(Error::at(&path))? => continue,
-                Ok(()) => {
-                    let lock = Lock { file, path };
-                    lock.tell_process().map_err(Error::at(&lock.path))?;
-                    return Ok(lock);
-                }
-                Err(TryLockError::WouldBlock) if !refused => {
-                    refused = true;
-                    std::thread::sleep(SECOND_TRY_AFTER);
-                }
-                Err(TryLockError::WouldBlock) => {
-                    let holder = holder(&file);
-                    return Err(Error::AtWork { folder: folder.into(), part: part.into(), holder });
-                }
-                Err(TryLockError::Error(source)) => {
-                    return Err(Error::NoLocks { folder: folder.into(), source });
-                }
+    /// [`Error::AtWork`] if another process holds the lock or the lock of a part, [`Error::NoLocks`] if the file system
+    /// has no locks, [`Error::LockFile`] if the name of the lock file belongs to a folder, a link or a device, and
+    /// [`Error::File`] if the lock file cannot be opened or written.
+    pub fn take(folder: &Path, job: &str) -> Result<Self, Error> {
+        match LockedFile::take(folder, job, Holders::One)? {
+            Trial::Locked(whole) => Ok(Lock { part: None, whole }),
+            Trial::Held(holder) => {
+                let part = part_at_work(folder, job);
+                let (holder, name) = match part {
+                    Some((name, holder)) => (Some(holder), name),
+                    None => (holder, job.to_owned()),
+                };
+                Err(Error::AtWork { folder: folder.into(), part: name, holder })
             }
         }
-        let source = std::io::Error::other("the lock file never is the file that was opened");
-        Err(Error::NoLocks { folder: folder.into(), source })
+    }
+
+    /// Takes the lock on one part of a job. Other parts can be held at the same time, and the whole job cannot.
+    ///
+    /// # Errors
+    /// As [`Lock::take`]; [`Error::AtWork`] if another process holds this part or the whole job.
+    pub fn take_part(folder: &Path, job: &str, part: Part) -> Result<Self, Error> {
+        let at_work = |part: String, holder| Error::AtWork { folder: folder.into(), part, holder };
+        let whole = match LockedFile::take(folder, job, Holders::Many)? {
+            Trial::Locked(whole) => whole,
+            Trial::Held(holder) => return Err(at_work(job.to_owned(), holder)),
+        };
+        let name = format!("{job}.{}", part.name());
+        match LockedFile::take(folder, &name, Holders::One)? {
+            Trial::Locked(own) => Ok(Lock { part: Some(own), whole }),
+            Trial::Held(holder) => Err(at_work(name, holder)),
+        }
+    }
+
+    /// As [`Lock::take`], but waits some seconds for other processes, for a step that takes milliseconds.
+    pub(crate) fn wait(folder: &Path, job: &str) -> Result<Self, Error> {
+        for _ in 1..PATIENCE {
+            match Lock::take(folder, job) {
+                Err(Error::AtWork { .. }) => std::thread::sleep(SECOND_TRY_AFTER),
+                other => return other,
+            }
+        }
+        Lock::take(folder, job)
     }
 
     /// Makes sure that the lock still protects the folder.
@@ -83,42 +84,26 @@ impl Lock {
     /// # Errors
     /// [`Error::LockLost`] if the name of the lock file is gone or belongs to another file.
     pub fn confirm(&self) -> Result<(), Error> {
-        if is_named(&self.file, &self.path).map_err(Error::at(&self.path))? {
-            Ok(())
-        } else {
-            Err(Error::LockLost { path: self.path.clone() })
-        }
-    }
-
-    fn tell_process(&self) -> std::io::Result<()> {
-        self.file.set_len(0)?; // the number of a killed holder
-        (&self.file).write_all(format!("{}\n", std::process::id()).as_bytes())
+        self.whole.confirm()?;
+        self.part.as_ref().map_or(Ok(()), LockedFile::confirm)
     }
 }
 
-impl Drop for Lock {
-    fn drop(&mut self) {
-        // The file is removed while it is still locked, so that a process that opened it before finds its name gone
-        // (`take`). This needs inode numbers; on other systems the file stays. A file that another process put there in
-        // the meantime stays too.
-        if cfg!(unix) && is_named(&self.file, &self.path).unwrap_or(false) {
-            let _ = std::fs::remove_file(&self.path);
-        }
-    }
-}
-
-/// The number in a lock file. `None` if it cannot be read: on Windows a lock also prevents others from reading.
-///
-/// The open file is read, not its name: the holder may end just now and remove the name.
-fn holder(mut file: &File) -> Option<u32> {
-    let mut text = String::new();
-    file.read_to_string(&mut text).ok()?;
-    text.trim().parse().ok()
+/// A part of the job that a process is at work on, and this process.
+fn part_at_work(folder: &Path, job: &str) -> Option<(String, u32)> {
+    let start = format!("{job}.part-");
+    std::fs::read_dir(folder).into_iter().flatten().flatten().find_map(|entry| {
+        let name = entry.file_name().into_string().ok()?;
+        let name = name.strip_suffix(".lock").filter(|name| name.starts_with(&start))?;
+        Some((name.to_owned(), holder_of(&entry.path())?))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs::File;
+    use std::path::PathBuf;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     fn folder(name: &str) -> PathBuf {
@@ -145,11 +130,74 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_of_a_job_have_separate_locks() {
+    fn parts_are_held_side_by_side_and_the_whole_alone() {
         let folder = folder("parts");
-        let parts = ["part-1-of-2", "part-2-of-2"].map(|part| Lock::take(&folder, part).unwrap());
-        assert!(Lock::take(&folder, "part-1-of-2").is_err());
-        drop(parts);
+        let part = |k| Lock::take_part(&folder, "job", Part::new(k, 2).unwrap());
+        let at_work = |lock: Result<Lock, Error>, name: &str| {
+            let text = lock.unwrap_err().to_string();
+            assert!(text.contains(&format!("process {} ", std::process::id())), "{text}");
+            assert!(text.contains(&format!("'{name}")), "{text}");
+        };
+        let (first, second) = (part(1).unwrap(), part(2).unwrap());
+        at_work(part(1), "job.part-1-of-2");
+        // A refused process leaves the lock of the others.
+        first.confirm().unwrap();
+        at_work(Lock::take(&folder, "job"), "job.part-");
+        drop(first);
+        second.confirm().unwrap();
+        at_work(Lock::take(&folder, "job"), "job.part-2-of-2");
+        drop(second);
+        let whole = Lock::take(&folder, "job").unwrap();
+        at_work(part(1), "job");
+        drop(whole);
+        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 0);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// Parts come and go all the time; no thread holds a part while another one holds the whole.
+    #[test]
+    fn parts_and_the_whole_are_never_held_at_once() {
+        let folder = folder("whole");
+        let (whole, parts) = (AtomicUsize::new(0), AtomicUsize::new(0));
+        let (mut both, mut most) = (0, 0);
+        std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..6)
+                .map(|thread| {
+                    let (folder, whole, parts) = (&folder, &whole, &parts);
+                    scope.spawn(move || {
+                        let (mut both, mut most) = (0, 0);
+                        for _ in 0..50 {
+                            if thread == 0 {
+                                let Ok(lock) = Lock::take(folder, "job") else { continue };
+                                whole.fetch_add(1, Ordering::SeqCst);
+                                both += parts.load(Ordering::SeqCst);
+                                std::thread::yield_now();
+                                whole.fetch_sub(1, Ordering::SeqCst);
+                                drop(lock);
+                            } else {
+                                let part = Part::new(thread, 5).unwrap();
+                                let Ok(lock) = Lock::take_part(folder, "job", part) else {
+                                    continue;
+                                };
+                                most = most.max(1 + parts.fetch_add(1, Ordering::SeqCst));
+                                both += whole.load(Ordering::SeqCst);
+                                std::thread::sleep(std::time::Duration::from_millis(1));
+                                lock.confirm().unwrap();
+                                parts.fetch_sub(1, Ordering::SeqCst);
+                                drop(lock);
+                            }
+                        }
+                        (both, most)
+                    })
+                })
+                .collect();
+            for thread in threads {
+                let (own_both, own_most) = thread.join().unwrap();
+                (both, most) = (both + own_both, most.max(own_most));
+            }
+        });
+        assert_eq!(both, 0);
+        assert!(most > 1, "no two parts were held at once");
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

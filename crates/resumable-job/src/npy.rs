@@ -9,17 +9,26 @@ pub enum Order {
     Fortran,
 }
 
-/// The header of a NumPy file (version 1.0) for an array of 16-bit unsigned integers, little-endian.
+/// The elements of an array: unsigned integers, little-endian.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Element {
+    /// 16 bits.
+    U16,
+    /// 64 bits.
+    U64,
+}
+
+/// The header of a NumPy file (version 1.0) for a two-dimensional array.
 ///
 /// The file is this header, followed by `rows` × `columns` elements in the given order.
 ///
 /// ```
-/// use resumable_job::{Order, npy_header};
-/// let header = npy_header(Order::C, 2, 3);
+/// use resumable_job::{Element, Order, npy_header};
+/// let header = npy_header(Order::C, Element::U16, 2, 3);
 /// assert_eq!(header.len(), 128);
 /// assert!(header.starts_with(b"\x93NUMPY\x01\x00"));
 /// ```
-pub fn npy_header(order: Order, rows: usize, columns: usize) -> Vec<u8> {
+pub fn npy_header(order: Order, element: Element, rows: usize, columns: usize) -> Vec<u8> {
     // The format asks that the elements start at a multiple of 64 bytes, for readers that map the file to memory.
     const ALIGNMENT: usize = 64;
     // Magic (6 bytes), version (2 bytes), and the length of the text (2 bytes).
@@ -30,8 +39,13 @@ pub fn npy_header(order: Order, rows: usize, columns: usize) -> Vec<u8> {
         Order::C => ("False", "}"),
         Order::Fortran => ("True", ", }"),
     };
-    let mut text =
-        format!("{{'descr': '<u2', 'fortran_order': {fortran}, 'shape': ({rows}, {columns}){end}");
+    let bytes = match element {
+        Element::U16 => 2,
+        Element::U64 => 8,
+    };
+    let mut text = format!(
+        "{{'descr': '<u{bytes}', 'fortran_order': {fortran}, 'shape': ({rows}, {columns}){end}"
+    );
     let unpadded = BEFORE_TEXT + text.len() + 1; // the text ends with a line feed
     text.push_str(&" ".repeat(unpadded.next_multiple_of(ALIGNMENT) - unpadded));
     text.push('\n');
@@ -51,7 +65,7 @@ mod tests {
     #[test]
     fn an_independent_reader_finds_every_element() {
         for (order, at_0_1, at_1_0) in [(Order::C, 1, 4), (Order::Fortran, 3, 1)] {
-            let mut bytes = npy_header(order, 3, 4);
+            let mut bytes = npy_header(order, Element::U16, 3, 4);
             bytes.extend((0u16..12).flat_map(u16::to_le_bytes));
             let array: Array2<u16> = Array2::read_npy(std::io::Cursor::new(bytes)).unwrap();
             assert_eq!(array.dim(), (3, 4));
@@ -64,16 +78,24 @@ mod tests {
         for (rows, columns) in [(1, 1), (3, 4), (600, 600), (1024, 9999), (1, 1_048_576)] {
             let mut bytes = Vec::new();
             Array2::<u16>::zeros((rows, columns)).write_npy(&mut bytes).unwrap();
-            let header = npy_header(Order::C, rows, columns);
+            let header = npy_header(Order::C, Element::U16, rows, columns);
             assert_eq!(&bytes[..header.len()], header, "{rows} × {columns}");
             assert_eq!(bytes.len(), header.len() + 2 * rows * columns);
         }
     }
 
     #[test]
+    fn long_elements_come_back() {
+        let mut bytes = npy_header(Order::Fortran, Element::U64, 2, 2);
+        bytes.extend([1, 1 << 40, u64::MAX, 0].iter().flat_map(|n: &u64| n.to_le_bytes()));
+        let array: Array2<u64> = Array2::read_npy(std::io::Cursor::new(bytes)).unwrap();
+        assert_eq!((array[(1, 0)], array[(0, 1)]), (1 << 40, u64::MAX));
+    }
+
+    #[test]
     fn elements_start_at_a_multiple_of_64_bytes() {
         for columns in [1, 10, 1000, 100_000, usize::MAX] {
-            assert_eq!(npy_header(Order::C, 7, columns).len() % 64, 0);
+            assert_eq!(npy_header(Order::C, Element::U16, 7, columns).len() % 64, 0);
         }
     }
 }
