@@ -13,6 +13,9 @@ pub enum Error {
     /// A figure could not be rendered or encoded.
     #[error(transparent)]
     Figure(#[from] journal_figures::Error),
+    /// A drawing of the hopper failed.
+    #[error(transparent)]
+    Drawing(#[from] hopper_figures::Error),
     /// A file or folder of a long job could not be read or written.
     #[error("{path}: {source}")]
     File {

@@ -19,7 +19,6 @@ pub mod cli;
 pub mod commands;
 mod comparison;
 mod error;
-mod fate_colors;
 mod figure;
 pub mod figures;
 mod independent;

@@ -17,7 +17,7 @@ pub(super) enum CrateClass {
 }
 
 /// Every crate in `crates/`, with its class and the reason for it.
-const CLASSES: [(&str, CrateClass, &str); 13] = [
+const CLASSES: [(&str, CrateClass, &str); 15] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
     ("basin-of-attraction", Computing, "random points come from a seed argument"),
@@ -31,7 +31,9 @@ const CLASSES: [(&str, CrateClass, &str); 13] = [
         "a reference value that is missing must fail the test that reads it",
     ),
     ("journal-figures", Computing, "figures are bytes; its font is part of the crate"),
+    ("hopper-figures", Computing, "drawings are functions of what they show"),
     ("resumable-job", Files, "finished pieces must survive a kill, so they are on disk"),
+    ("hopper", Program, "the program for users: it reads, prints and writes"),
     ("repository-tools", Program, "the file and terminal access that the programs share"),
     ("hopper-paper", Program, "writes figures and reports, and says what holds"),
     ("hopper-measurements", Program, "looks at clocks, and says what it measured"),

@@ -3,14 +3,13 @@
 use super::finding::{Finding, Table};
 use super::humps_of_window::fates;
 use crate::error::Error;
-use crate::fate_colors;
 use crate::figure::Figure;
-use crate::figures::share_plot::png;
 use crate::job::Job;
 use basin_of_attraction::{Grid, Interval, Label, Refinement};
 use hopper_basin::{
     CircleLimits, HopperFate, PhaseBasins, ShareRaster, Upwards, crisis, grounding, share_raster,
 };
+use hopper_figures::{fate_colors, share_png};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use repository_tools::Progress;
 use std::ops::ControlFlow;
@@ -43,7 +42,7 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
         let raster = raster(n)?;
         let left = 62.0 + 282.0 * at as f64;
         let frame = Frame::linear(left, 50.0, 258.0, 230.0, RATIOS, (0.0, 1.0));
-        svg.image(frame.left, frame.top, frame.width, frame.height, &png(&raster)?);
+        svg.image(frame.left, frame.top, frame.width, frame.height, &share_png(&raster)?);
         let label = if at == 0 { "phase $Ψ$ mod 1" } else { "" };
         frame.axes(&mut svg, &ticks(RATIOS, 5), &shared(ticks(frame.y, 5), at), "", label);
         let title = format!("left of $α$^{{∗}}_{{{n}}}");

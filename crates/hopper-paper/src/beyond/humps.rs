@@ -3,11 +3,11 @@
 use super::finding::{Finding, Table};
 use super::humps_of_window::{fates, hump, is_incessant};
 use crate::error::Error;
-use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::Refinement;
 use hopper_basin::{HopperFate, hopper_basins};
+use hopper_figures::fate_colors;
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.

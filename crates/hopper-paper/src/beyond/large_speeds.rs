@@ -5,11 +5,11 @@ use super::humps_of_window::{
     FractionWithBar, estimate, fates, hump, is_incessant, label, percent,
 };
 use crate::error::Error;
-use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{Label, random_fractions, uncertain_fraction};
 use hopper_basin::HopperFate;
+use hopper_figures::fate_colors;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.

@@ -6,7 +6,6 @@ use super::humps_of_window::{
     label, percent,
 };
 use crate::error::Error;
-use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
@@ -14,6 +13,7 @@ use basin_of_attraction::{
     proportion_interval, random_fractions,
 };
 use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
+use hopper_figures::fate_colors;
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
 use std::collections::BTreeMap;
 

@@ -3,10 +3,10 @@
 use super::finding::{Finding, Table};
 use super::humps_of_window::fates;
 use crate::error::Error;
-use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
 use hopper_basin::{HopperFate, ImmediateBasinEdge, crisis, immediate_basin, upper_crisis_bracket};
+use hopper_figures::fate_colors;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// Spacings of the scans. A needle narrower than the spacing is missed. A scan at a tenth of the spacing takes ten

@@ -6,10 +6,10 @@
 use super::share_files::{self, Shares};
 use super::zoom_files::{self, Zoom};
 use crate::error::Error;
-use crate::figures::basin_plot::{PIXELS, Window, draw_basins};
 use basin_of_attraction::{Grid, Interval, Label, LabelImage};
 use hopper_asymptotics::Offset;
 use hopper_basin::{HopperFate, basin_columns, first_humps};
+use hopper_figures::{PIXELS, Window, draw_basins};
 use journal_figures::render;
 use passive_hopper::MassRatio;
 use rayon::prelude::*;

@@ -1,6 +1,5 @@
 //! The commands, one file each.
 
-mod animation;
 pub mod basin_raster;
 pub mod beyond_paper;
 mod claim_lines;

@@ -5,12 +5,12 @@
 
 use super::{column_bytes, kept};
 use crate::error::Error;
-use crate::figures::share_plot::draw_shares;
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Offset;
 use hopper_basin::{
     CircleLimits, EdgeChart, Fates, FollowedEdge, HopperFate, ShareColumn, ShareRaster, Upwards,
 };
+use hopper_figures::draw_shares;
 use journal_figures::render;
 use passive_hopper::MassRatio;
 use repository_tools::{Folder, say};

@@ -2,18 +2,16 @@
 //!
 //! A run that is killed leaves its finished frames, and the next run computes the others.
 
-use super::animation::animated;
 use super::kept;
 use crate::error::Error;
-use crate::fate_colors::mixed;
-use crate::figures::basin_plot::legend;
-use crate::figures::share_plot;
 use basin_of_attraction::Label;
 use hopper_basin::{
     CircleLimits, EdgeChart, Fates, FollowedEdge, LocalFractions, PhaseBasins, edge_frame,
     edge_window, frame_slant,
 };
-use journal_figures::{Anchor, Frame, Svg, render, rgb_png, ticks};
+use hopper_figures::fate_colors::mixed;
+use hopper_figures::{legend, share_pixels};
+use journal_figures::{Anchor, Frame, Svg, animated_png, render, rgb_png, ticks};
 use passive_hopper::MassRatio;
 use repository_tools::{Folder, say};
 use resumable_job::{AtomicFile, Lock};
@@ -77,7 +75,7 @@ pub(super) fn run(zoom: &Zoom) -> Result<(), Error> {
         labels.dedup();
         let mix = |pixel: &LocalFractions| mixed(pixel.labels().map(|l| (l, pixel.of(l).lower)));
         let strip = strip.iter().rev().flat_map(mix).collect();
-        Ok(Drawn { labels, strip, window: share_plot::pixels(&window) }.bytes())
+        Ok(Drawn { labels, strip, window: share_pixels(&window) }.bytes())
     };
     let (kept, all) = kept::pieces(&folder, &lock, ("frames", &description), frames, piece)?;
     let drawn = all.iter().map(|bytes| Drawn::new(bytes, zoom)).collect::<Result<Vec<_>, _>>()?;
@@ -89,7 +87,7 @@ pub(super) fn run(zoom: &Zoom) -> Result<(), Error> {
         folder.write(&format!("zoom_{at:04}.png"), &pngs[at])?;
     }
     let overview = render("zoom", &draw_all(zoom, &chart, &drawn)?, 2.0)?;
-    let animation = animated(ANIMATION, &pngs, SECONDS)?;
+    let animation = animated_png(ANIMATION, &pngs, SECONDS)?;
     lock.confirm()?;
     folder.write(OVERVIEW, &overview.png)?;
     folder.write(ANIMATION, &animation)?;

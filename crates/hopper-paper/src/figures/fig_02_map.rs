@@ -1,12 +1,11 @@
 //! Fig. 2: the map for several mass ratios, up to the fifth fixed point.
 
-use super::graph::graph_pieces;
 use crate::error::Error;
 use crate::figure::Figure;
+use hopper_figures::{cuts, graph_pieces};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
-use std::f64::consts::PI;
 
 /// Mass ratios with their pens. The paper's mass ratios are illegible in our copy; these show the range of shapes.
 const CURVES: [(f64, Pen); 4] = [
@@ -15,16 +14,6 @@ const CURVES: [(f64, Pen); 4] = [
     (0.2, Pen::solid("#d55e00", 1.3)),
     (1.0, Pen::solid("#10386e", 1.5)),
 ];
-
-/// The points where pieces of the map meet, up to α*_n: nπ and α*_n. The first piece begins at 10⁻³ instead of 0,
-/// which is not a lift-off speed.
-pub(super) fn cuts(n: u64) -> Vec<f64> {
-    let mut cuts = vec![1e-3];
-    for k in 1..=n {
-        cuts.extend([k as f64 * PI, alpha_star(k)]);
-    }
-    cuts
-}
 
 /// Draws the graphs.
 pub(super) fn build(_: &Progress) -> Result<Figure, Error> {

@@ -1,9 +1,9 @@
 //! Fig. 3: the map around α*_1 cut into four segments, and a typical motion of each.
 
-use super::graph::graph_pieces;
 use crate::error::Error;
 use crate::figure::Figure;
 use hopper_basin::Trap;
+use hopper_figures::graph_pieces;
 use hybrid_system::{Execution, Limits};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase, alpha_star};

@@ -1,10 +1,10 @@
 //! Fig. 5: the construction of the basin of α*_1, level by level, from the real map.
 
-use super::graph::graph_pieces;
 use crate::error::Error;
 use crate::figure::Figure;
 use basin_of_attraction::IntervalSet;
 use hopper_basin::{Fates, basin_levels};
+use hopper_figures::{cuts, graph_pieces};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
@@ -107,7 +107,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
 }
 
 fn draw_map(svg: &mut Svg, frame: &Frame, map: &LiftOffMap, levels: &[IntervalSet]) {
-    let cuts: Vec<f64> = super::fig_02_map::cuts(3).into_iter().filter(|&cut| cut > 4.2).collect();
+    let cuts: Vec<f64> = cuts(3).into_iter().filter(|&cut| cut > 4.2).collect();
     let cuts = [vec![4.2], cuts].concat();
     let trap = levels[0].intervals()[0];
     let band = (frame.at((0.0, trap.right)).1, frame.at((0.0, trap.left)).1);

@@ -1,9 +1,10 @@
 //! Figs. 6 to 9: the basins of attraction over mass ratio and lift-off speed.
 
-use super::basin_plot::{Window, basin_figure};
+use super::basin_plot::basin_figure;
 use crate::error::Error;
 use crate::figure::Figure;
 use hopper_basin::{FIG_8, FIG_9, first_humps};
+use hopper_figures::Window;
 use repository_tools::Progress;
 
 fn texts(title: &str, paper: &str, notes: &str) -> (String, String, String) {

@@ -1,8 +1,8 @@
 //! The invariance under M → 1/M, and the windows where it fails.
 
-use super::graph::graph_pieces;
 use crate::error::Error;
 use crate::figure::Figure;
+use hopper_figures::{cuts, graph_pieces};
 use journal_figures::{Anchor, Frame, Pen, Scale, Svg, csv_file, decades, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
@@ -24,7 +24,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
         let (x0, x1) = (top.at((f64::from(n) * PI, 0.0)).0, top.at((alpha_star(n as u64), 0.0)).0);
         svg.fill_rect(x0, top.top, x1 - x0, top.height, "#eeeeec");
     }
-    let mut cuts: Vec<f64> = super::fig_02_map::cuts(3).into_iter().filter(|&c| c >= PI).collect();
+    let mut cuts: Vec<f64> = cuts(3).into_iter().filter(|&c| c >= PI).collect();
     cuts.push(window.1);
     top.clipped(&mut svg, |svg| {
         top.polyline(svg, &[(0.0, 0.0), (20.0, 20.0)], Pen::dashed("#000", 0.7, "1.5 2.5"));

@@ -1,16 +1,14 @@
 //! The figures of the paper, one file each, from first principles.
 
-pub(crate) mod basin_plot;
+mod basin_plot;
 mod fig_01_model;
 mod fig_02_map;
 mod fig_03_segments;
 mod fig_04_local_map;
 pub(crate) mod fig_05_construction;
 mod fig_06_to_09_basins;
-mod graph;
 mod invariance;
 mod printed_against_stable;
-pub(crate) mod share_plot;
 
 use crate::choice;
 use crate::error::Error;

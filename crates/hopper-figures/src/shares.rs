@@ -1,6 +1,6 @@
 //! The drawing of a raster of shares.
 
-use super::basin_plot::legend;
+use crate::basins::legend;
 use crate::error::Error;
 use crate::fate_colors::mixed;
 use hopper_basin::{HopperFate, ShareRaster, Upwards};
@@ -9,7 +9,10 @@ use journal_figures::{Anchor, Frame, Pen, Svg, rgb_png, ticks};
 
 /// The drawing of a raster left of α*_n, or about a preimage of it, with axes and legend. Every pixel has the colours of its fates,
 /// mixed by their shares.
-pub(crate) fn draw_shares(n: u64, raster: &ShareRaster) -> Result<Svg, Error> {
+///
+/// # Errors
+/// As [`share_png`].
+pub fn draw_shares(n: u64, raster: &ShareRaster) -> Result<Svg, Error> {
     let grid = raster.grid();
     let mut svg = Svg::new(600.0, 560.0);
     let x = (grid.x.left, grid.x.right);
@@ -26,7 +29,7 @@ pub(crate) fn draw_shares(n: u64, raster: &ShareRaster) -> Result<Svg, Error> {
         Upwards::Speed => (depths, ticks(depths, 4), "speed $α$ − $p$ in half heights".into()),
     };
     let frame = Frame::linear(86.0, 44.0, 490.0, 460.0, x, y);
-    let pixels = png(raster)?;
+    let pixels = share_png(raster)?;
     svg.image(frame.left, frame.top, frame.width, frame.height, &pixels);
     let x_label = "mass ratio $M$ = $m$_{2}/$m$_{1}";
     frame.axes(&mut svg, &ticks(x, 6), &y_ticks, x_label, &y_label);
@@ -73,13 +76,16 @@ fn minus(value: f64) -> String {
 }
 
 /// The pixels as a PNG.
-pub(crate) fn png(raster: &ShareRaster) -> Result<Vec<u8>, Error> {
+///
+/// # Errors
+/// [`Error::Figure`] for a raster without pixels.
+pub fn share_png(raster: &ShareRaster) -> Result<Vec<u8>, Error> {
     let grid = raster.grid();
-    Ok(rgb_png("shares", grid.columns, grid.rows, &pixels(raster))?)
+    Ok(rgb_png("shares", grid.columns, grid.rows, &share_pixels(raster))?)
 }
 
 /// Red, green and blue of every pixel, the highest row first.
-pub(crate) fn pixels(raster: &ShareRaster) -> Vec<u8> {
+pub fn share_pixels(raster: &ShareRaster) -> Vec<u8> {
     let grid = raster.grid();
     let mut pixels = Vec::with_capacity(3 * grid.columns * grid.rows);
     for row in (0..grid.rows).rev() {

@@ -18,17 +18,17 @@ fn color(label: Label) -> Color {
 }
 
 /// The colour of a label, as CSS.
-pub(crate) fn css(label: Label) -> &'static str {
+pub fn css(label: Label) -> &'static str {
     color(label).css
 }
 
 /// The colour of a label.
-pub(crate) fn rgb(label: Label) -> [u8; 3] {
+pub fn rgb(label: Label) -> [u8; 3] {
     color(label).rgb
 }
 
 /// The name of a label, as markup.
-pub(crate) fn name(label: Label) -> String {
+pub fn name(label: Label) -> String {
     match label.basin_number() {
         Some(0) => "decaying".into(),
         _ if label == HopperFate::GROUNDED => "grounded".into(),
@@ -41,7 +41,7 @@ pub(crate) fn name(label: Label) -> String {
 }
 
 /// The colour of a pixel that covers several fates: the light of their colours mixed by their shares. The rest to 1 is undecided.
-pub(crate) fn mixed(shares: impl Iterator<Item = (Label, f64)>) -> [u8; 3] {
+pub fn mixed(shares: impl Iterator<Item = (Label, f64)>) -> [u8; 3] {
     let (mut light, mut rest) = ([0.0; 3], 1.0);
     let mut add = |color: Color, share: f64| {
         for (sum, byte) in light.iter_mut().zip(color.rgb) {

@@ -7,7 +7,7 @@ use std::io::Cursor;
 ///
 /// # Errors
 /// [`Error::Render`] for no frames, for a frame that is no such PNG, and for frames of different sizes.
-pub(super) fn animated(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<u8>, Error> {
+pub fn animated_png(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<u8>, Error> {
     let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
     let refused = |e: png::EncodingError| fail(e.to_string());
     let first = frames.first().ok_or_else(|| fail("there is no frame".into()))?;
@@ -57,14 +57,14 @@ fn pixels(png: &[u8]) -> Result<(u32, u32, Vec<u8>), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use journal_figures::rgb_png;
+    use crate::render::rgb_png;
 
     /// A reader finds the number of frames, the pixels of each, and their time.
     #[test]
     fn an_animation_has_all_frames() {
         let colors = [[255, 0, 0], [0, 255, 0], [0, 0, 255]];
         let frames = colors.map(|color| rgb_png("frame", 2, 1, &[color, color].concat()).unwrap());
-        let bytes = animated("zoom", &frames, 0.25).unwrap();
+        let bytes = animated_png("zoom", &frames, 0.25).unwrap();
         let mut reader = png::Decoder::new(Cursor::new(&bytes)).read_info().unwrap();
         assert_eq!(reader.info().animation_control().unwrap().num_frames, 3);
         let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
@@ -79,9 +79,9 @@ mod tests {
     #[test]
     fn frames_of_different_sizes_and_no_frames_are_errors() {
         let frame = |width: usize| rgb_png("frame", width, 1, &vec![0; 3 * width]).unwrap();
-        let error = animated("zoom", &[frame(2), frame(3)], 0.1).unwrap_err().to_string();
+        let error = animated_png("zoom", &[frame(2), frame(3)], 0.1).unwrap_err().to_string();
         assert!(error.contains("frame 1 has 3 × 1 pixels, not 2 × 1"), "{error}");
-        assert!(animated("zoom", &[], 0.1).is_err());
-        assert!(animated("zoom", &[b"no picture".to_vec()], 0.1).is_err());
+        assert!(animated_png("zoom", &[], 0.1).is_err());
+        assert!(animated_png("zoom", &[b"no picture".to_vec()], 0.1).is_err());
     }
 }

@@ -1,0 +1,86 @@
+//! The command line: its commands, their help, and their start.
+
+use crate::commands::{self, Page};
+use crate::error::Error;
+use crate::refusal;
+use crate::streams::Streams;
+use clap::error::ErrorKind;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use std::ffi::OsString;
+
+/// The passive hopper: hops, orbits, fates, the map, its basins, and units.
+#[derive(Debug, Parser)]
+#[command(name = "hopper", version, about, long_about = ABOUT, after_long_help = EXIT_STATUS)]
+#[command(infer_long_args = false, max_term_width = 100, disable_help_subcommand = false)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+/// The first text of `hopper --help`.
+const ABOUT: &str = "\
+The passive hopper: two masses on one spring, with plastic landings and no motor.
+
+All commands use the dimensionless model. The mass ratio is M = m₂/m₁, the lower mass over the upper one. Lengths are in \
+units of m₂g/k, times in units of 1/ω with ω² = k(1+M)/m₂, speeds in units of m₂gω/k, and energies in units of m₁m₂g²/k. \
+`hopper units` converts kilograms, metres and seconds.";
+
+/// The last text of `hopper --help`.
+const EXIT_STATUS: &str = "\
+Exit status:
+  0    done; also if the reader of the output closes it early
+  1    failed: a file could not be written, or a number could not be computed
+  2    misuse: an argument or a line of the input is wrong, and the message says how to mend it
+  130  interrupted (143: terminated); the same call continues
+";
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Follow one hop: landings, times, energy lost, next lift-off speed, slopes, error bounds
+    Hop(commands::hop::Options),
+}
+
+/// What the arguments ask for.
+#[derive(Debug)]
+pub(crate) enum Parsed {
+    /// A command to run.
+    Command(Box<Command>),
+    /// A text to print: help or version.
+    Text(String),
+}
+
+/// The pages of the commands, which complete their help.
+const PAGES: [(&str, &Page); 1] = [("hop", &commands::hop::PAGE)];
+
+/// The whole command line, with the help of every command.
+pub(crate) fn command_line() -> clap::Command {
+    PAGES.iter().fold(Cli::command(), |command, (name, page)| {
+        command.mut_subcommand(name, |command| command.after_long_help(page.text()))
+    })
+}
+
+/// Reads the arguments.
+pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Parsed, Error> {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let matches = command_line().try_get_matches_from(&arguments);
+    match matches.and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => Ok(Parsed::Command(Box::new(cli.command))),
+        Err(error) => match error.kind() {
+            ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => {
+                Ok(Parsed::Text(error.to_string()))
+            }
+            ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => Err(Error::Misuse(
+                "a command is missing; `hopper --help` shows the commands".into(),
+            )),
+            _ => Err(Error::Misuse(refusal::line(&error, &arguments))),
+        },
+    }
+}
+
+/// Runs a command.
+pub(crate) fn start(command: Command, streams: Streams<'_>) -> Result<(), Error> {
+    match command {
+        Command::Hop(options) => commands::hop::run(&options, streams),
+    }
+}

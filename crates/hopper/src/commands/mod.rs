@@ -1,0 +1,6 @@
+//! The commands, one file each.
+
+pub(crate) mod hop;
+mod page;
+
+pub(crate) use page::Page;

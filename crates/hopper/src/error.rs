@@ -1,0 +1,79 @@
+//! Refusals and failures, with their exit status.
+
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a call ended early.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub(crate) enum Error {
+    /// The call is wrong. The text names the option, the value, the limit and the remedy.
+    #[error("{0}")]
+    Misuse(String),
+    /// A line of the input is wrong.
+    #[error("standard input, line {line}: '{text}' {reason}")]
+    Input {
+        /// The line, from one.
+        line: u64,
+        /// Its text, shortened.
+        text: String,
+        /// What is wrong, and the remedy.
+        reason: String,
+    },
+    /// A file, a folder or a stream could not be read or written.
+    #[error("{path}: {source}")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The system's message.
+        source: std::io::Error,
+    },
+    /// The reader of the output has closed it: what it wanted has been written.
+    #[error("the reader closed the output")]
+    ClosedOutput,
+    /// A hop could not be computed.
+    #[error(transparent)]
+    Hopper(#[from] passive_hopper::Error),
+    /// A fate or a basin could not be computed.
+    #[error(transparent)]
+    Basin(#[from] hopper_basin::Error),
+    /// A file could not be written, or another run is at work in its folder.
+    #[error(transparent)]
+    Job(#[from] resumable_job::Error),
+    /// A figure could not be drawn.
+    #[error(transparent)]
+    Drawing(#[from] hopper_figures::Error),
+    /// A figure could not be encoded.
+    #[error(transparent)]
+    Figure(#[from] journal_figures::Error),
+}
+
+impl Error {
+    /// The exit status: 1 for a failure, 2 for a wrong call, 0 if the reader of the output has gone.
+    pub(crate) fn exit_status(&self) -> u8 {
+        match self {
+            Error::ClosedOutput => 0,
+            Error::Misuse(_) | Error::Input { .. } => 2,
+            _ => 1,
+        }
+    }
+
+    /// The refusal of an option: "--window 3 2: the window must …; give …".
+    pub(crate) fn misuse(option: &str, value: impl std::fmt::Display, reason: &str) -> Self {
+        Error::Misuse(format!("{option} {value}: {reason}"))
+    }
+
+    /// The error of writing to standard output.
+    pub(crate) fn output(source: std::io::Error) -> Self {
+        if source.kind() == std::io::ErrorKind::BrokenPipe {
+            return Error::ClosedOutput;
+        }
+        Error::File { path: "standard output".into(), source }
+    }
+
+    /// The error of reading or writing `path`.
+    pub(crate) fn at(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_path_buf();
+        move |source| Error::File { path, source }
+    }
+}

@@ -1,0 +1,7 @@
+//! `hopper`.
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    hopper::main()
+}

@@ -1,0 +1,4 @@
+//! Options that several commands share, and how their values are read.
+
+pub(crate) mod form;
+pub(crate) mod values;

@@ -1,0 +1,64 @@
+//! The values of options: numbers, mass ratios, lift-off speeds.
+//!
+//! Each function gives the value, or the reason why the text is none: the limit and the remedy. The argument parser puts the
+//! option and the text before it.
+
+use crate::output::number;
+use passive_hopper::{LARGEST_LIFT_OFF_SPEED, LiftOffMap, MassRatio};
+
+/// A finite number.
+pub(crate) fn finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(_) => Err("it is not a finite number; give a number such as 7.5 or 1e-3".into()),
+        Err(_) if text.contains(',') => {
+            Err("it is not a number; write a point instead of the comma, as in 7.5".into())
+        }
+        Err(_) => Err("it is not a number; give a number such as 7.5 or 1e-3".into()),
+    }
+}
+
+/// A mass ratio.
+pub(crate) fn mass_ratio(text: &str) -> Result<MassRatio, String> {
+    let value = finite(text)?;
+    MassRatio::new(value).map_err(|_| {
+        let largest = number(1.0 / f64::MIN_POSITIVE);
+        let smallest = number(f64::MIN_POSITIVE);
+        format!("a mass ratio M = m₂/m₁ is from {smallest} to {largest}; give a positive number such as 0.2")
+    })
+}
+
+/// A lift-off speed.
+pub(crate) fn speed(text: &str) -> Result<f64, String> {
+    let value = finite(text)?;
+    // The limits of a speed do not depend on the mass ratio.
+    match LiftOffMap::new(MassRatio::ONE).check_speed(value) {
+        Ok(()) => Ok(value),
+        Err(_) => {
+            let largest = number(LARGEST_LIFT_OFF_SPEED);
+            Err(format!(
+                "a lift-off speed is positive and at most {largest}, in units of m₂gω/k; give a number such as 7"
+            ))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_that_are_no_values_have_a_reason() {
+        for text in ["", "x", "7,5", "inf", "-inf", "nan", "1e999", "0x10", "--7"] {
+            assert!(finite(text).is_err(), "{text}");
+        }
+        for text in ["0", "-1", "1e-310", "1e308"] {
+            assert!(mass_ratio(text).unwrap_err().contains("2.2250738585072014e-308"), "{text}");
+        }
+        for text in ["0", "-7", "8796093022209"] {
+            assert!(speed(text).unwrap_err().contains("8796093022208"), "{text}");
+        }
+        assert_eq!(speed("8796093022208"), Ok(LARGEST_LIFT_OFF_SPEED));
+        assert!(speed("5e-324").is_ok() && mass_ratio("1e300").is_ok());
+    }
+}

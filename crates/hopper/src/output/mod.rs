@@ -1,0 +1,12 @@
+//! Tables, and how they are printed: as plain text for people, as CSV and JSON for programs.
+
+mod csv;
+mod form;
+mod json;
+mod number;
+mod plain;
+mod table;
+
+pub(crate) use form::Form;
+pub(crate) use number::number;
+pub(crate) use table::{Cell, Column, Table, TableKind};

@@ -1,0 +1,34 @@
+//! Numbers as text.
+
+/// The shortest decimal form that reads back as the same number: with an exponent below 10⁻⁵ and from 10¹⁶ on.
+pub(crate) fn number(value: f64) -> String {
+    let text = format!("{value:?}");
+    match text.strip_suffix(".0") {
+        Some(whole) => whole.to_owned(),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_back_and_are_short() {
+        let texts = [(7.0, "7"), (0.1, "0.1"), (1e-300, "1e-300"), (1e300, "1e300"), (-0.0, "-0")];
+        for (value, text) in texts {
+            assert_eq!(number(value), text);
+        }
+        let mut bits = 1u64;
+        for _ in 0..10_000 {
+            // A multiplicative generator: any bits will do.
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            let value = f64::from_bits(bits);
+            if value.is_finite() {
+                let text = number(value);
+                assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits(), "{text}");
+                assert!(text.len() <= 24, "{text}");
+            }
+        }
+    }
+}
