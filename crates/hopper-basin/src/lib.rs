@@ -16,6 +16,8 @@
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
 //! | [`Fates::labels`] | the fates of many speeds, whose orbits hop together |
 //! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
+//! | [`hop_columns`] | the number of hops until each of these fates is known |
+//! | [`RASTER_VERSION`], [`SHARE_VERSION`] | raised when a raster gets other bits, for work that is continued later |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
 //! | [`BranchGround`], [`Probes`] | what these intervals rest on, and how they agree with single fates |
@@ -61,9 +63,10 @@ mod traps;
 
 pub use basins::branches::branches;
 pub use basins::fractions::{BasinFractions, basin_fractions};
+pub use basins::hop_counts::hop_columns;
 pub use basins::intervals::{BranchGround, HopperBasins, Probes, hopper_basins};
 pub use basins::levels::basin_levels;
-pub use basins::rasters::{basin_columns, basin_raster};
+pub use basins::rasters::{RASTER_VERSION, basin_columns, basin_raster};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use circle::circle_limits::{CircleLimits, Ground};
 pub use circle::edge_chart::EdgeChart;
@@ -74,7 +77,7 @@ pub use circle::gap_count::GapCount;
 pub use circle::local_fractions::LocalFractions;
 pub use circle::phase_basins::{BoundaryPhase, PhaseBasins, UndecidedPhases};
 pub use circle::phase_shares::PhasePart;
-pub use circle::share_column::ShareColumn;
+pub use circle::share_column::{SHARE_VERSION, ShareColumn};
 pub use circle::share_raster::{ShareRaster, share_raster};
 pub use circle::upwards::Upwards;
 pub use error::Error;

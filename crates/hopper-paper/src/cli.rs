@@ -19,8 +19,6 @@ enum Command {
     ReproducePaper(commands::reproduce_paper::Options),
     /// Check only the invariance under M → 1/M, with its figure
     VerifyInvariance(commands::verify_invariance::Options),
-    /// Compute the basins over any window, in tiles; a killed run can be continued
-    BasinRaster(commands::basin_raster::Options),
     /// Compute results about the basins that the paper does not have, with a report
     BeyondPaper(commands::beyond_paper::Options),
     /// Draw figures of the generic crates: how guards are met, and a valve's bifurcations
@@ -32,7 +30,6 @@ pub fn run() -> Result<(), Error> {
     match Cli::parse().command {
         Command::ReproducePaper(options) => commands::reproduce_paper::run(&options),
         Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
-        Command::BasinRaster(options) => commands::basin_raster::run(&options),
         Command::BeyondPaper(options) => commands::beyond_paper::run(&options),
         Command::ModelFigures(options) => commands::model_figures::run(&options),
     }

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use repository_tools::Progress;
-use resumable_job::{Lock, Pieces, program_digest};
+use resumable_job::{Found, Lock, Pieces, program_digest};
 use std::path::{Path, PathBuf};
 
 /// A run, and the folder that stores the finished rows of its scans until all its results are written.
@@ -15,7 +15,7 @@ pub struct Job {
 
 impl Job {
     /// A run that stores its scans in a folder beside its results, which exists. Each build of the program has its own
-    /// folder. While the run lasts, another run with the same results folder is an error.
+    /// folder: a scan rests on most functions of all libraries, and no version says whether one of them has changed. While the run lasts, another run with the same results folder is an error.
     pub fn new(results: &Path) -> Result<Self, Error> {
         let lock = Lock::take(results, "scans")?;
         Ok(Job { scans: results.join("scans").join(program_digest()?), lock })
@@ -32,9 +32,9 @@ impl Job {
         let bar = Progress.bar(name, count as u64);
         let mut rows = Vec::with_capacity(count);
         for k in 0..count {
-            let bytes = match kept.read(k)? {
-                Some(bytes) => bytes,
-                None => {
+            let bytes = match kept.find(k)? {
+                Found::Finished(bytes) => bytes,
+                Found::Missing | Found::Unusable(_) => {
                     let bytes: Vec<u8> = row(k)?.iter().flat_map(|x| x.to_le_bytes()).collect();
                     // Without its lock this run would write among the rows of another run.
                     self.lock.confirm()?;

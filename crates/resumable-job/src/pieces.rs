@@ -18,6 +18,9 @@ const DIGEST: usize = 16;
 /// Bytes before the payload: magic, digest of the job, number of the piece.
 const HEAD: usize = MAGIC.len() + DIGEST + 8;
 
+/// The beginning of the name of a note that the job is done in N parts; the name ends with N.
+const PARTS: &str = "parts_of_";
+
 /// The pieces of one job in one folder.
 ///
 /// Two processes that write the same piece at once do no harm, but waste work. A [`crate::Lock`] on a part avoids this.
@@ -118,8 +121,34 @@ impl Pieces {
         write_atomically(&self.path(piece), &bytes)
     }
 
-    /// Removes all pieces of a finished job, and the half-written files of killed runs.
+    /// Notes that the job is done in so many parts, so that [`numbers_of_parts`](Self::numbers_of_parts) can tell later.
+    pub fn note_parts(&self, of: usize) -> Result<(), Error> {
+        let path = self.folder.join(format!("{PARTS}{of}"));
+        // A file of no bytes is never half written.
+        std::fs::write(&path, b"").map_err(Error::at(&path))
+    }
+
+    /// The numbers of parts that processes have noted, in increasing order: mostly one, as many as there were different calls.
+    ///
+    /// # Errors
+    /// [`Error::File`] if the folder cannot be read.
+    pub fn numbers_of_parts(&self) -> Result<Vec<usize>, Error> {
+        let entries = std::fs::read_dir(&self.folder).map_err(Error::at(&self.folder))?;
+        let mut numbers: Vec<usize> = Vec::new();
+        for entry in entries {
+            let name = entry.map_err(Error::at(&self.folder))?.file_name();
+            numbers.extend(name.to_str().and_then(|name| name.strip_prefix(PARTS)?.parse().ok()));
+        }
+        numbers.sort_unstable();
+        Ok(numbers)
+    }
+
+    /// Removes all pieces of a finished job, the notes of its parts, and the half-written files of killed runs.
     pub fn remove(self, pieces: usize) -> Result<(), Error> {
+        for of in self.numbers_of_parts()? {
+            let path = self.folder.join(format!("{PARTS}{of}"));
+            std::fs::remove_file(&path).map_err(Error::at(&path))?;
+        }
         for piece in 0..pieces {
             let path = self.path(piece);
             match std::fs::remove_file(&path) {
@@ -184,6 +213,8 @@ mod tests {
         assert_eq!(found(&kept, 3), Found::Missing);
         kept.write(3, b"some bytes").unwrap();
         kept.write(4, b"").unwrap();
+        [12, 3, 12].map(|of| kept.note_parts(of).unwrap());
+        assert_eq!(kept.numbers_of_parts().unwrap(), [3, 12]);
         let again = Pieces::open(&folder, "a job").unwrap();
         assert_eq!(found(&again, 3), Found::Finished(b"some bytes".to_vec()));
         assert_eq!(found(&again, 4), Found::Finished(Vec::new()));

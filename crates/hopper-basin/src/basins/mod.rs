@@ -1,7 +1,7 @@
 //! Which speeds and mass ratios belong to the basin of a fixed point?
 //!
 //! The answer has several forms:
-//! an image over the (M, α) plane ([`rasters`]),
+//! an image over the (M, α) plane ([`rasters`]), with the number of hops until each fate ([`hop_counts`]),
 //! the fractions of the fates by the paper's protocol ([`fractions`]),
 //! all basins at one mass ratio as intervals, with what remains undecided ([`intervals`]),
 //! and one basin level by level, as the paper constructs it ([`levels`]).
@@ -12,6 +12,7 @@
 
 pub(crate) mod branches;
 pub(crate) mod fractions;
+pub(crate) mod hop_counts;
 pub(crate) mod intervals;
 pub(crate) mod levels;
 pub(crate) mod rasters;

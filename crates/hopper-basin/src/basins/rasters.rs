@@ -9,6 +9,12 @@ use basin_of_attraction::{Grid, Label, LabelImage, raster_by_strips};
 use passive_hopper::{MassRatio, alpha_star};
 use std::ops::{ControlFlow, Range};
 
+/// The version of the labels of [`basin_raster`] and [`basin_columns`], and of the numbers of [`hop_columns`](crate::hop_columns).
+///
+/// It is raised when a change of the libraries changes one of them in some window, so that finished parts of a raster are not
+/// joined with parts from before the change. A test compares digests of some windows with those of this version.
+pub const RASTER_VERSION: u32 = 1;
+
 /// The basins over a window of the (M, α) plane: M to the right, α upwards, labels as in [`HopperFate::label`].
 ///
 /// The label of a pixel is the fate of its middle. The result does not depend on the number of threads.
@@ -68,20 +74,28 @@ fn strip_width(grid: &Grid) -> usize {
 /// # Errors
 /// As [`basin_raster`]; [`Error::ColumnRange`] if `columns` ends beyond the last column of the grid.
 pub fn basin_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<Label>>, Error> {
-    check_speeds(grid)?;
-    grid.pixels()?;
-    if columns.end > grid.columns {
-        let (first, end) = (columns.start, columns.end);
-        return Err(Error::ColumnRange { columns: grid.columns, first, end });
-    }
-    let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();
-    let ratios: Vec<f64> = columns.map(|column| grid.x_at(column)).collect();
+    let (ratios, speeds) = places(grid, columns)?;
     let mut found = Vec::with_capacity(ratios.len());
     let common = common_circles(grid)?;
     for some in ratios.chunks(strip_width(grid)) {
         found.extend(strip(some, &speeds, common.as_ref())?);
     }
     Ok(found)
+}
+
+/// The mass ratios of some columns, and the speeds of all rows.
+///
+/// # Errors
+/// As [`basin_columns`].
+pub(crate) fn places(grid: &Grid, columns: Range<usize>) -> Result<(Vec<f64>, Vec<f64>), Error> {
+    check_speeds(grid)?;
+    grid.pixels()?;
+    if columns.end > grid.columns {
+        let (first, end) = (columns.start, columns.end);
+        return Err(Error::ColumnRange { columns: grid.columns, first, end });
+    }
+    let ratios = columns.map(|column| grid.x_at(column)).collect();
+    Ok((ratios, (0..grid.rows).map(|row| grid.y_at(row)).collect()))
 }
 
 /// The circles that all columns share; `None` for a raster that does not need them.

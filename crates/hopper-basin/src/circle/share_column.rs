@@ -14,6 +14,11 @@ use basin_of_attraction::Label;
 use hopper_asymptotics::{Offset, Phase};
 use passive_hopper::MassRatio;
 
+/// The version of the shares of a [`ShareColumn`] and of the windows about an edge ([`edge_window`](crate::edge_window),
+/// [`edge_frame`](crate::edge_frame)). It is raised when a change of the libraries changes a bit of them, as
+/// [`RASTER_VERSION`](crate::RASTER_VERSION) is for labels.
+pub const SHARE_VERSION: u32 = 1;
+
 /// The shares of the fates in the pixels of one column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShareColumn {

@@ -150,7 +150,7 @@ fn png_table(bytes: &[u8]) -> Result<Table, png::DecodingError> {
 mod tests {
     use super::*;
     use journal_figures::{csv_file, indexed_png};
-    use resumable_job::{Order, npy_header};
+    use resumable_job::{Element, Order, npy_header};
 
     fn csv(values: [f64; 4]) -> Table {
         let rows = values.chunks(2).map(|row| row.iter().map(|x| Some(*x)).collect());
@@ -158,7 +158,7 @@ mod tests {
     }
 
     fn array(order: Order, elements: [u16; 6]) -> Table {
-        let mut bytes = npy_header(order, 2, 3);
+        let mut bytes = npy_header(order, Element::U16, 2, 3);
         bytes.extend(elements.iter().flat_map(|element| element.to_le_bytes()));
         Table::read("x.npy", &bytes).unwrap()
     }
@@ -193,7 +193,7 @@ mod tests {
         let changed = old.difference(&array(Order::C, [1, 2, 3, 4, 7, 6]));
         let expected = "row 1, column 1 was 5.0, is 7.0; 1 of 6 differ";
         assert_eq!(changed.as_deref(), Some(expected));
-        assert!(Table::read("x.npy", &npy_header(Order::C, 2, 3)).is_err());
+        assert!(Table::read("x.npy", &npy_header(Order::C, Element::U16, 2, 3)).is_err());
         assert!(Table::read("x.npy", b"\x93NUMPY\x01\x00\x10").is_err());
     }
 

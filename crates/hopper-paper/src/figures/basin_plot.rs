@@ -7,7 +7,7 @@ use hopper_basin::basin_raster;
 use hopper_figures::{PIXELS, Window, draw_basins, fate_colors, label_png};
 use journal_figures::DataFile;
 use repository_tools::Progress;
-use resumable_job::{Order, npy_header};
+use resumable_job::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 
 /// Computes and draws a window.
@@ -64,7 +64,7 @@ fn basin_fractions(image: &LabelImage) -> String {
 
 /// The labels as a NumPy file; rows start from the lowest α.
 fn npy(image: &LabelImage) -> Vec<u8> {
-    let mut bytes = npy_header(Order::C, image.grid.rows, image.grid.columns);
+    let mut bytes = npy_header(Order::C, Element::U16, image.grid.rows, image.grid.columns);
     bytes.extend(image.labels.iter().flat_map(|label| label.code().to_le_bytes()));
     bytes
 }
