@@ -39,6 +39,10 @@ Exit status:
 pub(crate) enum Command {
     /// Follow one hop: landings, times, energy lost, next lift-off speed, slopes, error bounds
     Hop(commands::hop::Options),
+    /// Find the fates of lift-off speeds, with the trap and the number of hops; a filter
+    Fate(commands::fate::Options),
+    /// Convert kilograms, metres and seconds to the mass ratio M and the speed α, and back
+    Units(commands::units::Options),
 }
 
 /// What the arguments ask for.
@@ -51,7 +55,7 @@ pub(crate) enum Parsed {
 }
 
 /// The pages of the commands, which complete their help.
-const PAGES: [(&str, &Page); 1] = [("hop", &commands::hop::PAGE)];
+const PAGES: [(&str, &Page); 3] = [("hop", &commands::hop::PAGE), ("fate", &commands::fate::PAGE), ("units", &commands::units::PAGE)];
 
 /// The whole command line, with the help of every command.
 pub(crate) fn command_line() -> clap::Command {
@@ -82,5 +86,7 @@ pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Par
 pub(crate) fn start(command: Command, streams: Streams<'_>) -> Result<(), Error> {
     match command {
         Command::Hop(options) => commands::hop::run(&options, streams),
+        Command::Fate(options) => commands::fate::run(&options, streams),
+        Command::Units(options) => commands::units::run(&options, streams),
     }
 }

@@ -1,6 +1,8 @@
 //! The commands, one file each.
 
+pub(crate) mod fate;
 pub(crate) mod hop;
 mod page;
+pub(crate) mod units;
 
 pub(crate) use page::Page;

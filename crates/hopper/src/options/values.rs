@@ -3,6 +3,7 @@
 //! Each function gives the value, or the reason why the text is none: the limit and the remedy. The argument parser puts the
 //! option and the text before it.
 
+use crate::error::Error;
 use crate::output::number;
 use passive_hopper::{LARGEST_LIFT_OFF_SPEED, LiftOffMap, MassRatio};
 
@@ -41,6 +42,39 @@ pub(crate) fn speed(text: &str) -> Result<f64, String> {
             ))
         }
     }
+}
+
+/// A speed, or "-" for those of standard input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum SpeedOrInput {
+    Speed(f64),
+    Input,
+}
+
+/// A lift-off speed, or "-".
+pub(crate) fn speed_or_input(text: &str) -> Result<SpeedOrInput, String> {
+    if text == "-" { Ok(SpeedOrInput::Input) } else { speed(text).map(SpeedOrInput::Speed) }
+}
+
+/// Whether the speeds come from standard input: none is given, or "-" alone.
+///
+/// # Errors
+/// [`Error::Misuse`] for "-" beside speeds.
+pub(crate) fn from_input(name: &str, given: &[SpeedOrInput]) -> Result<bool, Error> {
+    let inputs = given.iter().filter(|given| **given == SpeedOrInput::Input).count();
+    if inputs > 0 && given.len() > 1 {
+        let reason = "- stands for the speeds of standard input, and is given alone; leave it out, or the speeds";
+        return Err(Error::misuse(name, "-", reason));
+    }
+    Ok(inputs == given.len())
+}
+
+/// The speeds among these.
+pub(crate) fn speeds(given: &[SpeedOrInput]) -> impl Iterator<Item = f64> {
+    given.iter().filter_map(|given| match given {
+        SpeedOrInput::Speed(speed) => Some(*speed),
+        SpeedOrInput::Input => None,
+    })
 }
 
 #[cfg(test)]

@@ -1,30 +1,35 @@
 //! Tables as comma-separated values (RFC 4180, with line feeds).
 
-use crate::output::number::number;
-use crate::output::table::{Cell, Table};
-use std::io::{Result, Write};
+use crate::output::table::{Cell, TableKind};
 
-/// Writes the names of the columns and the rows. What is missing is an empty field.
-pub(crate) fn write(table: &Table, out: &mut dyn Write) -> Result<()> {
-    let names: Vec<_> = table.kind.columns.iter().map(|column| column.name).collect();
-    writeln!(out, "{}", names.join(","))?;
-    for row in &table.rows {
-        let fields: Vec<String> = row.iter().map(field).collect();
-        writeln!(out, "{}", fields.join(","))?;
-    }
-    Ok(())
+/// Appends the names of the columns.
+pub(crate) fn append_names(kind: &TableKind, text: &mut String) {
+    let names: Vec<_> = kind.columns.iter().map(|column| column.name).collect();
+    *text += &names.join(",");
+    text.push('\n');
 }
 
-fn field(cell: &Cell) -> String {
-    match cell {
-        Cell::Number(value) => number(*value),
-        Cell::Whole(value) => value.to_string(),
-        Cell::Truth(truth) => truth.to_string(),
-        Cell::Missing => String::new(),
-        Cell::Text(text) if text.contains([',', '"', '\n', '\r']) => {
-            format!("\"{}\"", text.replace('"', "\"\""))
+/// Appends a row. What is missing is an empty field.
+pub(crate) fn append_row(row: &[Cell], text: &mut String) {
+    for (at, cell) in row.iter().enumerate() {
+        if at > 0 {
+            text.push(',');
         }
-        Cell::Text(text) => text.clone(),
+        append_field(cell, text);
+    }
+    text.push('\n');
+}
+
+fn append_field(cell: &Cell, text: &mut String) {
+    match cell {
+        Cell::Truth(truth) => *text += if *truth { "true" } else { "false" },
+        Cell::Text(own) if own.contains([',', '"', '\n', '\r']) => {
+            text.push('"');
+            *text += &own.replace('"', "\"\"");
+            text.push('"');
+        }
+        Cell::Text(own) => *text += own,
+        cell => cell.append_number(text),
     }
 }
 
@@ -34,8 +39,8 @@ mod tests {
 
     #[test]
     fn texts_with_commas_are_quoted() {
-        assert_eq!(field(&"a, \"b\"".into()), "\"a, \"\"b\"\"\"");
-        assert_eq!(field(&Cell::Missing), "");
-        assert_eq!(field(&0.5.into()), "0.5");
+        let mut text = String::new();
+        append_row(&["a, \"b\"".into(), Cell::Missing, 0.5.into(), true.into()], &mut text);
+        assert_eq!(text, "\"a, \"\"b\"\"\",,0.5,true\n");
     }
 }

@@ -1,32 +1,24 @@
 //! Tables as JSON: an object with an array for each table, one object a row, names in the order of the columns.
 
-use crate::output::number::number;
-use crate::output::table::{Cell, Table};
-use std::io::{Result, Write};
+use crate::output::table::{Cell, TableKind};
 
-/// Writes all tables as one object. What is missing is null.
-pub(crate) fn write(tables: &[&Table], out: &mut dyn Write) -> Result<()> {
-    write!(out, "{{")?;
-    for (at, table) in tables.iter().enumerate() {
-        write!(out, "{}\n  \"{}\": [", if at > 0 { "," } else { "" }, table.kind.name)?;
-        for (at, row) in table.rows.iter().enumerate() {
-            let named = table.kind.columns.iter().zip(row);
-            let fields: Vec<String> = named
-                .map(|(column, cell)| format!("\"{}\": {}", column.name, value(cell)))
-                .collect();
-            write!(out, "{}\n    {{{}}}", if at > 0 { "," } else { "" }, fields.join(", "))?;
-        }
-        write!(out, "\n  ]")?;
+/// Appends a row as an object. What is missing is null.
+pub(crate) fn append_row(kind: &TableKind, row: &[Cell], text: &mut String) {
+    text.push('{');
+    for (at, (column, cell)) in kind.columns.iter().zip(row).enumerate() {
+        *text += if at > 0 { ", \"" } else { "\"" };
+        *text += column.name;
+        *text += "\": ";
+        append_value(cell, text);
     }
-    writeln!(out, "\n}}")
+    text.push('}');
 }
 
-fn value(cell: &Cell) -> String {
+fn append_value(cell: &Cell, text: &mut String) {
     match cell {
-        Cell::Number(value) => number(*value),
-        Cell::Whole(value) => value.to_string(),
-        Cell::Truth(truth) => truth.to_string(),
-        Cell::Missing => "null".into(),
-        Cell::Text(text) => serde_json::Value::from(text.as_str()).to_string(),
+        Cell::Truth(truth) => *text += if *truth { "true" } else { "false" },
+        Cell::Missing => *text += "null",
+        Cell::Text(own) => *text += &serde_json::Value::from(own.as_ref()).to_string(),
+        cell => cell.append_number(text),
     }
 }

@@ -7,6 +7,6 @@ mod number;
 mod plain;
 mod table;
 
-pub(crate) use form::Form;
+pub(crate) use form::{Form, Rows};
 pub(crate) use number::number;
 pub(crate) use table::{Cell, Column, Table, TableKind};

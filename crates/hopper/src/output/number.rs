@@ -1,11 +1,20 @@
 //! Numbers as text.
 
+use std::fmt::Write;
+
 /// The shortest decimal form that reads back as the same number: with an exponent below 10⁻⁵ and from 10¹⁶ on.
 pub(crate) fn number(value: f64) -> String {
-    let text = format!("{value:?}");
-    match text.strip_suffix(".0") {
-        Some(whole) => whole.to_owned(),
-        None => text,
+    let mut text = String::new();
+    append_number(value, &mut text);
+    text
+}
+
+/// Appends [`number`].
+pub(crate) fn append_number(value: f64, text: &mut String) {
+    // Writing to a string does not fail.
+    let _ = write!(text, "{value:?}");
+    if text.ends_with(".0") {
+        text.truncate(text.len() - 2);
     }
 }
 

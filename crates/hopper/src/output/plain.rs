@@ -1,77 +1,145 @@
 //! Tables for people: a table with one row as a list, other tables as aligned columns.
 
-use crate::output::number::number;
-use crate::output::table::{Cell, Table};
-use std::io::{Result, Write};
+use crate::output::table::{Cell, Table, TableKind};
 
-/// Writes the tables, with an empty line between two.
-pub(crate) fn write(tables: &[&Table], out: &mut dyn Write) -> Result<()> {
-    for (at, table) in tables.iter().enumerate() {
-        if at > 0 {
-            writeln!(out)?;
+/// Between two columns.
+const GAP: &str = "  ";
+
+/// Appends a table.
+pub(crate) fn append_table(table: &Table, text: &mut String) {
+    match &table.rows[..] {
+        [] => {
+            *text += table.kind.name;
+            *text += ": none\n";
         }
-        if let [row] = &table.rows[..] {
-            write_list(table, row, out)?
-        } else {
-            write_columns(table, out)?
-        }
+        [row] => append_list(table.kind, row, text),
+        rows => append_columns(table.kind, rows, text),
     }
-    Ok(())
 }
 
 /// Name, value, unit and meaning of each cell, one under another.
-fn write_list(table: &Table, row: &[Cell], out: &mut dyn Write) -> Result<()> {
-    let columns = table.kind.columns;
-    let texts: Vec<String> = row.iter().map(text).collect();
-    let names = columns.iter().map(|column| width(column.name)).max().unwrap_or(0);
-    let values = texts.iter().map(|text| width(text)).max().unwrap_or(0);
-    let units = columns.iter().map(|column| width(column.unit)).max().unwrap_or(0);
-    for (column, text) in columns.iter().zip(&texts) {
-        let (name, value) = (padded(column.name, names), padded(text, values));
-        let unit = padded(column.unit, units);
-        writeln!(out, "{name}  {value}  {unit}  {}", column.meaning)?;
+fn append_list(kind: &TableKind, row: &[Cell], text: &mut String) {
+    let values: Vec<String> = row.iter().map(cell_text).collect();
+    let widest = |texts: &mut dyn Iterator<Item = &str>| texts.map(width).max().unwrap_or(0);
+    let names = widest(&mut kind.columns.iter().map(|column| column.name));
+    let numbers = widest(&mut values.iter().map(String::as_str));
+    let units = widest(&mut kind.columns.iter().map(|column| column.unit));
+    for (column, value) in kind.columns.iter().zip(&values) {
+        let cells =
+            [(column.name, names), (value, numbers), (column.unit, units), (column.meaning, 0)];
+        append_line(cells.into_iter(), text);
     }
-    Ok(())
 }
 
-/// A line of names, a line of units if there are any, and a line for each row.
-fn write_columns(table: &Table, out: &mut dyn Write) -> Result<()> {
-    let columns = table.kind.columns;
-    if table.rows.is_empty() {
-        return writeln!(out, "{}: none", table.kind.name);
-    }
-    let mut lines = vec![columns.iter().map(|column| column.name.to_owned()).collect::<Vec<_>>()];
-    if columns.iter().any(|column| !column.unit.is_empty()) {
-        lines.push(columns.iter().map(|column| column.unit.to_owned()).collect());
-    }
-    lines.extend(table.rows.iter().map(|row| row.iter().map(text).collect()));
+/// A line of names, a line of units, and a line for each row.
+fn append_columns(kind: &TableKind, rows: &[Vec<Cell>], text: &mut String) {
+    let lines: Vec<Vec<String>> =
+        rows.iter().map(|row| row.iter().map(cell_text).collect()).collect();
     let widest = |at: usize| lines.iter().filter_map(|line| line.get(at)).map(|t| width(t)).max();
-    let widths: Vec<usize> = (0..columns.len()).map(|at| widest(at).unwrap_or(0)).collect();
+    let widths: Vec<usize> = (0..kind.columns.len()).map(|at| widest(at).unwrap_or(0)).collect();
+    let widths = append_names(kind, &widths, text);
     for line in &lines {
-        let cells: Vec<String> =
-            line.iter().zip(&widths).map(|(text, &width)| padded(text, width)).collect();
-        writeln!(out, "{}", cells.join("  ").trim_end())?;
+        append_line(line.iter().map(String::as_str).zip(widths.iter().copied()), text);
     }
-    Ok(())
 }
 
-/// A cell as text.
-pub(crate) fn text(cell: &Cell) -> String {
+/// Appends the names of the columns and, if there are any, their units. Gives the widths of the columns: at least those given.
+pub(crate) fn append_names(kind: &TableKind, widths: &[usize], text: &mut String) -> Vec<usize> {
+    let own = kind.columns.iter().map(|column| width(column.name).max(width(column.unit)));
+    let widths: Vec<usize> = own.zip(widths).map(|(own, &given)| own.max(given)).collect();
+    let names = kind.columns.iter().map(|column| column.name);
+    append_line(names.zip(widths.iter().copied()), text);
+    if kind.columns.iter().any(|column| !column.unit.is_empty()) {
+        let units = kind.columns.iter().map(|column| column.unit);
+        append_line(units.zip(widths.iter().copied()), text);
+    }
+    widths
+}
+
+/// Appends a row with columns of these widths.
+pub(crate) fn append_row(row: &[Cell], widths: &[usize], text: &mut String) {
+    let begin = text.len();
+    for (cell, &to) in row.iter().zip(widths) {
+        let from = text.len();
+        append_cell(cell, text);
+        let own = width(&text[from..]);
+        text.extend(std::iter::repeat_n(' ', to.saturating_sub(own)));
+        *text += GAP;
+    }
+    end_line(begin, text);
+}
+
+fn append_line<'a>(cells: impl Iterator<Item = (&'a str, usize)>, text: &mut String) {
+    let begin = text.len();
+    for (cell, to) in cells {
+        *text += cell;
+        text.extend(std::iter::repeat_n(' ', to.saturating_sub(width(cell))));
+        *text += GAP;
+    }
+    end_line(begin, text);
+}
+
+/// Ends the line that begins at `begin`, without spaces at its end.
+fn end_line(begin: usize, text: &mut String) {
+    let end = text[begin..].trim_end().len();
+    text.truncate(begin + end);
+    text.push('\n');
+}
+
+fn cell_text(cell: &Cell) -> String {
+    let mut text = String::new();
+    append_cell(cell, &mut text);
+    text
+}
+
+fn append_cell(cell: &Cell, text: &mut String) {
     match cell {
-        Cell::Number(value) => number(*value),
-        Cell::Whole(value) => value.to_string(),
-        Cell::Text(text) => text.clone(),
-        Cell::Truth(true) => "yes".into(),
-        Cell::Truth(false) => "no".into(),
-        Cell::Missing => "–".into(),
+        Cell::Text(own) => *text += own,
+        Cell::Truth(truth) => *text += if *truth { "yes" } else { "no" },
+        Cell::Missing => *text += "–",
+        cell => cell.append_number(text),
     }
 }
 
-/// The width of a text on a terminal: its characters without the marks that stand on another one.
+/// The width of a text on a terminal. All its characters are one place wide.
 fn width(text: &str) -> usize {
     text.chars().count()
 }
 
-fn padded(text: &str, to: usize) -> String {
-    format!("{text}{}", " ".repeat(to.saturating_sub(width(text))))
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::table::Column;
+
+    static KIND: TableKind = TableKind {
+        name: "pairs",
+        about: "",
+        long: false,
+        columns: &[
+            Column { name: "a", unit: "m₂gω/k", meaning: "first" },
+            Column { name: "second", unit: "", meaning: "second" },
+        ],
+    };
+
+    #[test]
+    fn one_row_is_a_list_and_more_rows_have_columns() {
+        let mut table = Table::new(&KIND);
+        let mut text = String::new();
+        append_table(&table, &mut text);
+        table.push([1.5.into(), "x".into()]);
+        append_table(&table, &mut text);
+        table.push([Cell::Missing, false.into()]);
+        append_table(&table, &mut text);
+        let lines = [
+            "pairs: none",
+            "a       1.5  m₂gω/k  first",
+            "second  x            second",
+            "a       second",
+            "m₂gω/k",
+            "1.5     x",
+            "–       no",
+            "",
+        ];
+        assert_eq!(text, lines.join("\n"));
+    }
 }

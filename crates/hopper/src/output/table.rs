@@ -1,5 +1,9 @@
 //! A table: named columns with units, and rows of cells.
 
+use crate::output::number::append_number;
+use std::borrow::Cow;
+use std::fmt::Write;
+
 /// What a table is about. Its text is part of the help of its command.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct TableKind {
@@ -29,10 +33,22 @@ pub(crate) struct Column {
 pub(crate) enum Cell {
     Number(f64),
     Whole(u64),
-    Text(String),
+    Text(Cow<'static, str>),
     Truth(bool),
     /// There is no such thing, such as the next speed of a grounded hopper: "–", an empty field, or null.
     Missing,
+}
+
+impl Cell {
+    /// Appends a number or a whole number. The other cells look different in every form, and append nothing here.
+    pub(crate) fn append_number(&self, text: &mut String) {
+        match self {
+            Cell::Number(value) => append_number(*value, text),
+            // Writing to a string does not fail.
+            Cell::Whole(value) => drop(write!(text, "{value}")),
+            Cell::Text(_) | Cell::Truth(_) | Cell::Missing => {}
+        }
+    }
 }
 
 /// A table with rows.
@@ -79,15 +95,15 @@ impl From<bool> for Cell {
     }
 }
 
-impl From<&str> for Cell {
-    fn from(value: &str) -> Self {
-        Cell::Text(value.to_owned())
+impl From<&'static str> for Cell {
+    fn from(value: &'static str) -> Self {
+        Cell::Text(value.into())
     }
 }
 
 impl From<String> for Cell {
     fn from(value: String) -> Self {
-        Cell::Text(value)
+        Cell::Text(value.into())
     }
 }
 

@@ -1,0 +1,139 @@
+//! `hopper fate`: the fates of lift-off speeds, from the arguments or line by line from the input.
+
+use crate::commands::page::{Example, Page};
+use crate::error::Error;
+use crate::options::form::OutputOptions;
+use crate::options::{lines, values};
+use crate::output::{Cell, Column, Form, Rows, Table, TableKind};
+use crate::streams::Streams;
+use basin_of_attraction::UndecidedReason;
+use hopper_basin::{Fates, HOP_BUDGET, HopperFate};
+use passive_hopper::MassRatio;
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// Lift-off speeds α, in units of m₂gω/k. Without any, or with - alone, they are read from standard input, one a line
+    #[arg(value_name = "SPEED", num_args = 0.., value_parser = values::speed_or_input, allow_negative_numbers = true)]
+    speeds: Vec<values::SpeedOrInput>,
+    /// The mass ratio M = m₂/m₁, lower mass over upper mass
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    mass_ratio: MassRatio,
+    #[command(flatten)]
+    output: OutputOptions,
+}
+
+/// The help beside the options.
+pub(crate) const PAGE: Page = Page {
+    units: "Speeds in m₂gω/k.",
+    limits: "Speeds up to 8796093022208 = 2⁴³; mass ratios from 2⁻¹⁰²² to 2¹⁰²².\n\
+             An orbit is followed for 1000000 hops; slow hops beside a fixed point are jumped over and cost one each.\n\
+             Of the input, empty lines and lines that begin with # are passed over. A line with anything but one speed ends\n\
+             the call with status 2 and the number of the line; the fates of the lines before it have been written.",
+    tables: &[&FATES],
+    examples: &[
+        Example { about: "Two fates.", line: "hopper fate 7.0 4.55 -M 0.2" },
+        Example {
+            about: "A filter: a speed a line in, a row a line out.",
+            line: "printf '4.55\\n4.60\\n' | hopper fate -M 0.2 --csv",
+        },
+    ],
+};
+
+const SPEED: &str = "m₂gω/k";
+
+static FATES: TableKind = TableKind {
+    name: "fates",
+    about: "one row for each speed",
+    long: false,
+    columns: &[
+        Column { name: "speed", unit: SPEED, meaning: "lift-off speed α" },
+        Column {
+            name: "fate",
+            unit: "",
+            meaning: "incessant: hops for ever, to a lossless hop; decaying: hops for ever, ever lower; grounded; undecided",
+        },
+        Column {
+            name: "n",
+            unit: "",
+            meaning: "index of the fixed point α*ₙ that the speeds converge to; 0 for decaying",
+        },
+        Column {
+            name: "trap_left",
+            unit: SPEED,
+            meaning: "the trap that the orbit enters, from α*ₙ …",
+        },
+        Column { name: "trap_right", unit: SPEED, meaning: "… to α*ₙ + Δₙ(M)" },
+        Column {
+            name: "hops",
+            unit: "",
+            meaning: "hops until the orbit is in the trap or grounded",
+        },
+        Column { name: "reason", unit: "", meaning: "why a fate is undecided" },
+    ],
+};
+
+/// The widths of the columns in plain text when rows come one by one: a number has up to 24 characters, and most have 18.
+const WIDTHS: [usize; 7] = [18, 9, 3, 17, 18, 5, 0];
+
+/// Runs the command.
+pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
+    let form = options.output.form(PAGE.tables)?;
+    let fates = Fates::new(options.mass_ratio)?;
+    if values::from_input("SPEED", &options.speeds)? {
+        return filter(&fates, form, &mut streams);
+    }
+    let mut table = Table::new(&FATES);
+    for speed in values::speeds(&options.speeds) {
+        table.push(row(&fates, speed)?);
+    }
+    form.print(&[table], streams.output)
+}
+
+/// The fates of the speeds on standard input.
+fn filter(fates: &Fates, form: Form, streams: &mut Streams<'_>) -> Result<(), Error> {
+    let (rows, start) = form.rows(&FATES, &WIDTHS);
+    streams.output.write_all(start.as_bytes()).map_err(Error::output)?;
+    let part = |values: &[f64], first: bool| part(fates, rows.continued(!first), values);
+    lines::filter(streams, values::speed, part)?;
+    streams.output.write_all(rows.end().as_bytes()).map_err(Error::output)
+}
+
+/// The rows of some speeds, as text.
+fn part(fates: &Fates, mut rows: Rows, speeds: &[f64]) -> Result<String, Error> {
+    let mut text = String::new();
+    for &speed in speeds {
+        rows.append(&row(fates, speed)?, &mut text);
+    }
+    Ok(text)
+}
+
+/// The fate of a speed.
+fn row(fates: &Fates, speed: f64) -> Result<[Cell; 7], Error> {
+    let (fate, hops) = fates.fate_within(speed, HOP_BUDGET)?;
+    let (name, n, reason) = match fate {
+        HopperFate::Incessant { n } => ("incessant", Some(n), None),
+        HopperFate::Decaying => ("decaying", Some(0), None),
+        HopperFate::Grounded => ("grounded", None, None),
+        HopperFate::Undecided(reason) => ("undecided", None, Some(why(reason))),
+    };
+    let trap = n.map(|n| fates.trap(n)).transpose()?;
+    Ok([
+        speed.into(),
+        name.into(),
+        n.into(),
+        trap.map(|trap| trap.fixed_point.value()).into(),
+        trap.map(|trap| trap.right()).into(),
+        hops.into(),
+        reason.into(),
+    ])
+}
+
+/// A reason in words.
+fn why(reason: UndecidedReason) -> &'static str {
+    match reason {
+        UndecidedReason::Budget => "the budget of hops is used up",
+        UndecidedReason::Precision { .. } => "1024 bits do not decide the orbit",
+        UndecidedReason::Map { .. } => "1024 bits do not decide the first hop",
+    }
+}
