@@ -15,8 +15,8 @@ struct Task {
     name: &'static str,
     /// The effect of the command, in one line.
     about: &'static str,
-    /// The package whose program runs the command; `None` for a command of this program.
-    package: Option<&'static str>,
+    /// The package whose program runs the command, and its name there; `None` for a command of this program.
+    program: Option<(&'static str, &'static str)>,
 }
 
 const PAPER: Option<&str> = Some("hopper-paper");

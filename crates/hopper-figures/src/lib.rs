@@ -5,6 +5,7 @@
 //! | [`draw_basins`], [`Window`] | a raster of fates with axes, legend and the frame of an inset |
 //! | [`label_png`], [`legend`] | its pixels alone; its legend alone |
 //! | [`draw_shares`], [`share_png`], [`share_pixels`] | a raster whose pixels cover several fates |
+//! | [`draw_hops`] | a raster of numbers of hops, with axes and scale |
 //! | [`fate_colors`] | the colour and the name of every fate |
 //! | [`graph_pieces`], [`cuts`] | the graph of the map, in pieces that are smooth |
 //!
@@ -24,9 +25,11 @@ mod basins;
 mod error;
 pub mod fate_colors;
 mod graph;
+mod hops;
 mod shares;
 
 pub use basins::{Inset, PIXELS, Window, draw_basins, label_png, legend};
 pub use error::Error;
 pub use graph::{cuts, graph_pieces};
+pub use hops::draw_hops;
 pub use shares::{draw_shares, share_pixels, share_png};

@@ -41,6 +41,8 @@ pub(crate) enum Command {
     Hop(commands::hop::Options),
     /// Find the fates of lift-off speeds, with the trap and the number of hops; a filter
     Fate(commands::fate::Options),
+    /// Compute the basins over mass ratio and speed as rasters, in pieces; a call that was killed can be continued
+    Basins(crate::basins::Options),
     /// Convert kilograms, metres and seconds to the mass ratio M and the speed α, and back
     Units(commands::units::Options),
 }
@@ -55,7 +57,12 @@ pub(crate) enum Parsed {
 }
 
 /// The pages of the commands, which complete their help.
-const PAGES: [(&str, &Page); 3] = [("hop", &commands::hop::PAGE), ("fate", &commands::fate::PAGE), ("units", &commands::units::PAGE)];
+const PAGES: [(&str, &Page); 4] = [
+    ("basins", &crate::basins::PAGE),
+    ("hop", &commands::hop::PAGE),
+    ("fate", &commands::fate::PAGE),
+    ("units", &commands::units::PAGE),
+];
 
 /// The whole command line, with the help of every command.
 pub(crate) fn command_line() -> clap::Command {
@@ -87,6 +94,7 @@ pub(crate) fn start(command: Command, streams: Streams<'_>) -> Result<(), Error>
     match command {
         Command::Hop(options) => commands::hop::run(&options, streams),
         Command::Fate(options) => commands::fate::run(&options, streams),
+        Command::Basins(options) => crate::basins::run(&options, streams),
         Command::Units(options) => commands::units::run(&options, streams),
     }
 }

@@ -43,17 +43,38 @@ pub(crate) enum Error {
     /// A figure could not be drawn.
     #[error(transparent)]
     Drawing(#[from] hopper_figures::Error),
+    /// An interval, a grid or an estimate was refused.
+    #[error(transparent)]
+    Interval(#[from] basin_of_attraction::Error),
+    /// An expansion could not be evaluated.
+    #[error(transparent)]
+    Asymptotics(#[from] hopper_asymptotics::Error),
+    /// Pieces of a job are missing, so that they cannot be joined. The text says which, and how to get them.
+    #[error("{0}")]
+    MissingPieces(String),
+    /// A finished piece is whole, and yet not what it should be.
+    #[error("{0}; remove its folder, or add --force, and run again")]
+    Unreadable(String),
+    /// A signal has asked the program to stop.
+    #[error("interrupted: {done}; the same call, given again, goes on")]
+    Interrupted {
+        /// The exit status of the signal.
+        status: u8,
+        /// How far the job is.
+        done: String,
+    },
     /// A figure could not be encoded.
     #[error(transparent)]
     Figure(#[from] journal_figures::Error),
 }
 
 impl Error {
-    /// The exit status: 1 for a failure, 2 for a wrong call, 0 if the reader of the output has gone.
+    /// The exit status: 1 for a failure, 2 for a wrong call, 0 if the reader of the output has gone, 130 or 143 after a signal.
     pub(crate) fn exit_status(&self) -> u8 {
         match self {
             Error::ClosedOutput => 0,
             Error::Misuse(_) | Error::Input { .. } => 2,
+            Error::Interrupted { status, .. } => *status,
             _ => 1,
         }
     }

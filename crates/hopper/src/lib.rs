@@ -27,6 +27,7 @@
 //! # Exit status
 //! 0: done. 1: failed. 2: the call or its input is wrong. 130 and 143: interrupted, and can be continued.
 
+mod basins;
 mod cli;
 mod commands;
 mod error;

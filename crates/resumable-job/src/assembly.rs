@@ -9,7 +9,10 @@ use std::path::Path;
 
 impl Pieces {
     /// The payload of a piece that must be finished.
-    fn finished(&self, piece: usize) -> Result<Vec<u8>, Error> {
+    ///
+    /// # Errors
+    /// [`Error::MissingPiece`], and [`Error::Piece`] for a damaged or foreign one.
+    pub fn finished(&self, piece: usize) -> Result<Vec<u8>, Error> {
         match self.find(piece)? {
             Found::Finished(payload) => Ok(payload),
             Found::Missing => {

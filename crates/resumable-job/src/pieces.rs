@@ -134,10 +134,12 @@ impl Pieces {
     /// [`Error::File`] if the folder cannot be read.
     pub fn numbers_of_parts(&self) -> Result<Vec<usize>, Error> {
         let entries = std::fs::read_dir(&self.folder).map_err(Error::at(&self.folder))?;
-        let mut numbers: Vec<usize> = Vec::new();
+        let mut numbers = Vec::new();
         for entry in entries {
             let name = entry.map_err(Error::at(&self.folder))?.file_name();
-            numbers.extend(name.to_str().and_then(|name| name.strip_prefix(PARTS)?.parse().ok()));
+            numbers.extend(
+                name.to_str().and_then(|name| name.strip_prefix(PARTS)?.parse::<usize>().ok()),
+            );
         }
         numbers.sort_unstable();
         Ok(numbers)

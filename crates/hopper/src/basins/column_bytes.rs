@@ -9,7 +9,7 @@ use basin_of_attraction::Label;
 use hopper_basin::ShareColumn;
 
 /// A column as bytes; `None` is a blank column.
-pub(super) fn bytes(column: Option<&ShareColumn>) -> Vec<u8> {
+pub(crate) fn bytes(column: Option<&ShareColumn>) -> Vec<u8> {
     let Some(ShareColumn { labels, shares }) = column else { return Vec::new() };
     let mut bytes = Vec::with_capacity(2 + 2 * labels.len() + 4 * shares.len());
     bytes.extend((labels.len() as u16).to_le_bytes());
@@ -22,10 +22,11 @@ pub(super) fn bytes(column: Option<&ShareColumn>) -> Vec<u8> {
 ///
 /// # Errors
 /// [`Error::Unreadable`] for bytes of another length; the digest of a piece refuses all other damage before.
-pub(super) fn column(bytes: &[u8]) -> Result<Option<ShareColumn>, Error> {
+pub(crate) fn column(bytes: &[u8]) -> Result<Option<ShareColumn>, Error> {
     let Some((count, rest)) = bytes.split_first_chunk::<2>() else { return Ok(None) };
     let count = 2 * usize::from(u16::from_le_bytes(*count));
-    let short = || Error::unreadable("a column of shares", "its bytes end too early");
+    let short =
+        || Error::Unreadable("the bytes of a finished column of shares end too early".into());
     let (labels, shares) = rest.split_at_checked(count).ok_or_else(short)?;
     let labels = labels
         .as_chunks::<2>()

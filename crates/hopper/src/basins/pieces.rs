@@ -1,77 +1,189 @@
-//! Pieces of a picture that are computed in parallel and stored on disk until the picture is complete.
+//! The pieces of a job: computed in parallel, stored one by one, found again by the next call.
 
+use crate::basins::interrupt::Interrupt;
+use crate::basins::job_folder::{JobFolder, Share};
+use crate::basins::progress::{Pace, Progress};
 use crate::error::Error;
 use rayon::prelude::*;
-use repository_tools::{Folder, Progress};
-use resumable_job::{Lock, Pieces};
-use std::sync::atomic::{AtomicU64, Ordering};
+use resumable_job::{Found, Part, Pieces};
+use std::io::Write;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::time::Duration;
 
-/// The pieces 0 … `count` − 1 in order. Those that an earlier run finished in `folder/name` are read; the others are computed.
-///
-/// `description` has all that the pieces depend on. A run with another description finds foreign pieces, which is an error.
-pub(super) fn pieces(
-    folder: &Folder,
-    lock: &Lock,
-    (name, description): (&'static str, &str),
-    count: usize,
-    piece: impl Fn(usize) -> Result<Vec<u8>, Error> + Sync,
-) -> Result<(Pieces, Vec<Vec<u8>>), Error> {
-    let kept = Pieces::open(&folder.path().join(name), description)?;
-    let bar = Progress.bar(name, count as u64);
-    let done = AtomicU64::new(0);
-    let all = (0..count).into_par_iter().map(|at| {
-        let bytes = match kept.read(at)? {
-            Some(bytes) => bytes,
-            None => {
-                let bytes = piece(at)?;
-                // Without its lock this run would write among the pieces of another run.
-                lock.confirm()?;
-                kept.write(at, &bytes)?;
-                bytes
-            }
-        };
-        bar.set(done.fetch_add(1, Ordering::Relaxed) + 1);
-        Ok(bytes)
-    });
-    let all = all.collect::<Result<Vec<_>, Error>>()?;
-    bar.finish();
-    Ok((kept, all))
+/// Time between two looks at signals and at the progress.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// A message lists so many missing pieces; more would be no line that one reads.
+const LISTED: usize = 5;
+
+/// The pieces of a job.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Work {
+    /// The folder of the finished ones.
+    pub(crate) folder: &'static str,
+    /// What messages call them.
+    pub(crate) unit: &'static str,
+    pub(crate) count: usize,
+    /// Pixels of a piece.
+    pub(crate) pixels: usize,
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::sync::Mutex;
+/// What a call has besides its options.
+pub(crate) struct Call<'a> {
+    pub(crate) interrupt: Interrupt,
+    pub(crate) quiet: bool,
+    pub(crate) messages: &'a mut dyn Write,
+}
 
-    /// A run that was interrupted leaves its finished pieces, and the next run computes the others only.
-    #[test]
-    fn an_interrupted_run_goes_on() {
-        let path = std::env::temp_dir().join(format!("hopper_kept_{}", std::process::id()));
-        let folder = Folder::open(&path).unwrap();
-        let lock = Lock::take(folder.path(), "kept").unwrap();
-        let whole = |at: usize| vec![at as u8; at];
-        let breaks = |at: usize| match at {
-            5 => Err(Error::CheckFailed("broken off".into())),
-            _ => Ok(whole(at)),
-        };
-        let threads = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-        let name = ("pieces", "a picture");
-        assert!(threads.install(|| pieces(&folder, &lock, name, 8, breaks)).is_err());
-        let kept = Pieces::open(&path.join("pieces"), "a picture").unwrap();
-        let finished: Vec<usize> = (0..8).filter(|&at| kept.read(at).unwrap().is_some()).collect();
-        assert!(finished.starts_with(&[0, 1, 2, 3, 4]), "{finished:?}");
-        let computed = Mutex::new(Vec::new());
-        let again = pieces(&folder, &lock, name, 8, |at| {
-            computed.lock().unwrap().push(at);
-            Ok(whole(at))
-        });
-        let (kept, all) = again.unwrap();
-        assert_eq!(all, (0..8).map(whole).collect::<Vec<_>>());
-        assert_eq!(computed.into_inner().unwrap().len(), 8 - finished.len());
-        // Another picture in the same folder is an error that names the folder.
-        let other = pieces(&folder, &lock, ("pieces", "another picture"), 8, |at| Ok(whole(at)));
-        assert!(other.unwrap_err().to_string().contains("pieces"));
-        kept.remove(8).unwrap();
-        std::fs::remove_dir_all(&path).unwrap();
+impl Call<'_> {
+    /// A line for the user that is no result.
+    pub(crate) fn note(&mut self, text: &str) {
+        if !self.quiet {
+            // A note that cannot be written is no failure of the job.
+            let _ = writeln!(self.messages, "{text}");
+        }
     }
+}
+
+/// Pieces of which this call has finished its share.
+pub(crate) struct Finished {
+    pub(crate) kept: Pieces,
+    /// The pieces of this call.
+    pub(crate) wanted: usize,
+    /// Those of them that an earlier call had finished.
+    pub(crate) found: usize,
+}
+
+/// Computes the pieces that this call has to compute. A damaged piece is named, and computed again.
+///
+/// After a signal no piece is begun. Those at work are finished, and the error says how many there are.
+///
+/// # Errors
+/// [`Error::Interrupted`]; [`Error::MissingPieces`] if the pieces are to be joined and some are missing; errors of `piece`.
+pub(crate) fn compute(
+    job: &JobFolder,
+    work: &Work,
+    call: &mut Call<'_>,
+    piece: impl Fn(usize) -> Result<Vec<u8>, Error> + Sync,
+) -> Result<Finished, Error> {
+    let kept = Pieces::open(&job.path.join(work.folder), &job.description)?;
+    let wanted: Vec<usize> = match job.share {
+        Share::Part(part) => {
+            kept.note_parts(part.of())?;
+            part.pieces(work.count).collect()
+        }
+        Share::Whole | Share::Join => (0..work.count).collect(),
+    };
+    let missing = missing(&kept, &wanted)?;
+    let found = wanted.len() - missing.len();
+    if job.share == Share::Join {
+        return match missing.is_empty() {
+            true => Ok(Finished { kept, wanted: wanted.len(), found }),
+            false => Err(missing_pieces(&kept, work, &missing)),
+        };
+    }
+    for reason in missing.iter().filter_map(|(_, reason)| reason.as_ref()) {
+        call.note(&format!("{reason}; it is computed again"));
+    }
+    if found > 0 {
+        call.note(&format!("{found} of {} {} found", wanted.len(), work.unit));
+    }
+    let pace = Pace { unit: work.unit, total: wanted.len(), found, pixels: work.pixels };
+    let mut progress = Progress::new(pace, call.quiet, call.messages);
+    let interrupt = &call.interrupt;
+    let (finished, events) = channel();
+    let (result, computed) = std::thread::scope(|scope| {
+        let (kept, missing, piece) = (&kept, &missing, &piece);
+        let worker = scope.spawn(move || {
+            missing.par_iter().try_for_each_with(finished, |finished, &(at, _)| {
+                interrupt.check()?;
+                let bytes = piece(at)?;
+                // Without its lock this call would write among the pieces of another one.
+                job.confirm()?;
+                kept.write(at, &bytes)?;
+                // The receiver ends after all senders.
+                let _ = finished.send(());
+                Ok(())
+            })
+        });
+        let (mut computed, mut is_told) = (0, false);
+        loop {
+            match events.recv_timeout(LOOK) {
+                Ok(()) => computed += 1,
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+            if interrupt.status().is_some() && !is_told {
+                is_told = true;
+                progress.note(&format!(
+                    "stopping after the {} at work; a second signal drops them",
+                    work.unit
+                ));
+            }
+            progress.tell(computed);
+        }
+        (worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), computed)
+    });
+    progress.clear();
+    match result {
+        Ok(()) => Ok(Finished { kept, wanted: wanted.len(), found }),
+        Err(Error::Interrupted { status, .. }) => {
+            let (done, all) = (found + computed, wanted.len());
+            let done = format!("{done} of {all} {} are finished", work.unit);
+            Err(Error::Interrupted { status, done })
+        }
+        Err(error) => Err(error),
+    }
+}
+
+/// The pieces that are not finished, each with the reason if its file cannot be used.
+fn missing(kept: &Pieces, wanted: &[usize]) -> Result<Vec<(usize, Option<String>)>, Error> {
+    let state = |&at: &usize| {
+        Ok(match kept.find(at)? {
+            Found::Finished(_) => None,
+            Found::Missing => Some((at, None)),
+            Found::Unusable(unusable) => Some((at, Some(unusable.to_string()))),
+        })
+    };
+    let states = wanted.par_iter().map(state).collect::<Result<Vec<_>, Error>>()?;
+    Ok(states.into_iter().flatten().collect())
+}
+
+/// The error that says which parts have not finished which pieces.
+fn missing_pieces(kept: &Pieces, work: &Work, missing: &[(usize, Option<String>)]) -> Error {
+    let name = |(at, reason): &(usize, Option<String>)| match reason {
+        Some(reason) => reason.clone(),
+        None => at.to_string(),
+    };
+    let mut list: Vec<String> = missing.iter().take(LISTED).map(name).collect();
+    if missing.len() > LISTED {
+        list.push("…".into());
+    }
+    // Without a note of its parts the job was not done in parts.
+    let numbers = kept.numbers_of_parts().unwrap_or_default();
+    let mut remedies = Vec::new();
+    for of in numbers {
+        let mut parts: Vec<usize> = missing
+            .iter()
+            .filter_map(|&(at, _)| Part::with(at, of).ok())
+            .map(Part::number)
+            .collect();
+        parts.sort_unstable();
+        parts.dedup();
+        let mut names: Vec<String> =
+            parts.iter().take(LISTED).map(|part| format!("{part}/{of}")).collect();
+        if parts.len() > LISTED {
+            names.push("…".into());
+        }
+        remedies.push(format!("--part {}", names.join(", ")));
+    }
+    remedies.push("the call without --join, which computes them".into());
+    Error::MissingPieces(format!(
+        "--join: {} of {} {} are missing or damaged: {}; run {}",
+        missing.len(),
+        work.count,
+        work.unit,
+        list.join(", "),
+        remedies.join(", or ")
+    ))
 }

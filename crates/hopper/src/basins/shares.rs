@@ -1,25 +1,35 @@
-//! `basin-raster --about N`: the shares of the basins left of α*_N, over mass ratio and distance, or over mass ratio and phase; with
+//! `hopper basins --about N`: the shares of the basins left of α*_N, over mass ratio and distance, or over mass ratio and phase; with
 //! `--preimage`, on both sides of a preimage of α*_N that is followed over the mass ratio.
 //!
 //! A run that is killed leaves its finished columns, and the next run computes the others.
 
-use super::{column_bytes, kept};
+use crate::basins::column_bytes;
+use crate::basins::job_folder::{JobFolder, Share};
+use crate::basins::options::Options;
+use crate::basins::pieces::{Call, Work, compute};
+use crate::basins::tables::{self, Tables};
+use crate::basins::window::{pair_of_pixels, range};
 use crate::error::Error;
+use crate::output::number;
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Offset;
 use hopper_basin::{
-    CircleLimits, EdgeChart, Fates, FollowedEdge, HopperFate, ShareColumn, ShareRaster, Upwards,
+    CircleLimits, EdgeChart, Fates, FollowedEdge, HopperFate, SHARE_VERSION, ShareColumn,
+    ShareRaster, Upwards,
 };
 use hopper_figures::draw_shares;
 use journal_figures::render;
 use passive_hopper::MassRatio;
-use repository_tools::{Folder, say};
-use resumable_job::{AtomicFile, Lock, Order, npy_header};
-use std::path::PathBuf;
+use resumable_job::{Element, Order, npy_header};
+use serde_json::{Value, json};
+use std::path::Path;
 
 /// The names of the results; every label has its own array.
 const PICTURE_FILE: &str = "shares.png";
 const LEGEND: &str = "shares.json";
+
+/// The folder of finished columns.
+const COLUMNS: &str = "columns";
 
 /// The largest number of pixels: with five fates, the shares of so many take 340 MB.
 const MOST_PIXELS: usize = 1 << 24;
@@ -31,83 +41,101 @@ const MOST_TURNS: f64 = 1e3;
 const FAR: f64 = 1e-2;
 const NEAR: (f64, i64) = (1.0, -300);
 
-/// The raster and its folder.
+/// A raster of shares.
 #[derive(Debug, Clone)]
-pub(super) struct Shares {
-    pub(super) n: u64,
-    pub(super) out: PathBuf,
-    pub(super) mass_ratio: Vec<f64>,
-    pub(super) pixels: Vec<usize>,
-    /// The larger distance first.
-    pub(super) offset: Option<Vec<Offset>>,
-    /// For a raster over the phase.
-    pub(super) turns: Option<f64>,
+pub(crate) struct Shares {
+    n: u64,
+    grid: Grid,
+    upwards: Upwards,
     /// A mass ratio, and a speed near a preimage of α*_n there: for a raster about this preimage.
-    pub(super) preimage: Option<[f64; 2]>,
+    preimage: Option<[f64; 2]>,
 }
 
-/// Runs the command for the circle of α*_n.
-pub(super) fn run(options: &Shares) -> Result<(), Error> {
-    let n = options.n;
-    let largest = HopperFate::LARGEST_LABEL;
-    if !(1..=largest).contains(&n) {
-        return Err(hopper_basin::Error::Index { n, smallest: 1, largest }.into());
+impl Shares {
+    /// The raster that the options describe.
+    ///
+    /// # Errors
+    /// [`Error::Misuse`] if there is none.
+    pub(crate) fn new(n: u64, options: &Options, pixels: &[usize]) -> Result<Self, Error> {
+        let largest = HopperFate::LARGEST_LABEL;
+        if !(1..=largest).contains(&n) {
+            let reason =
+                format!("rasters are about the fixed points 1 to {largest}; give such a number");
+            return Err(Error::misuse("--about", n, &reason));
+        }
+        let preimage = options.preimage.as_deref().and_then(|pair| pair.try_into().ok());
+        let upwards = (options.turns, options.offset.as_deref());
+        let (grid, upwards) = grid(&options.mass_ratio, pixels, upwards, preimage.is_some())?;
+        Ok(Shares { n, grid, upwards, preimage })
     }
-    let (grid, upwards) = grid(options)?;
-    let edges = options.preimage.map(|near| followed(n, near, &grid)).transpose()?;
-    let folder = Folder::open(&options.out)?;
-    let lock = Lock::take(folder.path(), "basin-raster")?;
-    // A result that cannot have its name is an error before the computation.
-    for name in [PICTURE_FILE, LEGEND] {
-        drop(AtomicFile::create(&folder.path().join(name))?);
-    }
+}
+
+/// Computes a raster of shares.
+pub(crate) fn run(
+    place: (&Path, Share, bool),
+    shares: &Shares,
+    call: &mut Call<'_>,
+) -> Result<Tables, Error> {
+    let &Shares { n, grid, upwards, preimage } = shares;
+    let edges = preimage.map(|near| followed(n, near, &grid)).transpose()?;
     let description = format!(
-        "shares about {n}, {upwards:?}, preimage {:?}, M {:?} to {:?}, y {:?} to {:?}, {} × {} pixels",
-        options.preimage,
-        grid.x.left,
-        grid.x.right,
-        grid.y.left,
-        grid.y.right,
-        grid.columns,
-        grid.rows
+        "shares about {n}, {upwards:?}, preimage {preimage:?}, M {:?} to {:?}, y {:?} to {:?}, {} × {} pixels; computation \
+         {SHARE_VERSION}",
+        grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
     );
-    let limits = CircleLimits::default();
-    let column = |at: usize| {
-        let own = match &edges {
-            Some(edges) => ShareColumn::about(edges, &grid, limits, at)?,
-            None => Some(ShareColumn::left_of(n, &grid, upwards, limits, at)?),
-        };
-        Ok(column_bytes::bytes(own.as_ref()))
+    let job = JobFolder::open(place, description, &[PICTURE_FILE, LEGEND])?;
+    let mut tables = Tables::default();
+    let legend = match job.summary(LEGEND, &[PICTURE_FILE]) {
+        Some(legend) => {
+            call.note(&format!(
+                "{} is complete already; --force computes it again",
+                job.place_of(PICTURE_FILE)
+            ));
+            legend
+        }
+        None => {
+            let limits = CircleLimits::default();
+            let column = |at: usize| {
+                let own = match &edges {
+                    Some(edges) => ShareColumn::about(edges, &grid, limits, at)?,
+                    None => Some(ShareColumn::left_of(n, &grid, upwards, limits, at)?),
+                };
+                Ok(column_bytes::bytes(own.as_ref()))
+            };
+            let count = grid.columns;
+            let work = Work { folder: COLUMNS, unit: COLUMNS, count, pixels: grid.rows };
+            let finished = compute(&job, &work, call, column)?;
+            if let Share::Part(part) = job.share {
+                tables.push_part(part, COLUMNS, &finished);
+                return Ok(tables);
+            }
+            let columns = (0..count).map(|at| column_bytes::column(&finished.kept.finished(at)?));
+            let raster =
+                ShareRaster::from_columns(grid, upwards, columns.collect::<Result<_, _>>()?)?;
+            let rendered = render("shares", &draw_shares(n, &raster)?, 2.0)?;
+            job.write(PICTURE_FILE, &rendered.png)?;
+            let mut legend = Vec::new();
+            for (at, (label, mean)) in raster.means().into_iter().enumerate() {
+                let file = format!("share_{}.npy", label.code());
+                job.write(&file, &npy(&raster, at))?;
+                let (label, name) = (label.code(), HopperFate::label_name(label));
+                legend.push(
+                    json!({ "label": label, "name": name, "mean_share": mean, "file": file }),
+                );
+            }
+            if let Some(edges) = &edges {
+                legend.push(speeds_by_column(n, edges, call));
+            }
+            let legend = Value::Array(legend);
+            job.write_summary(LEGEND, &legend)?;
+            finished.kept.remove(count)?;
+            legend
+        }
     };
-    let (kept, all) =
-        kept::pieces(&folder, &lock, ("columns", &description), grid.columns, column)?;
-    let all = all.iter().map(|bytes| column_bytes::column(bytes));
-    let raster = ShareRaster::from_columns(grid, upwards, all.collect::<Result<_, _>>()?)?;
-    let rendered = render("shares", &draw_shares(n, &raster)?, 2.0)?;
-    lock.confirm()?;
-    folder.write(PICTURE_FILE, &rendered.png)?;
-    let mut legend = Vec::new();
-    for (at, (label, mean)) in raster.means().into_iter().enumerate() {
-        let (file, name) = (format!("share_{}.npy", label.code()), HopperFate::label_name(label));
-        let label = label.code();
-        folder.write(&file, &npy(&raster, at))?;
-        say(format_args!("label {label:5}  {name:40} {:9.5} %  {file}", 100.0 * mean))?;
-        legend.push(
-            serde_json::json!({ "label": label, "name": name, "mean_share": mean, "file": file }),
-        );
-    }
-    if let Some(edges) = &edges {
-        legend.push(speeds_by_column(n, edges)?);
-    }
-    let text = serde_json::to_string_pretty(&legend)
-        .map_err(|e| Error::Render { what: LEGEND.into(), reason: e.to_string() })?;
-    lock.confirm()?;
-    folder.write(LEGEND, text.as_bytes())?;
-    kept.remove(grid.columns)?;
-    folder.remove_leftovers();
-    drop(lock);
-    say(folder.path().join(PICTURE_FILE).display())?;
-    Ok(())
+    tables.shares = tables::shares(&legend);
+    tables.push_file(job.place_of(PICTURE_FILE), "the picture, colours mixed by shares");
+    tables.push_file(job.place_of(LEGEND), "the labels, their mean shares and arrays");
+    Ok(tables)
 }
 
 /// The preimage of α*_n near a speed at a mass ratio, followed to the middle of every column; `None` where it does not exist.
@@ -119,7 +147,7 @@ fn followed(
     let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
     let chart = EdgeChart::onto(&fates, n, speed)?;
     if chart.hops() == 0 {
-        return Err(Error::CheckFailed(format!(
+        return Err(Error::Misuse(format!(
             "--preimage {mass_ratio} {speed}: the speed is near α*_{n} itself; leave the option out, or give a speed near a \
              preimage after at least one hop"
         )));
@@ -141,8 +169,8 @@ fn followed(
     follow(&mut (right_from..grid.columns))?;
     follow(&mut (0..right_from).rev())?;
     if edges.iter().all(Option::is_none) {
-        return Err(Error::CheckFailed(format!(
-            "the preimage near the speed {speed} at M = {mass_ratio} exists at no mass ratio of the raster, {} to {}; give \
+        return Err(Error::Misuse(format!(
+            "--preimage {mass_ratio} {speed}: the preimage near the speed {speed} at M = {mass_ratio} exists at no mass ratio of the raster, {} to {}; give \
              mass ratios nearer to {mass_ratio} in --mass-ratio",
             grid.x.left, grid.x.right
         )));
@@ -150,63 +178,53 @@ fn followed(
     Ok(edges)
 }
 
-/// The speeds of the preimage for the legend; a line says where it was followed.
-fn speeds_by_column(n: u64, edges: &[Option<FollowedEdge>]) -> Result<serde_json::Value, Error> {
+/// The speeds of the preimage for the legend; a note says where it was followed.
+fn speeds_by_column(n: u64, edges: &[Option<FollowedEdge>], call: &mut Call<'_>) -> Value {
     let known: Vec<&FollowedEdge> = edges.iter().flatten().collect();
     if let (Some(first), Some(last)) = (known.first(), known.last()) {
         let (count, columns, hops) = (known.len(), edges.len(), first.hops);
-        say(format_args!(
+        call.note(&format!(
             "a preimage of α*_{n}, {hops} hops before it, in {count} of {columns} columns: M {:.9} to {:.9}",
             first.mass_ratio, last.mass_ratio
-        ))?;
+        ));
     }
     let speeds: Vec<Option<f64>> = edges.iter().map(|edge| edge.map(|edge| edge.point)).collect();
-    Ok(serde_json::json!({ "speed_of_the_preimage_by_column": speeds }))
+    json!({ "speed_of_the_preimage_by_column": speeds })
 }
 
-fn grid(options: &Shares) -> Result<(Grid, Upwards), Error> {
-    let [columns, rows] = options.pixels[..] else {
-        return Err(Error::CheckFailed("--pixels takes columns and rows".into()));
-    };
+/// The grid, and what its rows are: turns if they are given, else distances.
+fn grid(
+    mass_ratio: &[f64],
+    pixels: &[usize],
+    (turns, offsets): (Option<f64>, Option<&[Offset]>),
+    about_preimage: bool,
+) -> Result<(Grid, Upwards), Error> {
+    let [columns, rows] = pair_of_pixels(pixels)?;
     if columns == 0 || rows == 0 || columns.saturating_mul(rows) > MOST_PIXELS {
-        return Err(Error::CheckFailed(format!(
-            "--pixels {columns} {rows}: a raster of shares has at least one column and one row, and at most {MOST_PIXELS} pixels"
-        )));
+        return Err(Error::misuse(
+            "--pixels",
+            format!("{columns} {rows}"),
+            &format!(
+                "a raster of shares has at least one column and one row, and at most {MOST_PIXELS} pixels; give such numbers"
+            ),
+        ));
     }
-    let [from, to] = options.mass_ratio[..] else {
-        return Err(Error::CheckFailed("--mass-ratio takes two numbers".into()));
-    };
-    for m in [from, to] {
-        MassRatio::new(m)?;
-    }
-    if !(from < to) {
-        return Err(Error::CheckFailed(format!(
-            "--mass-ratio {from} {to}: give the smaller mass ratio first"
-        )));
-    }
-    let (y, upwards) = match (options.turns, &options.offset) {
-        (Some(turns), _) if !(turns > 0.0 && turns <= MOST_TURNS) => {
-            return Err(Error::CheckFailed(format!(
-                "--turns {turns}: give a positive number of turns, at most {MOST_TURNS}"
-            )));
+    let x = range("--mass-ratio", mass_ratio)?;
+    let (y, upwards) = match turns {
+        Some(turns) if !(turns > 0.0 && turns <= MOST_TURNS) => {
+            let reason = format!("give a positive number of turns, at most {MOST_TURNS}");
+            return Err(Error::misuse("--turns", number(turns), &reason));
         }
-        (Some(turns), _) => (Interval::new(0.0, turns)?, Upwards::Phase),
-        (None, offsets) => {
+        Some(turns) => (Interval::new(0.0, turns)?, Upwards::Phase),
+        None => {
             let default = [FAR.into(), Offset::new(NEAR.0, NEAR.1)?];
-            let distances = offsets.as_deref().unwrap_or(&default);
-            let sides = options.preimage.map_or(Upwards::Depth, |_| Upwards::BothSides);
-            (depths(distances)?, sides)
+            let sides = if about_preimage { Upwards::BothSides } else { Upwards::Depth };
+            (depths(offsets.unwrap_or(&default))?, sides)
         }
     };
     // The edge lies between two rows.
     let rows = if upwards == Upwards::BothSides { rows.next_multiple_of(2) } else { rows };
-    let grid = Grid { x: Interval::new(from, to)?, y, columns, rows };
-    for (name, part) in [("mass ratios", grid.x), ("turns or decades", grid.y)] {
-        if !(part.length() > 1e-12 * part.right.abs()) {
-            let text = format!("{name} from {} to {} have no pixels", part.left, part.right);
-            return Err(Error::CheckFailed(text));
-        }
-    }
+    let grid = Grid { x, y, columns, rows };
     grid.pixels()?;
     Ok((grid, upwards))
 }
@@ -217,23 +235,31 @@ fn depths(offsets: &[Offset]) -> Result<Interval, Error> {
         let size = pxfm::f_log10(offset.mantissa().abs());
         -(size + offset.exponent() as f64)
     };
+    let text = |offset: &Offset| format!("{}e{}", offset.mantissa(), offset.exponent());
+    let refused = |reason: &str| {
+        let given: Vec<String> = offsets.iter().map(text).collect();
+        Error::misuse("--offset", given.join(" "), reason)
+    };
     match offsets {
-        [far, near] if depth(far) < depth(near) => Ok(Interval::new(depth(far), depth(near))?),
-        _ => {
-            let text = |offset: &Offset| format!("{}e{}", offset.mantissa(), offset.exponent());
-            let given: Vec<String> = offsets.iter().map(text).collect();
-            Err(Error::CheckFailed(format!(
-                "--offset {}: give two distances other than 0, the larger one first, such as 1e-2 1e-300",
-                given.join(" ")
-            )))
+        [far, near] if depth(far) < depth(near) => {
+            let depths = Interval::new(depth(far), depth(near))
+                .map_err(|_| refused("give two distances other than 0, such as 1e-2 1e-300"))?;
+            // Fewer doubles than pixels lie in a narrower one.
+            if !(depths.length() > 1e-12 * depths.right.abs()) {
+                return Err(refused("the distances differ too little; give them farther apart"));
+            }
+            Ok(depths)
         }
+        _ => Err(refused(
+            "give two distances other than 0, the larger one first, such as 1e-2 1e-300",
+        )),
     }
 }
 
 /// The shares of one label as 16-bit integers, 65535 for 1; rows start from the lowest.
 fn npy(raster: &ShareRaster, at: usize) -> Vec<u8> {
     let grid = raster.grid();
-    let mut bytes = npy_header(Order::C, grid.rows, grid.columns);
+    let mut bytes = npy_header(Order::C, Element::U16, grid.rows, grid.columns);
     for row in 0..grid.rows {
         for column in 0..grid.columns {
             let share = raster.at(column, row).and_then(|all| all.get(at)).copied().unwrap_or(0.0);
@@ -247,47 +273,43 @@ fn npy(raster: &ShareRaster, at: usize) -> Vec<u8> {
 mod tests {
     use super::*;
 
-    fn options(out: &std::path::Path, offset: Option<[&str; 2]>, turns: Option<f64>) -> Shares {
-        Shares {
-            out: out.to_path_buf(),
-            mass_ratio: vec![0.19, 0.21],
-            pixels: vec![2, 5],
-            n: 2,
-            offset: offset.map(|texts| texts.map(|text| text.parse().unwrap()).to_vec()),
-            turns,
-            preimage: None,
-        }
+    const M: [f64; 2] = [0.19, 0.21];
+
+    fn offsets(texts: [&str; 2]) -> Vec<Offset> {
+        texts.map(|text| text.parse().unwrap()).to_vec()
     }
 
     #[test]
     fn rasters_without_pixels_are_refused() {
-        let nowhere = std::path::Path::new("/nowhere");
-        let good = options(nowhere, Some(["-1e-2", "1e-1000"]), None);
-        let (found, upwards) = grid(&good).unwrap();
+        let good = offsets(["-1e-2", "1e-1000"]);
+        let (found, upwards) = grid(&M, &[2, 5], (None, Some(&good)), false).unwrap();
         assert_eq!((upwards, found.y.left, found.y.right), (Upwards::Depth, 2.0, 1000.0));
-        for offset in [["1e-3", "1e-3"], ["1e-9", "1e-3"], ["0", "1e-3"], ["1e-3", "0"]] {
-            assert!(grid(&options(nowhere, Some(offset), None)).is_err(), "{offset:?}");
+        let refused = |result: Result<(Grid, Upwards), Error>, option: &str| {
+            let error = result.unwrap_err();
+            assert_eq!(error.exit_status(), 2, "{error}");
+            let text = error.to_string();
+            assert!(text.starts_with(option) && text.contains("give "), "{text}");
+        };
+        for texts in [["1e-3", "1e-3"], ["1e-9", "1e-3"], ["0", "1e-3"], ["1e-3", "0"]] {
+            refused(grid(&M, &[2, 5], (None, Some(&offsets(texts))), false), "--offset ");
         }
         for turns in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(grid(&options(nowhere, None, Some(turns))).is_err(), "{turns}");
+            refused(grid(&M, &[2, 5], (Some(turns), None), false), "--turns ");
         }
-        for pixels in [vec![0, 5], vec![5, 0], vec![1 << 20, 1 << 20], vec![usize::MAX, 2]] {
-            assert!(grid(&Shares { pixels, ..good.clone() }).is_err());
+        for pixels in [[0, 5], [5, 0], [1 << 20, 1 << 20], [usize::MAX, 2]] {
+            refused(grid(&M, &pixels, (None, None), false), "--pixels ");
         }
-        for mass_ratio in [vec![0.2, 0.2], vec![0.3, 0.2], vec![-1.0, 0.2], vec![0.1, f64::NAN]] {
-            assert!(grid(&Shares { mass_ratio, ..good.clone() }).is_err());
+        for mass_ratio in [[0.2, 0.2], [0.3, 0.2], [0.1, f64::NAN]] {
+            refused(grid(&mass_ratio, &[2, 5], (None, None), false), "--mass-ratio ");
         }
     }
 
     /// The preimage near 11.9206 at M = 0.12 meets its twin between M = 0.1169 and 0.1175; columns below are blank.
     #[test]
     fn a_preimage_is_followed_as_far_as_it_exists() {
-        let nowhere = std::path::Path::new("/nowhere");
         let about = |near, mass_ratio: [f64; 2]| {
-            let good = options(nowhere, Some(["1e-2", "1e-300"]), None);
-            let mass_ratio = mass_ratio.to_vec();
-            let options = Shares { preimage: Some(near), mass_ratio, pixels: vec![20, 5], ..good };
-            let (grid, upwards) = grid(&options).unwrap();
+            let rows = offsets(["1e-2", "1e-300"]);
+            let (grid, upwards) = grid(&mass_ratio, &[20, 5], (None, Some(&rows)), true).unwrap();
             assert_eq!((upwards, grid.rows), (Upwards::BothSides, 6));
             followed(2, near, &grid).map(|edges| (grid, edges))
         };
@@ -306,27 +328,5 @@ mod tests {
         }
         let error = about([0.12, 11.9206], [0.01, 0.02]).unwrap_err().to_string();
         assert!(error.contains("at no mass ratio of the raster, 0.01 to 0.02"), "{error}");
-    }
-
-    /// The arrays of all labels have the sum 1 in every pixel, and the legend names them.
-    #[test]
-    fn the_files_have_all_shares() {
-        let folder = std::env::temp_dir().join(format!("hopper_shares_{}", std::process::id()));
-        std::fs::create_dir_all(&folder).unwrap();
-        run(&options(&folder, None, Some(1.0))).unwrap();
-        let legend = std::fs::read_to_string(folder.join(LEGEND)).unwrap();
-        let legend: serde_json::Value = serde_json::from_str(&legend).unwrap();
-        let mut sums = [0_u32; 10];
-        for entry in legend.as_array().unwrap() {
-            let bytes = std::fs::read(folder.join(entry["file"].as_str().unwrap())).unwrap();
-            assert_eq!(bytes.len(), 128 + 2 * 10);
-            for (sum, pair) in sums.iter_mut().zip(bytes[128..].chunks(2)) {
-                *sum += u32::from(u16::from_le_bytes([pair[0], pair[1]]));
-            }
-        }
-        assert_eq!(legend.as_array().unwrap().len(), 2);
-        assert!(sums.iter().all(|sum| sum.abs_diff(65535) <= 1), "{sums:?}");
-        assert!(folder.join(PICTURE_FILE).exists());
-        std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -1,35 +1,39 @@
-//! `basin-raster --zoom M SPEED`: frames into an edge of a basin, from a half height of 1 down to any depth.
+//! `hopper basins --zoom M SPEED`: frames into an edge of a basin, from a half height of 1 down to any depth.
 //!
 //! A run that is killed leaves its finished frames, and the next run computes the others.
 
-use super::kept;
+use crate::basins::job_folder::{JobFolder, Share};
+use crate::basins::pieces::{Call, Work, compute};
+use crate::basins::tables::{self, Tables};
 use crate::error::Error;
+use crate::output::number;
 use basin_of_attraction::Label;
 use hopper_basin::{
-    CircleLimits, EdgeChart, Fates, FollowedEdge, LocalFractions, PhaseBasins, edge_frame,
-    edge_window, frame_slant,
+    CircleLimits, EdgeChart, Fates, FollowedEdge, LocalFractions, PhaseBasins, SHARE_VERSION,
+    edge_frame, edge_window, frame_slant,
 };
 use hopper_figures::fate_colors::mixed;
 use hopper_figures::{legend, share_pixels};
 use journal_figures::{Anchor, Frame, Svg, animated_png, render, rgb_png, ticks};
 use passive_hopper::MassRatio;
-use repository_tools::{Folder, say};
-use resumable_job::{AtomicFile, Lock};
-use std::path::PathBuf;
+use serde_json::json;
+use std::path::Path;
 
-/// The frames and their folder.
+/// The version of the colours in finished frames. It is raised when the same shares get other bytes; a test compares a digest.
+const FRAME_VERSION: u32 = 1;
+
+/// The frames.
 #[derive(Debug, Clone)]
-pub(super) struct Zoom {
-    pub(super) out: PathBuf,
-    pub(super) mass_ratio: f64,
+pub(crate) struct Zoom {
+    pub(crate) mass_ratio: f64,
     /// A speed next to the edge.
-    pub(super) speed: f64,
+    pub(crate) speed: f64,
     /// The number of frames; the first one has the half height 1.
-    pub(super) frames: usize,
+    pub(crate) frames: usize,
     /// Decades between two frames.
-    pub(super) step: f64,
-    pub(super) columns: usize,
-    pub(super) rows: usize,
+    pub(crate) step: f64,
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
 }
 
 /// The largest number of frames: the animation keeps all of them in memory, some 50 kB each.
@@ -44,85 +48,117 @@ const DEEPEST: f64 = 1e4;
 /// The time of a frame in the animation.
 const SECONDS: f64 = 0.2;
 
-/// The picture of all frames as strips, and the animation.
+/// The picture of all frames as strips, the animation, and the summary.
 const OVERVIEW: &str = "zoom.png";
 const ANIMATION: &str = "zoom_animation.png";
+const SUMMARY: &str = "zoom.json";
 
-/// Runs the command.
-pub(super) fn run(zoom: &Zoom) -> Result<(), Error> {
+/// The folder of finished frames.
+const FRAMES: &str = "frames";
+
+/// Computes and draws the frames.
+pub(crate) fn run(
+    place: (&Path, Share, bool),
+    zoom: &Zoom,
+    call: &mut Call<'_>,
+) -> Result<Tables, Error> {
     let zoom = &checked(zoom)?;
-    let &Zoom { mass_ratio, speed, frames, step, columns, rows, .. } = zoom;
+    let &Zoom { mass_ratio, speed, frames, step, columns, rows } = zoom;
     let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
     let chart = EdgeChart::near(&fates, speed)?;
     let edge = FollowedEdge::new(&chart)?;
-    let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default())?;
-    let folder = Folder::open(&zoom.out)?;
-    let lock = Lock::take(folder.path(), "basin-raster")?;
-    // A result that cannot have its name is an error before the computation.
-    for name in [OVERVIEW, ANIMATION] {
-        drop(AtomicFile::create(&folder.path().join(name))?);
-    }
     let description = format!(
-        "zoom, M {mass_ratio:?}, speed {speed:?}, {step:?} decades a frame, {columns} × {rows} pixels"
+        "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} pixels; \
+         computation {SHARE_VERSION}, colours {FRAME_VERSION}"
     );
-    let piece = |at: usize| -> Result<Vec<u8>, Error> {
-        let depth = step * at as f64;
-        let strip = edge_window(&fates, &chart, &circle, depth, rows)?;
-        let window = edge_frame(&fates, (&chart, &edge), &circle, depth, (columns, rows))?;
-        let mut labels: Vec<Label> = strip.iter().flat_map(LocalFractions::labels).collect();
-        labels.extend(window.labels());
-        labels.sort_unstable();
-        labels.dedup();
-        let mix = |pixel: &LocalFractions| mixed(pixel.labels().map(|l| (l, pixel.of(l).lower)));
-        let strip = strip.iter().rev().flat_map(mix).collect();
-        Ok(Drawn { labels, strip, window: share_pixels(&window) }.bytes())
+    let job = JobFolder::open(place, description, &[OVERVIEW, ANIMATION, SUMMARY])?;
+    let mut tables = Tables::default();
+    let summary = match job.summary(SUMMARY, &[OVERVIEW, ANIMATION]) {
+        Some(summary) => {
+            call.note(&format!(
+                "{} is complete already; --force computes it again",
+                job.place_of(ANIMATION)
+            ));
+            summary
+        }
+        None => {
+            let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default())?;
+            let work = Work { folder: FRAMES, unit: FRAMES, count: frames, pixels: columns * rows };
+            let finished = compute(&job, &work, call, |at| {
+                Ok(drawn(zoom, &fates, (&chart, &edge), &circle, step * at as f64)?.bytes())
+            })?;
+            if let Share::Part(part) = job.share {
+                tables.push_part(part, FRAMES, &finished);
+                return Ok(tables);
+            }
+            let drawn = (0..frames).map(|at| Drawn::new(&finished.kept.finished(at)?, zoom));
+            let drawn = drawn.collect::<Result<Vec<_>, Error>>()?;
+            let mut pngs = Vec::with_capacity(frames);
+            for (at, frame) in drawn.iter().enumerate() {
+                call.interrupt.check()?;
+                let svg = draw_frame(zoom, &chart, &edge, step * at as f64, frame)?;
+                pngs.push(render("frame", &svg, 1.5)?.png);
+                job.write(&format!("zoom_{at:04}.png"), &pngs[at])?;
+            }
+            let overview = render("zoom", &draw_all(zoom, &chart, &drawn)?, 2.0)?;
+            job.write(OVERVIEW, &overview.png)?;
+            job.write(ANIMATION, &animated_png(ANIMATION, &pngs, SECONDS)?)?;
+            let (point, rest, error) = chart.point();
+            let summary = json!({
+                "speed": point, "rest": rest, "error": error, "fixed_point": chart.n(),
+                "hops": chart.hops(), "slope": edge.by_mass_ratio, "frames": frames,
+            });
+            job.write_summary(SUMMARY, &summary)?;
+            finished.kept.remove(frames)?;
+            summary
+        }
     };
-    let (kept, all) = kept::pieces(&folder, &lock, ("frames", &description), frames, piece)?;
-    let drawn = all.iter().map(|bytes| Drawn::new(bytes, zoom)).collect::<Result<Vec<_>, _>>()?;
-    let mut pngs = Vec::with_capacity(frames);
-    for (at, frame) in drawn.iter().enumerate() {
-        let svg = draw_frame(zoom, &chart, &edge, step * at as f64, frame)?;
-        pngs.push(render("frame", &svg, 1.5)?.png);
-        lock.confirm()?;
-        folder.write(&format!("zoom_{at:04}.png"), &pngs[at])?;
-    }
-    let overview = render("zoom", &draw_all(zoom, &chart, &drawn)?, 2.0)?;
-    let animation = animated_png(ANIMATION, &pngs, SECONDS)?;
-    lock.confirm()?;
-    folder.write(OVERVIEW, &overview.png)?;
-    folder.write(ANIMATION, &animation)?;
-    kept.remove(frames)?;
-    folder.remove_leftovers();
-    drop(lock);
-    let (point, rest, error) = chart.point();
-    say(format_args!(
-        "edge {point:?} + {rest:e} ± {error:.0e}, at α*_{} after {} hops; dp/dM = {:.6}",
-        chart.n(),
-        chart.hops(),
-        edge.by_mass_ratio
-    ))?;
-    say(format_args!("{frames} frames, {}", folder.path().join(OVERVIEW).display()))?;
-    say(folder.path().join(ANIMATION).display())?;
-    Ok(())
+    tables.edge = tables::edge(&summary);
+    tables.push_file(
+        job.place_of("zoom_0000.png"),
+        "the first frame; the others follow in its order",
+    );
+    tables.push_file(job.place_of(OVERVIEW), "the middle columns of all frames side by side");
+    tables.push_file(job.place_of(ANIMATION), "an animated PNG of all frames");
+    Ok(tables)
+}
+
+/// The frame of half height 10^−depth.
+fn drawn(
+    zoom: &Zoom,
+    fates: &Fates,
+    (chart, edge): (&EdgeChart, &FollowedEdge),
+    circle: &PhaseBasins,
+    depth: f64,
+) -> Result<Drawn, Error> {
+    let strip = edge_window(fates, chart, circle, depth, zoom.rows)?;
+    let window = edge_frame(fates, (chart, edge), circle, depth, (zoom.columns, zoom.rows))?;
+    let mut labels: Vec<Label> = strip.iter().flat_map(LocalFractions::labels).collect();
+    labels.extend(window.labels());
+    labels.sort_unstable();
+    labels.dedup();
+    let mix = |pixel: &LocalFractions| mixed(pixel.labels().map(|l| (l, pixel.of(l).lower)));
+    let strip = strip.iter().rev().flat_map(mix).collect();
+    Ok(Drawn { labels, strip, window: share_pixels(&window) })
 }
 
 /// The options, if they make sense, with an even number of rows: the edge lies between two of them.
 fn checked(zoom: &Zoom) -> Result<Zoom, Error> {
     let &Zoom { frames, step, columns, rows, .. } = zoom;
     let pixels = |count: usize| (2..=MOST_PIXELS).contains(&count);
-    let fail = |text: String| Err(Error::CheckFailed(text));
     if !(1..=MOST_FRAMES).contains(&frames) {
-        return fail(format!("--frames {frames}: a zoom has 1 to {MOST_FRAMES} frames"));
+        let reason = format!("a zoom has 1 to {MOST_FRAMES} frames; give such a number");
+        return Err(Error::misuse("--frames", frames, &reason));
     }
     if !(step > 0.0 && step * frames as f64 <= DEEPEST) {
-        return fail(format!(
-            "--step {step} with {frames} frames: give a positive step, and at most {DEEPEST} decades in all"
-        ));
+        let reason = format!(
+            "with {frames} frames; give a positive step, and at most {DEEPEST} decades in all"
+        );
+        return Err(Error::misuse("--step", number(step), &reason));
     }
     if !(pixels(columns) && pixels(rows)) {
-        return fail(format!(
-            "--pixels {columns} {rows}: a frame has 2 to {MOST_PIXELS} pixels each way"
-        ));
+        let reason = format!("a frame has 2 to {MOST_PIXELS} pixels each way; give such numbers");
+        return Err(Error::misuse("--pixels", format!("{columns} {rows}"), &reason));
     }
     Ok(Zoom { rows: rows.next_multiple_of(2), ..zoom.clone() })
 }
@@ -149,8 +185,9 @@ impl Drawn {
 
     /// The inverse of [`bytes`](Self::bytes).
     fn new(bytes: &[u8], zoom: &Zoom) -> Result<Self, Error> {
-        let short =
-            || Error::unreadable("a frame", "it has another number of bytes than its pixels");
+        let short = || {
+            Error::Unreadable("a finished frame has another number of bytes than its pixels".into())
+        };
         let (count, rest) = bytes.split_first_chunk::<2>().ok_or_else(short)?;
         let count = 2 * usize::from(u16::from_le_bytes(*count));
         let (labels, rest) = rest.split_at_checked(count).ok_or_else(short)?;
@@ -229,14 +266,15 @@ fn exponent(depth: f64) -> String {
 mod tests {
     use super::*;
 
-    fn zoom(out: PathBuf) -> Zoom {
+    fn zoom() -> Zoom {
         let speed = 11.920_553_918_335_777;
-        Zoom { out, mass_ratio: 0.12, speed, frames: 3, step: 50.0, columns: 9, rows: 7 }
+        Zoom { mass_ratio: 0.12, speed, frames: 3, step: 50.0, columns: 9, rows: 7 }
     }
 
     #[test]
-    fn zooms_without_frames_or_edge_are_refused_before_anything_is_written() {
-        let good = zoom("/nowhere".into());
+    fn zooms_without_frames_are_refused() {
+        let good = zoom();
+        assert_eq!(checked(&good).unwrap().rows, 8);
         let wrong = [
             Zoom { frames: 0, ..good.clone() },
             Zoom { frames: usize::MAX, ..good.clone() },
@@ -247,26 +285,29 @@ mod tests {
             Zoom { step: 0.0, ..good.clone() },
             Zoom { step: f64::NAN, ..good.clone() },
             Zoom { step: f64::INFINITY, ..good.clone() },
-            Zoom { mass_ratio: -1.0, ..good.clone() },
-            Zoom { speed: f64::NAN, ..good.clone() },
-            // Left of α*_1 there is no edge.
-            Zoom { speed: 4.0, ..good.clone() },
         ];
         for zoom in wrong {
-            assert!(run(&zoom).is_err(), "{zoom:?}");
+            let error = checked(&zoom).unwrap_err();
+            assert_eq!(error.exit_status(), 2);
+            assert!(error.to_string().starts_with("--") && error.to_string().contains("give "));
         }
     }
 
+    /// The bytes of a finished frame come back, and belong to their version.
     #[test]
-    fn every_frame_is_a_numbered_file() {
-        let name = format!("hopper_zoom_{}", std::process::id());
-        let folder = std::env::temp_dir().join(name);
-        std::fs::create_dir_all(&folder).unwrap();
-        run(&zoom(folder.clone())).unwrap();
-        for name in ["zoom_0000.png", "zoom_0001.png", "zoom_0002.png", OVERVIEW, ANIMATION] {
-            assert!(std::fs::read(folder.join(name)).unwrap().starts_with(b"\x89PNG"), "{name}");
+    fn frames_are_those_of_their_version() {
+        let zoom = checked(&zoom()).unwrap();
+        let fates = Fates::new(MassRatio::new(zoom.mass_ratio).unwrap()).unwrap();
+        let chart = EdgeChart::near(&fates, zoom.speed).unwrap();
+        let edge = FollowedEdge::new(&chart).unwrap();
+        let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default()).unwrap();
+        let bytes = [1.0, 50.0]
+            .map(|depth| drawn(&zoom, &fates, (&chart, &edge), &circle, depth).unwrap().bytes());
+        for bytes in &bytes {
+            assert_eq!(Drawn::new(bytes, &zoom).unwrap().bytes(), *bytes);
+            assert!(Drawn::new(&bytes[..bytes.len() - 1], &zoom).is_err());
         }
-        assert!(!folder.join("frames").exists());
-        std::fs::remove_dir_all(&folder).unwrap();
+        let found = (FRAME_VERSION, resumable_job::digest(&bytes.concat()));
+        assert_eq!(found, (1, "".to_owned()));
     }
 }

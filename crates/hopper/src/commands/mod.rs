@@ -2,7 +2,7 @@
 
 pub(crate) mod fate;
 pub(crate) mod hop;
-mod page;
+pub(crate) mod page;
 pub(crate) mod units;
 
 pub(crate) use page::Page;

@@ -48,6 +48,11 @@ impl OutputOptions {
         }
     }
 
+    /// Whether notes are not wanted.
+    pub(crate) fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// Prints a note on standard error, unless notes are not wanted.
     pub(crate) fn note(&self, streams: &mut Streams<'_>, text: impl std::fmt::Display) {
         if !self.quiet {

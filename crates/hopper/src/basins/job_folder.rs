@@ -1,0 +1,169 @@
+//! The folder of one job: who may write there, which job it has, and whether its results are there already.
+
+use crate::error::Error;
+use resumable_job::{
+    AtomicFile, Lock, Part, claim, make_folder, remove_leftovers, remove_results, write_atomically,
+};
+use std::path::{Path, PathBuf};
+
+/// The lock of all jobs of this command: a folder has one job.
+const LOCK: &str = "basins";
+
+/// The folders with finished pieces.
+const PIECES: [&str; 4] = ["tiles", "tiles_hops", "columns", "frames"];
+
+/// The results with fixed names.
+const RESULTS: [&str; 11] = [
+    "basin.npy",
+    "basin.png",
+    "legend.json",
+    "hops.npy",
+    "hops.png",
+    "hops.json",
+    "shares.png",
+    "shares.json",
+    "zoom.png",
+    "zoom_animation.png",
+    "zoom.json",
+];
+
+/// What a call does of a job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Share {
+    /// All of it.
+    Whole,
+    /// The pieces of one part, without joining them.
+    Part(Part),
+    /// Joining the pieces of all parts.
+    Join,
+}
+
+/// The folder of a job, locked for this call.
+#[derive(Debug)]
+pub(crate) struct JobFolder {
+    pub(crate) path: PathBuf,
+    pub(crate) description: String,
+    pub(crate) share: Share,
+    lock: Lock,
+}
+
+impl JobFolder {
+    /// Makes the folder if it does not exist, locks it, and makes sure that it has this job or none.
+    /// With `force` the results of any other job, and those of this one, are removed.
+    ///
+    /// A folder that cannot be written, and names that no result can have, are errors here, before the computation.
+    ///
+    /// # Errors
+    /// [`Error::Job`]; [`Error::Misuse`] for a folder with another job.
+    pub(crate) fn open(
+        (out, share, force): (&Path, Share, bool),
+        description: String,
+        results: &[&str],
+    ) -> Result<Self, Error> {
+        make_folder(out)?;
+        // The trial files are dropped unfinished, which removes them.
+        drop(AtomicFile::create(&out.join(".writable"))?);
+        let lock = match share {
+            Share::Part(part) => Lock::take_part(out, LOCK, part)?,
+            Share::Whole | Share::Join => Lock::take(out, LOCK)?,
+        };
+        remove_leftovers(out);
+        for name in results {
+            drop(AtomicFile::create(&out.join(name))?);
+        }
+        if force {
+            remove_results(out, is_result)?;
+        }
+        claim(out, &description, is_result).map_err(|error| match error {
+            resumable_job::Error::OtherJob { found, wanted, .. } => Error::misuse(
+                "--out",
+                out.display(),
+                &format!(
+                    "this folder has the results of another job: '{found}', and not '{wanted}'; give another folder, or \
+                     add --force to replace them"
+                ),
+            ),
+            resumable_job::Error::UnknownJob { path } => Error::misuse(
+                "--out",
+                out.display(),
+                &format!(
+                    "{} is here already, and no job.txt says which job made it; give another folder, or add --force to \
+                     replace it",
+                    path.display()
+                ),
+            ),
+            other => other.into(),
+        })?;
+        Ok(JobFolder { path: out.to_path_buf(), description, share, lock })
+    }
+
+    /// Makes sure that no other process works on the same part.
+    ///
+    /// # Errors
+    /// As [`Lock::confirm`].
+    pub(crate) fn confirm(&self) -> Result<(), Error> {
+        Ok(self.lock.confirm()?)
+    }
+
+    /// Writes a result.
+    ///
+    /// # Errors
+    /// As [`confirm`](Self::confirm) and [`write_atomically`].
+    pub(crate) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), Error> {
+        self.confirm()?;
+        Ok(write_atomically(&self.path.join(name), bytes)?)
+    }
+
+    /// The summary of results that are complete. It is the last file that is written: if it is there with the other
+    /// `results`, nothing is left to do.
+    pub(crate) fn summary(&self, name: &str, results: &[&str]) -> Option<serde_json::Value> {
+        let all = results.iter().all(|name| self.path.join(name).is_file());
+        let text = std::fs::read(self.path.join(name)).ok().filter(|_| all)?;
+        serde_json::from_slice(&text).ok()
+    }
+
+    /// Writes the summary, after all other results.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub(crate) fn write_summary(&self, name: &str, value: &serde_json::Value) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(value)
+            .map_err(|error| Error::at(name.as_ref())(error.into()))?;
+        self.write(name, text.as_bytes())
+    }
+
+    /// Rows of the table of files.
+    pub(crate) fn place_of(&self, name: &str) -> String {
+        self.path.join(name).display().to_string()
+    }
+}
+
+/// Whether a name is that of a result of this command, or of a folder with its pieces.
+fn is_result(name: &str) -> bool {
+    let numbered = |start: &str, end: &str| {
+        let number = name.strip_prefix(start).and_then(|rest| rest.strip_suffix(end));
+        number.is_some_and(|digits| {
+            !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
+        })
+    };
+    PIECES.contains(&name)
+        || RESULTS.contains(&name)
+        || numbered("share_", ".npy")
+        || numbered("zoom_", ".png")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_files_of_users_are_no_results() {
+        for name in ["basin.npy", "share_12.npy", "zoom_0100.png", "tiles"] {
+            assert!(is_result(name), "{name}");
+        }
+        for name in ["job.txt", "notes.txt", "share_.npy", "share_x.npy", "zoom_1.pdf", "my_tiles"]
+        {
+            assert!(!is_result(name), "{name}");
+        }
+    }
+}
