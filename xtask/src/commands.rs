@@ -15,86 +15,93 @@ struct Task {
     name: &'static str,
     /// The effect of the command, in one line.
     about: &'static str,
-    /// The package whose program runs the command, and its name there; `None` for a command of this program.
-    program: Option<(&'static str, &'static str)>,
+    /// The program that runs the command; `None` for a command of this program.
+    program: Option<Program>,
 }
 
-const PAPER: Option<&str> = Some("hopper-paper");
-const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
+/// The packages of the repository's own programs. Their commands have the same names here.
+const PAPER: Option<Program> = Some(("hopper-paper", None));
+const MEASUREMENTS: Option<Program> = Some(("hopper-measurements", None));
+
+/// The program for users, with the name of its command.
+const BASINS: Option<Program> = Some(("hopper", Some("basins")));
+
+/// A package, and the name of the command in its program if it is another one.
+type Program = (&'static str, Option<&'static str>);
 
 /// All commands, in the order of the help.
 const TASKS: [Task; 15] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
-        package: PAPER,
+        program: PAPER,
     },
     Task {
         name: "verify-invariance",
         about: "Check only the invariance under M → 1/M, with its figure",
-        package: PAPER,
+        program: PAPER,
     },
     Task {
         name: "basin-raster",
-        about: "Compute the basins over any window, in tiles; a killed run can be continued",
-        package: PAPER,
+        about: "Compute the basins over any window: the command `hopper basins`",
+        program: BASINS,
     },
     Task {
         name: "beyond-paper",
         about: "Compute results about the basins that the paper does not have, with a report",
-        package: PAPER,
+        program: PAPER,
     },
     Task {
         name: "model-figures",
         about: "Draw figures of the generic crates: how guards are met, and a valve's bifurcations",
-        package: PAPER,
+        program: PAPER,
     },
     Task {
         name: "check-reference",
         about: "Compare the map and the fates with files of reference values",
-        package: MEASUREMENTS,
+        program: MEASUREMENTS,
     },
     Task {
         name: "check-bounds",
         about: "Compare every error bound with the actual error, on millions of hops",
-        package: MEASUREMENTS,
+        program: MEASUREMENTS,
     },
     Task {
         name: "interval-coverage",
         about: "Measure how often every interval of basin-of-attraction contains the true number",
-        package: MEASUREMENTS,
+        program: MEASUREMENTS,
     },
     Task {
         name: "work-precision",
         about: "Measure time against error of every way to compute a hop",
-        package: MEASUREMENTS,
+        program: MEASUREMENTS,
     },
     Task {
         name: "speed",
         about: "Measure how fast hops and rasters are; the output of each is checked first",
-        package: MEASUREMENTS,
+        program: MEASUREMENTS,
     },
     Task {
         name: "compare-peers",
         about: "Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index",
-        package: MEASUREMENTS,
+        program: MEASUREMENTS,
     },
     Task {
         name: "compare-events",
         about: "Compare the events of known scenes with SciPy, heyoka and diffsol: needs Python and package indices",
-        package: MEASUREMENTS,
+        program: MEASUREMENTS,
     },
     Task {
         name: "regenerate",
         about: "Make the committed reference values and constants again and compare: needs Python and its package index",
-        package: None,
+        program: None,
     },
     Task {
         name: "check-builds",
         about: "Build each crate alone, the fuzz target, and all with the oldest Rust promised",
-        package: None,
+        program: None,
     },
-    Task { name: "tidy", about: "Check the repository's rules", package: None },
+    Task { name: "tidy", about: "Check the repository's rules", program: None },
 ];
 
 /// The names of all commands.
@@ -123,8 +130,8 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     let known = TASKS.iter().find(|task| task.name == name);
     let task =
         known.ok_or_else(|| Error::UnknownCommand { name: name.to_owned(), known: names() })?;
-    if let Some(package) = task.package {
-        return run_program(package, task.name, arguments);
+    if let Some((package, name)) = task.program {
+        return run_program(package, name.unwrap_or(task.name), arguments);
     }
     if task.name == "regenerate" {
         return regenerate::run(arguments);

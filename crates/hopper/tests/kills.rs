@@ -4,7 +4,13 @@
 //! `HOPPER_KILLS=200 cargo test --release -p hopper --test kills -- --nocapture` kills 200 calls, and prints what happened.
 
 #![cfg(unix)]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::print_stdout, clippy::print_stderr)]
+#![allow(
+    missing_docs,
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::print_stderr
+)]
 
 mod basin_calls;
 
@@ -255,7 +261,11 @@ fn in_own_mounts(script: &str, out: &Path, more: &[&str]) -> Option<Output> {
     if !probe.is_ok_and(|status| status.success()) {
         return None;
     }
-    let place = if script.contains("tmpfs") { format!("{}.disk", out.display()) } else { out.display().to_string() };
+    let place = if script.contains("tmpfs") {
+        format!("{}.disk", out.display())
+    } else {
+        out.display().to_string()
+    };
     let call = basins(place.as_ref(), more);
     let mut command = Command::new("unshare");
     command.args(["-rm", "sh", "-c", script]).arg(out);
