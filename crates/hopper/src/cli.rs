@@ -55,7 +55,11 @@ pub(crate) enum Parsed {
 }
 
 /// The pages of the commands, which complete their help.
-const PAGES: [(&str, &Page); 3] = [("hop", &commands::hop::PAGE), ("fate", &commands::fate::PAGE), ("units", &commands::units::PAGE)];
+const PAGES: [(&str, &Page); 3] = [
+    ("hop", &commands::hop::PAGE),
+    ("fate", &commands::fate::PAGE),
+    ("units", &commands::units::PAGE),
+];
 
 /// The whole command line, with the help of every command.
 pub(crate) fn command_line() -> clap::Command {

@@ -60,11 +60,23 @@ static UNITS: TableKind = TableKind {
     long: false,
     columns: &[
         Column { name: "mass_ratio", unit: "", meaning: "M = m₂/m₁, for -M" },
-        Column { name: "length_unit", unit: "m", meaning: "m₂g/k: the stretch of the spring under the lower mass" },
+        Column {
+            name: "length_unit",
+            unit: "m",
+            meaning: "m₂g/k: the stretch of the spring under the lower mass",
+        },
         Column { name: "time_unit", unit: "s", meaning: "1/ω" },
-        Column { name: "speed_unit", unit: "m/s", meaning: "m₂gω/k: a lift-off speed in m/s over this is α" },
+        Column {
+            name: "speed_unit",
+            unit: "m/s",
+            meaning: "m₂gω/k: a lift-off speed in m/s over this is α",
+        },
         Column { name: "energy_unit", unit: "J", meaning: "m₁m₂g²/k" },
-        Column { name: "angular_frequency", unit: "1/s", meaning: "ω = √(k(1+M)/m₂), of the spring in flight" },
+        Column {
+            name: "angular_frequency",
+            unit: "1/s",
+            meaning: "ω = √(k(1+M)/m₂), of the spring in flight",
+        },
         Column { name: "upper_mass", unit: "kg", meaning: "m₁" },
         Column { name: "lower_mass", unit: "kg", meaning: "m₂" },
         Column { name: "stiffness", unit: "N/m", meaning: "k" },
@@ -80,7 +92,11 @@ static VALUES: TableKind = TableKind {
         Column { name: "given", unit: "", meaning: "as it was given" },
         Column { name: "value", unit: "", meaning: "in kilograms, metres and seconds" },
         Column { name: "unit", unit: "", meaning: "the unit of `value`" },
-        Column { name: "dimensionless", unit: "", meaning: "in the units of the model; for a speed at lift-off it is α" },
+        Column {
+            name: "dimensionless",
+            unit: "",
+            meaning: "in the units of the model; for a speed at lift-off it is α",
+        },
         Column { name: "model_unit", unit: "", meaning: "the unit of `dimensionless`" },
     ],
 };
@@ -90,7 +106,9 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
     let form = options.output.form(PAGE.tables)?;
     let &Options { upper, lower, stiffness, gravity, .. } = options;
     let hopper = PhysicalHopper::new(upper, lower, stiffness, gravity).map_err(|error| {
-        Error::Misuse(format!("--upper, --lower, --stiffness, --gravity: {error}; give other sizes"))
+        Error::Misuse(format!(
+            "--upper, --lower, --stiffness, --gravity: {error}; give other sizes"
+        ))
     })?;
     let mut units = Table::new(&UNITS);
     units.push([
@@ -118,7 +136,13 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
             }
         };
         let (value, unit) = (*value, kind.unit());
-        values.push([text.clone().into(), value.into(), unit.into(), (value / own).into(), name.into()]);
+        values.push([
+            text.clone().into(),
+            value.into(),
+            unit.into(),
+            (value / own).into(),
+            name.into(),
+        ]);
     }
     for &alpha in &options.alpha {
         let speed = alpha * hopper.speed_unit();

@@ -113,7 +113,11 @@ impl Kind {
         }
         // A value too small for an f64 reads as zero.
         if !(quantity.value > 0.0) {
-            return Err(format!("{} must be positive; it is {}", self.name(), number(quantity.value)));
+            return Err(format!(
+                "{} must be positive; it is {}",
+                self.name(),
+                number(quantity.value)
+            ));
         }
         Ok(quantity.value)
     }
@@ -144,7 +148,10 @@ fn quantity(text: &str, wanted: Option<Kind>) -> Result<Quantity, String> {
     let (digits, unit) = split(trimmed);
     let example = wanted.unwrap_or(Kind::Speed);
     if digits.is_empty() {
-        return Err(format!("it has no number; write a number and a unit, such as 2.5{}", example.unit()));
+        return Err(format!(
+            "it has no number; write a number and a unit, such as 2.5{}",
+            example.unit()
+        ));
     }
     if unit.starts_with(',') {
         return Err("it has a comma; write a point instead, as in 2.5m".into());
@@ -153,13 +160,17 @@ fn quantity(text: &str, wanted: Option<Kind>) -> Result<Quantity, String> {
         let (name, units) = (example.name(), example.units());
         return Err(match wanted {
             Some(_) => format!("it has no unit; the units of {name} are {units}"),
-            None => "it has no unit; write it behind the number, such as 1.2m/s, 3cm, 0.5s or 2J".into(),
+            None => {
+                "it has no unit; write it behind the number, such as 1.2m/s, 3cm, 0.5s or 2J".into()
+            }
         });
     }
     let Some(&(_, kind, exponent, divisor)) = UNITS.iter().find(|known| known.0 == unit) else {
         let unit = shortened(unit);
         return Err(match wanted {
-            Some(kind) => format!("'{unit}' is no unit of {}; its units are {}", kind.name(), kind.units()),
+            Some(kind) => {
+                format!("'{unit}' is no unit of {}; its units are {}", kind.name(), kind.units())
+            }
             None => {
                 let all: Vec<_> = UNITS.iter().filter(|u| u.0.is_ascii()).map(|u| u.0).collect();
                 format!("'{unit}' is no unit that is known; the units are {}", all.join(", "))
@@ -171,7 +182,11 @@ fn quantity(text: &str, wanted: Option<Kind>) -> Result<Quantity, String> {
             Ok(Quantity { kind, value: value / divisor, text: trimmed.to_owned() })
         }
         Some(_) => Err("it is too large for a number; use a larger unit".into()),
-        None => Err(format!("'{}' is not a number; write a number and a unit, such as 2.5{}", shortened(digits), kind.unit())),
+        None => Err(format!(
+            "'{}' is not a number; write a number and a unit, such as 2.5{}",
+            shortened(digits),
+            kind.unit()
+        )),
     }
 }
 
@@ -212,13 +227,8 @@ mod tests {
 
     #[test]
     fn quantities_are_rounded_once() {
-        let texts = [
-            ("80g", 0.08),
-            ("0.1 t", 100.0),
-            ("1.5e2mg", 1.5e-4),
-            ("8e-2kg", 0.08),
-            ("+3kg", 3.0),
-        ];
+        let texts =
+            [("80g", 0.08), ("0.1 t", 100.0), ("1.5e2mg", 1.5e-4), ("8e-2kg", 0.08), ("+3kg", 3.0)];
         for (text, kilograms) in texts {
             assert_eq!(mass(text), Ok(kilograms), "{text}");
         }
