@@ -14,6 +14,7 @@
 //! | [`immediate_basin`], [`ImmediateBasin`] | the trap continued into the sudden window, by a scan of stated spacing |
 //! | [`upper_crisis_bracket`] | the mass ratio above 1 from which no orbit of a hump falls, by such scans |
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
+//! | [`Fates::fates_within`] | fates and numbers of hops of many speeds |
 //! | [`Fates::labels`] | the fates of many speeds, whose orbits hop together |
 //! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
 //! | [`hop_columns`] | the number of hops until each of these fates is known |

@@ -22,6 +22,20 @@ pub fn css(label: Label) -> &'static str {
     color(label).css
 }
 
+/// A light colour for an area behind curves, as CSS: that of the label mixed with white.
+pub fn light_css(label: Label) -> &'static str {
+    match label.basin_number() {
+        Some(0) => "#f1efe6",
+        _ if label == HopperFate::GROUNDED => "#e4e4df",
+        Some(1) => "#c5e8d9",
+        Some(2) => "#f2cbc6",
+        Some(3) => "#c3d0e6",
+        Some(4) => "#d0c1d6",
+        Some(_) => "#cfcdca",
+        None => "#fff4bf",
+    }
+}
+
 /// The colour of a label.
 pub fn rgb(label: Label) -> [u8; 3] {
     color(label).rgb

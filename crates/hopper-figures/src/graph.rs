@@ -1,6 +1,7 @@
 //! The graph of the lift-off map.
 
-use passive_hopper::{LiftOffMap, alpha_star};
+use crate::error::Error;
+use passive_hopper::{LiftOffMap, alpha_star, index_below};
 use std::f64::consts::PI;
 
 /// The speed at which drawings begin instead of 0, which is not a lift-off speed. On the page it is 0.
@@ -21,4 +22,27 @@ pub fn cuts(n: u64) -> Vec<f64> {
         cuts.extend([k as f64 * PI, alpha_star(k)]);
     }
     cuts
+}
+
+/// Most pieces of a graph: half as many humps. A page is some thousand dots wide, so that a hump of more would be some dots.
+const MOST_PIECES: u64 = 400;
+
+/// The points where pieces of the map meet between two speeds, and the two speeds. Instead of 0 it begins at 10⁻³.
+///
+/// # Errors
+/// [`Error::TooWide`] for more than 200 humps; [`Error::Hopper`] unless both are speeds or 0, and the first one is smaller.
+pub fn cuts_between(from: f64, to: f64) -> Result<Vec<f64>, Error> {
+    let (first, last) = (index_below(from)?, index_below(to)?);
+    if !(from < to) {
+        return Err(Error::EmptyWindow { from, to });
+    }
+    if 2 * (last - first) > MOST_PIECES {
+        return Err(Error::TooWide { from, to, humps: last - first, most: MOST_PIECES / 2 });
+    }
+    let inside = (first..=last + 1).flat_map(|n| [n as f64 * PI, alpha_star(n)]);
+    let start = from.max(FIRST_SPEED.min(0.5 * to));
+    let mut cuts = vec![start];
+    cuts.extend(inside.filter(|&cut| start < cut && cut < to));
+    cuts.push(to);
+    Ok(cuts)
 }

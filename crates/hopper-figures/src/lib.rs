@@ -1,4 +1,4 @@
-//! Figures of the passive hopper, as drawings: basins over the plane, shares of fates, and the graph of the map.
+//! Figures of the passive hopper, as drawings: basins, shares of fates, the map, cobwebs, and the motion of both masses.
 //!
 //! | item | role |
 //! |---|---|
@@ -7,7 +7,11 @@
 //! | [`draw_shares`], [`share_png`], [`share_pixels`] | a raster whose pixels cover several fates |
 //! | [`draw_hops`] | a raster of numbers of hops, with axes and scale |
 //! | [`fate_colors`] | the colour and the name of every fate |
-//! | [`graph_pieces`], [`cuts`] | the graph of the map, in pieces that are smooth |
+//! | [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
+//! | [`MapPlot`] | the map with its fixed points and traps, and the cobweb of an orbit |
+//! | [`Motion`], [`draw_motion`] | the motion of both masses, sampled, and against time |
+//! | [`frame_times`], [`draw_frame`] | the frames of its animation |
+//! | [`draw_ground`], [`draw_block`], [`draw_spring`] | the parts of a drawn hopper |
 //!
 //! ```
 //! use hopper_figures::{cuts, graph_pieces};
@@ -26,10 +30,20 @@ mod error;
 pub mod fate_colors;
 mod graph;
 mod hops;
+mod machine;
+mod map_plot;
+mod motion;
+mod motion_frames;
+mod motion_plot;
 mod shares;
 
 pub use basins::{Inset, PIXELS, Window, draw_basins, label_png, legend};
 pub use error::Error;
-pub use graph::{cuts, graph_pieces};
+pub use graph::{cuts, cuts_between, graph_pieces};
 pub use hops::draw_hops;
+pub use machine::{draw_block, draw_ground, draw_spring};
+pub use map_plot::MapPlot;
+pub use motion::{Motion, Sample};
+pub use motion_frames::{SECONDS_A_FRAME, draw_frame, frame_times};
+pub use motion_plot::draw_motion;
 pub use shares::{draw_shares, share_pixels, share_png};

@@ -39,12 +39,22 @@ Exit status:
 pub(crate) enum Command {
     /// Follow one hop: landings, times, energy lost, next lift-off speed, slopes, error bounds
     Hop(commands::hop::Options),
+    /// Follow an orbit hop by hop until its fate; cobweb, motion and animation
+    Orbit(commands::orbit::Options),
     /// Find the fates of lift-off speeds, with the trap and the number of hops; a filter
     Fate(commands::fate::Options),
     /// Compute the basins over mass ratio and speed as rasters, in pieces; a call that was killed can be continued
     Basins(crate::basins::Options),
+    /// Show the map at one mass ratio: fixed points, traps, crises, the curve as data or as a figure
+    Map(commands::map::Options),
+    /// Compute the basins at one mass ratio as intervals, and their fractions with bounds
+    Intervals(commands::intervals::Options),
     /// Convert kilograms, metres and seconds to the mass ratio M and the speed α, and back
     Units(commands::units::Options),
+    /// Print the completions of a shell
+    Completions(commands::texts::Completions),
+    /// Print the manual page of the program, or of a command
+    Manual(commands::texts::Manual),
 }
 
 /// What the arguments ask for.
@@ -57,10 +67,13 @@ pub(crate) enum Parsed {
 }
 
 /// The pages of the commands, which complete their help.
-const PAGES: [(&str, &Page); 4] = [
-    ("basins", &crate::basins::PAGE),
+pub(crate) const PAGES: [(&str, &Page); 7] = [
     ("hop", &commands::hop::PAGE),
+    ("orbit", &commands::orbit::PAGE),
     ("fate", &commands::fate::PAGE),
+    ("basins", &crate::basins::PAGE),
+    ("map", &commands::map::PAGE),
+    ("intervals", &commands::intervals::PAGE),
     ("units", &commands::units::PAGE),
 ];
 
@@ -93,8 +106,13 @@ pub(crate) fn parse(arguments: impl IntoIterator<Item = OsString>) -> Result<Par
 pub(crate) fn start(command: Command, streams: Streams<'_>) -> Result<(), Error> {
     match command {
         Command::Hop(options) => commands::hop::run(&options, streams),
+        Command::Orbit(options) => commands::orbit::run(&options, streams),
         Command::Fate(options) => commands::fate::run(&options, streams),
         Command::Basins(options) => crate::basins::run(&options, streams),
+        Command::Map(options) => commands::map::run(&options, streams),
+        Command::Intervals(options) => commands::intervals::run(&options, streams),
         Command::Units(options) => commands::units::run(&options, streams),
+        Command::Completions(options) => commands::texts::completions(&options, streams),
+        Command::Manual(options) => commands::texts::manual(&options, streams),
     }
 }

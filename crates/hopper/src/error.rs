@@ -1,6 +1,6 @@
 //! Refusals and failures, with their exit status.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use thiserror::Error;
 
 /// Why a call ended early.
@@ -90,11 +90,5 @@ impl Error {
             return Error::ClosedOutput;
         }
         Error::File { path: "standard output".into(), source }
-    }
-
-    /// The error of reading or writing `path`.
-    pub(crate) fn at(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
-        let path = path.to_path_buf();
-        move |source| Error::File { path, source }
     }
 }

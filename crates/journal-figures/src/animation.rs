@@ -1,4 +1,4 @@
-//! An animated PNG (APNG, PNG third edition) of frames of one size.
+//! Animations of frames of one size: animated PNG (APNG, PNG third edition) and GIF.
 
 use crate::error::Error;
 use std::io::Cursor;
@@ -24,13 +24,70 @@ pub fn animated_png(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<
     for (at, frame) in frames.iter().enumerate() {
         let (own_width, own_height, pixels) = pixels(frame).map_err(fail)?;
         if (own_width, own_height) != (width, height) {
-            let sizes = format!("{own_width} × {own_height} pixels, not {width} × {height}");
-            return Err(fail(format!("frame {at} has {sizes}")));
+            return Err(fail(other_size(at, (own_width, own_height), (width, height))));
         }
         writer.write_image_data(&pixels).map_err(refused)?;
     }
     writer.finish().map_err(refused)?;
     Ok(bytes)
+}
+
+/// The same as a GIF (89a), for programs that show no animated PNG. A frame with more than 256 colours keeps the nearest 256; times are
+/// rounded to hundredths of a second.
+///
+/// # Errors
+/// As [`animated_png`]; [`Error::Render`] also for frames of more than 65535 pixels each way.
+pub fn animated_gif(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<u8>, Error> {
+    let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
+    let refused = |e: gif::EncodingError| fail(e.to_string());
+    let first = frames.first().ok_or_else(|| fail("there is no frame".into()))?;
+    let (width, height, _) = pixels(first).map_err(fail)?;
+    let (Ok(columns), Ok(rows)) = (u16::try_from(width), u16::try_from(height)) else {
+        return Err(fail(format!("{width} × {height} pixels are more than a GIF can have")));
+    };
+    let mut bytes = Vec::new();
+    let mut encoder = gif::Encoder::new(&mut bytes, columns, rows, &[]).map_err(refused)?;
+    encoder.set_repeat(gif::Repeat::Infinite).map_err(refused)?;
+    for (at, frame) in frames.iter().enumerate() {
+        let (own_width, own_height, pixels) = pixels(frame).map_err(fail)?;
+        if (own_width, own_height) != (width, height) {
+            return Err(fail(other_size(at, (own_width, own_height), (width, height))));
+        }
+        let mut frame = match exact_palette(&pixels) {
+            Some((palette, places)) => {
+                gif::Frame::from_palette_pixels(columns, rows, places, palette, None)
+            }
+            None => gif::Frame::from_rgb_speed(columns, rows, &pixels, PALETTE_SPEED),
+        };
+        frame.delay = (100.0 * seconds).round() as u16;
+        encoder.write_frame(&frame).map_err(refused)?;
+    }
+    drop(encoder);
+    Ok(bytes)
+}
+
+/// How coarsely 256 colours are chosen among more, from 1 to 30. Drawings have a few hundred shades at the edges of their lines, which
+/// 10 keeps; smaller numbers take longer.
+const PALETTE_SPEED: i32 = 10;
+
+/// The colours of an image that has at most 256, and the place of each pixel among them.
+fn exact_palette(pixels: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
+    let mut known = std::collections::BTreeMap::new();
+    let mut palette = Vec::new();
+    let mut places = Vec::with_capacity(pixels.len() / 3);
+    for &color in pixels.as_chunks::<3>().0 {
+        let next = known.len();
+        let place = *known.entry(color).or_insert(next);
+        places.push(u8::try_from(place).ok()?);
+        if place == next {
+            palette.extend(color);
+        }
+    }
+    Some((palette, places))
+}
+
+fn other_size(at: usize, own: (u32, u32), first: (u32, u32)) -> String {
+    format!("frame {at} has {} × {} pixels, not {} × {}", own.0, own.1, first.0, first.1)
 }
 
 /// Width, height, and red, green and blue of every pixel. Drawings are opaque: the fourth channel is left out.
@@ -77,11 +134,40 @@ mod tests {
     }
 
     #[test]
+    fn a_gif_has_all_frames_with_their_colours() {
+        let colors = [[255, 0, 0], [0, 255, 0], [0, 0, 255]];
+        let frames = colors.map(|color| rgb_png("frame", 2, 1, &[color, [9; 3]].concat()).unwrap());
+        let bytes = animated_gif("motion", &frames, 0.25).unwrap();
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let mut reader = options.read_info(&bytes[..]).unwrap();
+        assert_eq!(reader.repeat(), gif::Repeat::Infinite);
+        for [r, g, b] in colors {
+            let frame = reader.read_next_frame().unwrap().unwrap();
+            assert_eq!(frame.delay, 25);
+            assert_eq!(frame.buffer[..], [r, g, b, 255, 9, 9, 9, 255]);
+        }
+        assert!(reader.read_next_frame().unwrap().is_none());
+    }
+
+    #[test]
+    fn a_gif_of_many_colours_keeps_256_of_them() {
+        let pixels: Vec<u8> = (0..900u32).flat_map(|k| [k as u8, (k / 3) as u8, 77]).collect();
+        assert!(exact_palette(&pixels).is_none());
+        let frame = rgb_png("frame", 30, 30, &pixels).unwrap();
+        let bytes = animated_gif("motion", &[frame], 0.1).unwrap();
+        let mut reader = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();
+        let frame = reader.read_next_frame().unwrap().unwrap();
+        assert_eq!((frame.width, frame.height), (30, 30));
+    }
+
+    #[test]
     fn frames_of_different_sizes_and_no_frames_are_errors() {
         let frame = |width: usize| rgb_png("frame", width, 1, &vec![0; 3 * width]).unwrap();
         let error = animated_png("zoom", &[frame(2), frame(3)], 0.1).unwrap_err().to_string();
         assert!(error.contains("frame 1 has 3 × 1 pixels, not 2 × 1"), "{error}");
-        assert!(animated_png("zoom", &[], 0.1).is_err());
+        assert!(animated_png("zoom", &[], 0.1).is_err() && animated_gif("zoom", &[], 0.1).is_err());
+        assert!(animated_gif("zoom", &[frame(2), frame(3)], 0.1).is_err());
         assert!(animated_png("zoom", &[b"no picture".to_vec()], 0.1).is_err());
     }
 }

@@ -13,7 +13,7 @@
 //! | [`html`] | the markup of labels as HTML |
 //! | [`Path`], [`Segment`] | outlines of straight lines and cubic Bézier pieces |
 //! | [`render`], [`indexed_png`], [`rgb_png`] | a drawing as SVG with outlined labels and as PNG; a PNG with a palette, or with three bytes a pixel |
-//! | [`animated_png`] | frames one after another |
+//! | [`animated_png`], [`animated_gif`] | frames one after another |
 //! | [`csv_file`], [`csv_text`] | the data beside a drawing |
 //!
 //! ```
@@ -55,7 +55,7 @@ mod raster;
 mod render;
 mod svg;
 
-pub use animation::animated_png;
+pub use animation::{animated_gif, animated_png};
 pub use axes::{Frame, Scale, decades, ticks};
 pub use curve::{graph_pieces, smooth};
 pub use data::{DataFile, csv_file, csv_text};

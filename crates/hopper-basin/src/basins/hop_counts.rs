@@ -30,8 +30,8 @@ pub fn hop_columns(grid: &Grid, columns: Range<usize>) -> Result<Vec<Vec<u64>>, 
     let (ratios, speeds) = places(grid, columns)?;
     let column = |m: f64| {
         let fates = Fates::new(MassRatio::new(m)?)?;
-        let hops = |&speed: &f64| Ok(fates.fate_within(speed, HOP_BUDGET)?.1 as u64);
-        speeds.iter().map(hops).collect()
+        let found = fates.fates_within(&speeds, HOP_BUDGET)?;
+        Ok(found.into_iter().map(|(_, hops)| hops as u64).collect())
     };
     ratios.into_iter().map(column).collect()
 }

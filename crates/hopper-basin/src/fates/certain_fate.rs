@@ -41,6 +41,38 @@ pub(crate) enum Verdict {
 /// [`UndecidedReason::Precision`](basin_of_attraction::UndecidedReason::Precision).
 const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
 
+/// An orbit in `f64`, with a bound on its error.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlainOrbit {
+    pub(crate) speed: f64,
+    pub(crate) error: f64,
+    /// Hops since the start, with those that were jumped over.
+    pub(crate) hops: usize,
+    /// Hops and jumps, for the budget.
+    followed: usize,
+}
+
+impl PlainOrbit {
+    pub(crate) fn new(alpha: f64) -> Self {
+        PlainOrbit { speed: alpha, error: 0.0, hops: 0, followed: 0 }
+    }
+
+    /// Takes the next hop; the verdict if the orbit ends with it.
+    pub(crate) fn hop(&mut self, hop: HopWithin) -> Option<Verdict> {
+        let verdict = match hop {
+            HopWithin::Next { speed, error } => {
+                (self.speed, self.error) = (speed, error);
+                None
+            }
+            HopWithin::Grounded => Some(Verdict::Grounded),
+            HopWithin::Inconclusive => return Some(Verdict::Inconclusive { at: self.speed }),
+        };
+        self.hops += 1;
+        self.followed += 1;
+        verdict
+    }
+}
+
 /// The map at one mass ratio, and its traps by their index.
 pub(crate) struct CertainFates<'a, T> {
     pub(crate) map: &'a LiftOffMap,
@@ -76,36 +108,44 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         budget: usize,
         hop: impl Fn(&LiftOffMap, f64, f64) -> HopWithin,
     ) -> Result<(Verdict, usize), Error> {
-        let (mut speed, mut error) = (alpha, 0.0);
-        let mut hops = 0;
-        for followed in 0..=budget {
-            let n = index_below(speed)?;
-            if let Some(n) = self.trap_within(n, speed, error)? {
-                return Ok((Verdict::Trapped(n), hops));
+        let mut orbit = PlainOrbit::new(alpha);
+        loop {
+            if let Some(verdict) = self.until_next_hop(&mut orbit, budget)? {
+                return Ok((verdict, orbit.hops));
             }
-            if followed == budget {
-                break;
+            if let Some(verdict) = orbit.hop(hop(self.map, orbit.speed, orbit.error)) {
+                return Ok((verdict, orbit.hops));
             }
-            if let Some(offset) = self.slow.offset_if_near(speed, n + 1)
-                && let Some((slow, offset, bound)) =
-                    self.slow.leave(n + 1, offset, error + f64::EPSILON * -offset)
-            {
-                speed = alpha_star(n + 1) + offset;
-                // Half an ulp each for α*, and for the sum.
-                error = bound + f64::EPSILON * speed;
-                hops = hops.saturating_add(usize::try_from(slow).unwrap_or(usize::MAX));
-                continue;
-            }
-            match hop(self.map, speed, error) {
-                HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
-                HopWithin::Grounded => return Ok((Verdict::Grounded, hops + 1)),
-                HopWithin::Inconclusive => {
-                    return Ok((Verdict::Inconclusive { at: speed }, hops));
-                }
-            }
-            hops += 1;
         }
-        Ok((Verdict::Budget, hops))
+    }
+
+    /// Takes the orbit to its next hop, over the slow hops beside a fixed point; the verdict if there is one before.
+    pub(crate) fn until_next_hop(
+        &self,
+        orbit: &mut PlainOrbit,
+        budget: usize,
+    ) -> Result<Option<Verdict>, Error> {
+        loop {
+            let n = index_below(orbit.speed)?;
+            if let Some(n) = self.trap_within(n, orbit.speed, orbit.error)? {
+                return Ok(Some(Verdict::Trapped(n)));
+            }
+            if orbit.followed == budget {
+                return Ok(Some(Verdict::Budget));
+            }
+            let Some(offset) = self.slow.offset_if_near(orbit.speed, n + 1) else {
+                return Ok(None);
+            };
+            let error = orbit.error + f64::EPSILON * -offset;
+            let Some((slow, offset, bound)) = self.slow.leave(n + 1, offset, error) else {
+                return Ok(None);
+            };
+            orbit.speed = alpha_star(n + 1) + offset;
+            // Half an ulp each for α*, and for the sum.
+            orbit.error = bound + f64::EPSILON * orbit.speed;
+            orbit.hops = orbit.hops.saturating_add(usize::try_from(slow).unwrap_or(usize::MAX));
+            orbit.followed += 1;
+        }
     }
 
     /// The index of the trap that contains all speeds within `error` of `speed`, which lies above α*_n.

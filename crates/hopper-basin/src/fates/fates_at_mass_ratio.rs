@@ -99,9 +99,18 @@ impl Fates {
     /// As [`fate`](Self::fate).
     pub fn fate_within(&self, alpha: f64, budget: usize) -> Result<(HopperFate, usize), Error> {
         self.map.check_speed(alpha)?;
-        let fates = CertainFates { map: &self.map, trap: |n| self.trap(n), slow: &self.slow };
-        let (verdict, hops) = fates.verdict(alpha, budget)?;
-        let fate = match verdict {
+        let (verdict, hops) = self.certain().verdict(alpha, budget)?;
+        Ok((self.fate_of(alpha, verdict, hops), hops))
+    }
+
+    /// What follows an orbit with bounds on its error.
+    pub(crate) fn certain(&self) -> CertainFates<'_, impl Fn(u64) -> Result<Trap, Error>> {
+        CertainFates { map: &self.map, trap: |n| self.trap(n), slow: &self.slow }
+    }
+
+    /// The fate of `alpha` by the verdict on its orbit.
+    pub(crate) fn fate_of(&self, alpha: f64, verdict: Verdict, hops: usize) -> HopperFate {
+        match verdict {
             Verdict::Trapped(0) => HopperFate::Decaying,
             Verdict::Trapped(n) => HopperFate::Incessant { n },
             Verdict::Grounded => HopperFate::Grounded,
@@ -112,8 +121,7 @@ impl Fates {
             Verdict::Inconclusive { at } => {
                 HopperFate::Undecided(UndecidedReason::Precision { at })
             }
-        };
-        Ok((fate, hops))
+        }
     }
 
     /// Whether the map leaves the hop from `alpha` itself undecided.

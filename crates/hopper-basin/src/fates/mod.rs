@@ -4,7 +4,8 @@
 //! grounded ([`hopper_fate`], with the labels of fates in images). An orbit is followed until it enters a trap or is
 //! grounded, with a bound on its error ([`certain_fate`]). The fate is undecided, with the reason, if neither happens
 //! within a budget of hops, or if the error reaches a verdict. The many hops along the slow side of a fixed point are jumped
-//! over ([`slow_sides`]; many starts beside one that falls onto a fixed point: [`beside_edge`]). [`fates_at_mass_ratio`] has the entries and the traps.
+//! over ([`slow_sides`]; many starts beside one that falls onto a fixed point: [`beside_edge`]). [`fates_at_mass_ratio`] has the entries and the
+//! traps, and [`many_fates`] follows many orbits together.
 //!
 //! This room uses `traps`. The raster finds the fates of many speeds faster, and gives the same labels.
 
@@ -12,4 +13,5 @@ pub(crate) mod beside_edge;
 pub(crate) mod certain_fate;
 pub(crate) mod fates_at_mass_ratio;
 pub(crate) mod hopper_fate;
+pub(crate) mod many_fates;
 pub(crate) mod slow_sides;

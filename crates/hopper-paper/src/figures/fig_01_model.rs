@@ -2,11 +2,11 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
-use journal_figures::{Anchor, Path, Pen, Svg};
+use hopper_figures::{draw_block, draw_ground, draw_spring};
+use journal_figures::{Anchor, Pen, Svg};
 use repository_tools::Progress;
 
 const INK: Pen = Pen::solid("#000", 1.1);
-const SPRING: Pen = Pen::solid("#444", 1.1);
 const FORCE: Pen = Pen::solid("#b02418", 1.4);
 const THIN: Pen = Pen::solid("#000", 0.6);
 /// Height of the ground line on the page.
@@ -24,10 +24,10 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     let heights = [(0.0, 110.0), (42.0, 165.0), (0.0, 132.0), (0.0, 84.0)];
     for (k, (lower, upper)) in heights.into_iter().enumerate() {
         let x = 95.0 + 165.0 * k as f64;
-        ground(&mut svg, x);
-        spring(&mut svg, x, GROUND - lower - BLOCK.1, GROUND - upper);
-        block(&mut svg, x, GROUND - lower, "$m$_{2}");
-        block(&mut svg, x, GROUND - upper, "$m$_{1}");
+        draw_ground(&mut svg, x, GROUND);
+        draw_spring(&mut svg, x, GROUND - lower - BLOCK.1, GROUND - upper);
+        draw_block(&mut svg, x, GROUND - lower, BLOCK, "$m$_{2}");
+        draw_block(&mut svg, x, GROUND - upper, BLOCK, "$m$_{1}");
         svg.text(x, 277.0, Anchor::Middle, 13.0, titles[k]);
         svg.text(x, 297.0, Anchor::Middle, 12.0, conditions[k]);
         forces(&mut svg, k, x, GROUND - lower, GROUND - upper);
@@ -59,33 +59,6 @@ fn coordinates(svg: &mut Svg) {
         svg.arrow((x + 5.0, level), (x + 5.0, level - 26.0), THIN);
         svg.text(x + 12.0, level - 14.0, Anchor::Start, 12.0, name);
     }
-}
-
-fn ground(svg: &mut Svg, x: f64) {
-    svg.line((x - 60.0, GROUND), (x + 60.0, GROUND), INK);
-    for k in 0..12 {
-        let left = x - 58.0 + 10.0 * f64::from(k);
-        svg.line((left, GROUND + 8.0), (left + 8.0, GROUND), THIN);
-    }
-}
-
-fn block(svg: &mut Svg, x: f64, bottom: f64, label: &str) {
-    let (width, height) = BLOCK;
-    svg.fill_rect(x - width / 2.0, bottom - height, width, height, "#dfe6ee");
-    svg.rect(x - width / 2.0, bottom - height, width, height, INK);
-    svg.text(x, bottom - height / 2.0 + 4.5, Anchor::Middle, 13.0, label);
-}
-
-fn spring(svg: &mut Svg, x: f64, bottom: f64, top: f64) {
-    let coils = 12;
-    let step = (bottom - top) / (coils as f64 + 2.0);
-    let zigzag = (0..coils).map(|k| {
-        let side = if k % 2 == 0 { 9.0 } else { -9.0 };
-        (x + side, bottom - step * (k as f64 + 1.5))
-    });
-    let points = [(x, bottom), (x, bottom - step)].into_iter().chain(zigzag);
-    let points = points.chain([(x, top + step), (x, top)]);
-    svg.path(Path::polyline(points), SPRING);
 }
 
 /// Arrows beside the blocks; `lower` and `upper` are the bottoms of the blocks on the page.

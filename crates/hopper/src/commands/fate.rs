@@ -42,7 +42,7 @@ pub(crate) const PAGE: Page = Page {
 
 const SPEED: &str = "m₂gω/k";
 
-static FATES: TableKind = TableKind {
+pub(crate) static FATES: TableKind = TableKind {
     name: "fates",
     about: "one row for each speed",
     long: false,
@@ -83,9 +83,10 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     if values::from_input("SPEED", &options.speeds)? {
         return filter(&fates, form, &mut streams);
     }
+    let speeds: Vec<f64> = values::speeds(&options.speeds).collect();
     let mut table = Table::new(&FATES);
-    for speed in values::speeds(&options.speeds) {
-        table.push(row(&fates, speed)?);
+    for (&speed, found) in speeds.iter().zip(fates.fates_within(&speeds, HOP_BUDGET)?) {
+        table.push(row(&fates, speed, found)?);
     }
     form.print(&[table], streams.output)
 }
@@ -101,16 +102,20 @@ fn filter(fates: &Fates, form: Form, streams: &mut Streams<'_>) -> Result<(), Er
 
 /// The rows of some speeds, as text.
 fn part(fates: &Fates, mut rows: Rows, speeds: &[f64]) -> Result<String, Error> {
-    let mut text = String::new();
-    for &speed in speeds {
-        rows.append(&row(fates, speed)?, &mut text);
+    // A row of CSV has about 64 bytes.
+    let mut text = String::with_capacity(64 * speeds.len());
+    for (&speed, found) in speeds.iter().zip(fates.fates_within(speeds, HOP_BUDGET)?) {
+        rows.append(&row(fates, speed, found)?, &mut text);
     }
     Ok(text)
 }
 
-/// The fate of a speed.
-fn row(fates: &Fates, speed: f64) -> Result<[Cell; 7], Error> {
-    let (fate, hops) = fates.fate_within(speed, HOP_BUDGET)?;
+/// The fate of a speed, with the number of hops, as a row of [`FATES`].
+pub(crate) fn row(
+    fates: &Fates,
+    speed: f64,
+    (fate, hops): (HopperFate, usize),
+) -> Result<[Cell; 7], Error> {
     let (name, n, reason) = match fate {
         HopperFate::Incessant { n } => ("incessant", Some(n), None),
         HopperFate::Decaying => ("decaying", Some(0), None),

@@ -2,5 +2,6 @@
 
 pub(crate) mod form;
 pub(crate) mod lines;
+pub(crate) mod output_file;
 pub(crate) mod quantity;
 pub(crate) mod values;

@@ -44,6 +44,20 @@ pub(crate) fn speed(text: &str) -> Result<f64, String> {
     }
 }
 
+/// A lift-off speed, or 0 as the end of a window.
+pub(crate) fn speed_or_zero(text: &str) -> Result<f64, String> {
+    if finite(text)? == 0.0 { Ok(0.0) } else { speed(text) }
+}
+
+/// A number that is positive or zero.
+pub(crate) fn not_negative(text: &str) -> Result<f64, String> {
+    let value = finite(text)?;
+    if value < 0.0 {
+        return Err("it must not be negative; give 0 or a positive number such as 1e-6".into());
+    }
+    Ok(value)
+}
+
 /// A speed, or "-" for those of standard input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum SpeedOrInput {

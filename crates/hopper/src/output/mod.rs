@@ -3,10 +3,12 @@
 mod csv;
 mod form;
 mod json;
+mod motion_table;
 mod number;
 mod plain;
 mod table;
 
 pub(crate) use form::{Form, Rows};
+pub(crate) use motion_table::motion_table;
 pub(crate) use number::number;
 pub(crate) use table::{Cell, Column, Table, TableKind};

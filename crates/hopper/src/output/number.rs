@@ -1,7 +1,5 @@
 //! Numbers as text.
 
-use std::fmt::Write;
-
 /// The shortest decimal form that reads back as the same number: with an exponent below 10⁻⁵ and from 10¹⁶ on.
 pub(crate) fn number(value: f64) -> String {
     let mut text = String::new();
@@ -11,11 +9,10 @@ pub(crate) fn number(value: f64) -> String {
 
 /// Appends [`number`].
 pub(crate) fn append_number(value: f64, text: &mut String) {
-    // Writing to a string does not fail.
-    let _ = write!(text, "{value:?}");
-    if text.ends_with(".0") {
-        text.truncate(text.len() - 2);
-    }
+    // Several times as fast as the formatter of the standard library, which a filter notices.
+    let mut buffer = zmij::Buffer::new();
+    let digits = buffer.format(value);
+    *text += digits.strip_suffix(".0").unwrap_or(digits);
 }
 
 #[cfg(test)]
@@ -35,6 +32,8 @@ mod tests {
             let value = f64::from_bits(bits);
             if value.is_finite() {
                 let text = number(value);
+                let shortest = format!("{value:?}");
+                assert_eq!(text, shortest.strip_suffix(".0").unwrap_or(&shortest));
                 assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits(), "{text}");
                 assert!(text.len() <= 24, "{text}");
             }

@@ -1,5 +1,7 @@
 //! The two ends of a flight from the ground.
 
+use crate::model::mass_ratio::MassRatio;
+
 /// The start of a flight from the ground: y₁ = 1 + excess, ẏ₁ = velocity, y₂ = ẏ₂ = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TakeOff {
@@ -57,6 +59,13 @@ impl TakeOff {
 }
 
 impl Landing {
+    /// The energy that the landing takes, ½κΓ² in units of m₁m₂g²/k.
+    ///
+    /// With Γ = −(1+M) ẏ₂ this is ½M(1+M) ẏ₂², the [`landing_loss`](crate::landing_loss).
+    pub fn energy_loss(&self, mass_ratio: MassRatio) -> f64 {
+        0.5 * mass_ratio.kappa() * self.closing_speed * self.closing_speed
+    }
+
     /// The start of the flight that follows a sudden landing.
     pub(crate) fn take_off(&self) -> TakeOff {
         TakeOff { excess: self.excess, velocity: self.velocity }

@@ -59,6 +59,21 @@ pub struct Hop {
     pub flight_time: f64,
 }
 
+impl Hop {
+    /// The energy that the landings of the hop take, ½(1+M)(α² − α′²) in units of m₁m₂g²/k.
+    ///
+    /// Gradual lift-offs differ in the energy ½(1+M)α² alone. If the hopper is grounded, α′² is negative, and the result is the
+    /// loss up to the last landing.
+    pub fn energy_loss(&self, mass_ratio: MassRatio) -> f64 {
+        let of_square = match (self.loss, self.next) {
+            // α² − α′² = (α − α′)(α + α′), which does not cancel.
+            (Some(loss), Some(next)) => loss * (self.speed + next),
+            _ => self.speed * self.speed - self.next_speed_squared,
+        };
+        0.5 * (1.0 + mass_ratio.value()) * of_square
+    }
+}
+
 impl LiftOffMap {
     /// The map at `mass_ratio`.
     pub fn new(mass_ratio: MassRatio) -> Self {

@@ -8,12 +8,14 @@
 //!   extended_hop.rs       a hop in 106 to 1024 bits
 //!   hop_within.rs         a hop in f64 from a speed with an error; the error of the next speed
 //!   extended_orbit.rs     an orbit in 106 to 1024 bits, with a bound on its error
+//!   bounded_orbit.rs      an orbit in the shortest arithmetic that suffices, with a bound on its error
 //!   speed_error.rs        how far an error of α moves α′²
 //!   slopes.rs             ∂α′/∂α and ∂α′/∂M
 //!   printed.rs            the paper's own equations, for comparison
 //!   limits.rs             limits of all of these
 //! ```
 
+pub(crate) mod bounded_orbit;
 pub(crate) mod extended_hop;
 pub(crate) mod extended_orbit;
 pub(crate) mod hop_within;

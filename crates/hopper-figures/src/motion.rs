@@ -1,0 +1,119 @@
+//! The motion of both masses over some hops, sampled.
+
+use crate::error::Error;
+use hybrid_system::{ArcEnd, Execution, Limits};
+use passive_hopper::{Hopper, HopperState, HopperSurface, MassRatio, Phase};
+use std::f64::consts::TAU;
+
+/// The largest distance of two samples, in units of 1/ω. The spring turns by this angle between them: the straight line between two
+/// samples is off by an eight-hundredth of the amplitude, less than the width of a line.
+const SPACING: f64 = 0.1;
+
+/// The most samples of a motion: 64 MB. A motion of more would be a mistake, such as a million hops.
+const MOST_SAMPLES: usize = 1_000_000;
+
+/// The most arcs of a motion, which sudden lift-offs divide into more arcs than hops.
+const MOST_ARCS: usize = 200_000;
+
+/// A moment of a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sample {
+    /// The time since the first lift-off, in units of 1/ω.
+    pub time: f64,
+    /// The number of gradual lift-offs before, without the first one.
+    pub hop: usize,
+    /// The phase.
+    pub phase: Phase,
+    /// Positions and velocities of both masses.
+    pub state: HopperState,
+}
+
+/// The motion over some hops. A landing has two samples at the same time: before the collision and after it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// The mass ratio.
+    pub mass_ratio: MassRatio,
+    /// The samples in the order of time.
+    pub samples: Vec<Sample>,
+    /// Whether the hopper is grounded at the end.
+    pub grounded: bool,
+}
+
+impl Motion {
+    /// The motion that begins with a gradual lift-off with speed `alpha`, over `hops` hops or until the hopper is grounded.
+    ///
+    /// On the ground for ever it is followed for one period of the contact phase, or as long as it has hopped if that is shorter.
+    ///
+    /// ```
+    /// use hopper_figures::Motion;
+    /// use passive_hopper::MassRatio;
+    /// let motion = Motion::new(MassRatio::new(0.2)?, 7.0, 2)?;
+    /// let end = motion.samples.last().expect("it has samples");
+    /// assert!(end.hop == 2 && end.state.upper_position == 1.0 && !motion.grounded);
+    /// // The lower mass never is below the ground.
+    /// assert!(motion.samples.iter().all(|sample| sample.state.lower_position > -1e-12));
+    /// # Ok::<(), hopper_figures::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Hopper`] for a wrong speed; [`Error::Execution`] if a landing cannot be computed; [`Error::TooLong`] for a motion of
+    /// more than a million samples.
+    pub fn new(mass_ratio: MassRatio, alpha: f64, hops: usize) -> Result<Self, Error> {
+        passive_hopper::LiftOffMap::new(mass_ratio).check_speed(alpha)?;
+        let hopper = Hopper::new(mass_ratio);
+        let start = HopperState::lift_off(alpha);
+        let limits = Limits::new(f64::INFINITY, MOST_ARCS);
+        let mut motion = Motion { mass_ratio, samples: Vec::new(), grounded: false };
+        let mut hop = 0;
+        for arc in Execution::new(&hopper, Phase::Flight, start.into(), limits) {
+            let arc = arc?;
+            if hop == hops {
+                break;
+            }
+            let never = matches!(arc.end, ArcEnd::Never { .. });
+            let period = TAU / mass_ratio.contact_frequency();
+            let duration = if never { period.min(arc.time) } else { arc.duration };
+            let steps = (duration / SPACING).ceil().max(1.0);
+            if !(steps <= (MOST_SAMPLES - motion.samples.len()) as f64) {
+                let duration = arc.time + duration;
+                return Err(Error::TooLong { duration, most: MOST_SAMPLES });
+            }
+            for k in 0..=steps as usize {
+                let elapsed = duration * (k as f64 / steps);
+                let state = arc.state(&hopper, elapsed)?.into();
+                let time = arc.time + elapsed;
+                motion.samples.push(Sample { time, hop, phase: arc.mode, state });
+            }
+            motion.grounded = never;
+            let lift_off = arc.event().filter(|event| event.surface == HopperSurface::LiftOff);
+            if let Some((phase, state)) = lift_off.and_then(|event| event.after) {
+                hop += 1;
+                if hop == hops {
+                    let (time, state) = (arc.time + arc.duration, state.into());
+                    motion.samples.push(Sample { time, hop, phase, state });
+                    break;
+                }
+            }
+        }
+        Ok(motion)
+    }
+
+    /// The time of the last sample.
+    pub fn duration(&self) -> f64 {
+        self.samples.last().map_or(0.0, |sample| sample.time)
+    }
+
+    /// The sample next to a time, at or before it.
+    pub fn at(&self, time: f64) -> Option<&Sample> {
+        let after = self.samples.partition_point(|sample| sample.time <= time);
+        self.samples.get(after.saturating_sub(1))
+    }
+
+    /// The smallest and the largest value of a coordinate.
+    pub(crate) fn range(&self, of: impl Fn(&HopperState) -> f64) -> (f64, f64) {
+        let values = self.samples.iter().map(|sample| of(&sample.state));
+        values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+            (low.min(value), high.max(value))
+        })
+    }
+}

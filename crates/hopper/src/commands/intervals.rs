@@ -1,0 +1,229 @@
+//! `hopper intervals`: the basins at one mass ratio as exact intervals, and their fractions with bounds.
+
+use crate::commands::page::{Example, Page};
+use crate::error::Error;
+use crate::options::form::OutputOptions;
+use crate::options::values;
+use crate::output::{Cell, Column, Table, TableKind};
+use crate::streams::Streams;
+use basin_of_attraction::{Label, Refinement, StopReason};
+use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, hopper_basins};
+use passive_hopper::MassRatio;
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// The mass ratio M = m₂/m₁, lower mass over upper mass
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    mass_ratio: MassRatio,
+    /// Index of the fixed point at which the window begins; 0 is the speed 0
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..MOST_HUMPS), allow_negative_numbers = true)]
+    from: u64,
+    /// Index of the fixed point at which the window ends
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(1..=MOST_HUMPS), allow_negative_numbers = true)]
+    to: u64,
+    /// Stop when no more than this length is undecided, in units of m₂gω/k
+    #[arg(long, value_name = "LENGTH", default_value = "1e-4", value_parser = values::not_negative, allow_negative_numbers = true)]
+    undecided: f64,
+    /// Do not follow intervals shorter than this, in units of m₂gω/k
+    #[arg(long, value_name = "LENGTH", default_value = "1e-12", value_parser = values::not_negative, allow_negative_numbers = true)]
+    shortest: f64,
+    /// Stop at this number of intervals
+    #[arg(long, value_name = "COUNT", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=10_000_000), allow_negative_numbers = true)]
+    most: u64,
+    /// Points in which each sudden window is searched for branches of the map
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u64).range(2..=1_000_000), allow_negative_numbers = true)]
+    samples: u64,
+    #[command(flatten)]
+    output: OutputOptions,
+}
+
+/// The most humps of a window. The time grows with their number and with that of the branches of all of them.
+const MOST_HUMPS: u64 = 64;
+
+/// The help beside the options.
+pub(crate) const PAGE: Page = Page {
+    units: "Speeds and lengths in m₂gω/k.",
+    limits: "Fixed points 0 to 64; up to 10000000 intervals; samples up to 1000000 for each window.\n\
+             For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are proved to be complete. Above, they\n\
+             are sampled: a branch narrower than the spacing may be missed, and the table `search` says so.",
+    tables: &[&FRACTIONS, &SEARCH, &INTERVALS],
+    examples: &[
+        Example { about: "Fractions of the first five humps.", line: "hopper intervals -M 0.2" },
+        Example {
+            about: "The intervals of the first hump as data.",
+            line: "hopper intervals -M 0.2 --to 2 --undecided 1e-3 --csv --table intervals",
+        },
+    ],
+};
+
+const SPEED: &str = "m₂gω/k";
+
+static FRACTIONS: TableKind = TableKind {
+    name: "fractions",
+    about: "one row for each fate",
+    long: false,
+    columns: &[
+        Column {
+            name: "fate",
+            unit: "",
+            meaning: "incessant: to α*ₙ; decaying: ever lower; grounded",
+        },
+        Column { name: "n", unit: "", meaning: "index of the fixed point; 0 for decaying" },
+        Column {
+            name: "fraction_lower",
+            unit: "",
+            meaning: "the fraction of the window with this fate is at least this …",
+        },
+        Column {
+            name: "fraction_upper",
+            unit: "",
+            meaning: "… and at most this, which has all that is undecided",
+        },
+        Column { name: "length_lower", unit: SPEED, meaning: "the same as a length …" },
+        Column { name: "length_upper", unit: SPEED, meaning: "… from and to" },
+        Column { name: "intervals", unit: "", meaning: "number of intervals found" },
+    ],
+};
+
+static SEARCH: TableKind = TableKind {
+    name: "search",
+    about: "one row: the window, and what the intervals stand on",
+    long: false,
+    columns: &[
+        Column { name: "from", unit: SPEED, meaning: "lower end of the window" },
+        Column { name: "to", unit: SPEED, meaning: "upper end of the window" },
+        Column {
+            name: "undecided",
+            unit: SPEED,
+            meaning: "length of the window that is in no interval",
+        },
+        Column { name: "stopped", unit: "", meaning: "why the search ended" },
+        Column {
+            name: "branches",
+            unit: "",
+            meaning: "whether the branches of the map are proved to be complete",
+        },
+        Column {
+            name: "spacing",
+            unit: SPEED,
+            meaning: "branches narrower than this may be missing, if they are sampled",
+        },
+        Column {
+            name: "probes",
+            unit: "",
+            meaning: "random speeds whose fate was compared with their interval",
+        },
+        Column { name: "wrong_probes", unit: "", meaning: "those with another fate" },
+    ],
+};
+
+static INTERVALS: TableKind = TableKind {
+    name: "intervals",
+    about: "one row for each interval, from left to right; all its speeds have one fate",
+    long: true,
+    columns: &[
+        Column { name: "left", unit: SPEED, meaning: "lower end" },
+        Column { name: "right", unit: SPEED, meaning: "upper end" },
+        Column { name: "fate", unit: "", meaning: "incessant, decaying or grounded" },
+        Column { name: "n", unit: "", meaning: "index of the fixed point; 0 for decaying" },
+        Column {
+            name: "hops",
+            unit: "",
+            meaning: "hops until its orbits are in the trap, or grounded",
+        },
+    ],
+};
+
+/// Runs the command.
+pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> {
+    let form = options.output.form(PAGE.tables)?;
+    let &Options { from, to, undecided, shortest, .. } = options;
+    if from >= to {
+        let reason = format!(
+            "the window ends at --to {to}, which must be larger than --from; give a smaller --from"
+        );
+        return Err(Error::misuse("--from", from, &reason));
+    }
+    let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
+    let refinement =
+        Refinement { undecided, shortest, intervals: count(options.most), ..Refinement::default() };
+    let fates = Fates::new(options.mass_ratio)?;
+    let found = hopper_basins(&fates, from, to, count(options.samples), refinement)?;
+    let mut intervals = Table::new(&INTERVALS);
+    if form.shows(&INTERVALS, PAGE.tables) {
+        for part in found.basins.intervals() {
+            let (fate, n) = fate(part.label);
+            let (left, right) = (part.interval.left, part.interval.right);
+            intervals.push([left.into(), right.into(), fate.into(), n, part.level.into()]);
+        }
+    }
+    form.print(&[fractions(&found), search(&found), intervals], streams.output)
+}
+
+fn fractions(found: &HopperBasins) -> Table {
+    let mut table = Table::new(&FRACTIONS);
+    let window = found.basins.window().length();
+    for label in found.basins.labels() {
+        let length = found.basins.basin_length(label);
+        let (fate, n) = fate(label);
+        let own = found.basins.intervals().iter().filter(|part| part.label == label);
+        table.push([
+            fate.into(),
+            n,
+            (length.lower / window).into(),
+            (length.upper / window).into(),
+            length.lower.into(),
+            length.upper.into(),
+            own.count().into(),
+        ]);
+    }
+    table
+}
+
+fn search(found: &HopperBasins) -> Table {
+    let mut table = Table::new(&SEARCH);
+    let window = found.basins.window();
+    let (branches, spacing) = match found.ground {
+        BranchGround::Proved => ("proved", None),
+        BranchGround::Spacing { spacing } => ("sampled", Some(spacing)),
+    };
+    table.push([
+        window.left.into(),
+        window.right.into(),
+        found.basins.undecided().into(),
+        stopped(found.basins.stop_reason()).into(),
+        branches.into(),
+        spacing.into(),
+        found.probes.compared.into(),
+        found.probes.wrong.into(),
+    ]);
+    table
+}
+
+/// The fate of a label, and the index of its fixed point.
+fn fate(label: Label) -> (&'static str, Cell) {
+    if label == HopperFate::GROUNDED {
+        return ("grounded", Cell::Missing);
+    }
+    match label.basin_number() {
+        Some(0) => ("decaying", 0u64.into()),
+        Some(n) => ("incessant", u64::from(n).into()),
+        None => ("undecided", Cell::Missing),
+    }
+}
+
+/// A reason in words.
+fn stopped(reason: StopReason) -> &'static str {
+    match reason {
+        StopReason::Resolved => "no more than --undecided is left",
+        StopReason::AllFollowed => "every interval is followed; the rest is in no basin",
+        StopReason::SampledBranches => {
+            "no more than --undecided is left, but the branches are sampled"
+        }
+        StopReason::Contradiction => "contradiction: a branch is missing; take more --samples",
+        StopReason::ShortestInterval => "the others are shorter than --shortest",
+        StopReason::LevelLimit => "the largest level is reached",
+        StopReason::IntervalLimit => "--most intervals are found",
+    }
+}

@@ -1,0 +1,249 @@
+//! `hopper orbit`: an orbit hop by hop until its fate, with pictures of it.
+
+use crate::commands::fate;
+use crate::commands::page::{Example, Page};
+use crate::error::Error;
+use crate::options::form::OutputOptions;
+use crate::options::output_file::{self, Format, OutputFile};
+use crate::options::values;
+use crate::output::{Cell, Column, Table, TableKind, motion_table};
+use crate::streams::Streams;
+use hopper_basin::{Fates, HOP_BUDGET};
+use hopper_figures::{MapPlot, Motion, SECONDS_A_FRAME, draw_frame, draw_motion, frame_times};
+use journal_figures::{Svg, animated_gif, animated_png, render};
+use passive_hopper::{
+    BoundedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio, index_below,
+};
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub(crate) struct Options {
+    /// Lift-off speed α, in units of m₂gω/k
+    #[arg(value_name = "SPEED", value_parser = values::speed, allow_negative_numbers = true)]
+    speed: f64,
+    /// The mass ratio M = m₂/m₁, lower mass over upper mass
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    mass_ratio: MassRatio,
+    /// Follow this number of hops [default: until the fate is known, at most 1000]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(0..=MOST_HOPS), allow_negative_numbers = true)]
+    hops: Option<u64>,
+    /// Draw the orbit as a cobweb on the map: FILE.svg or FILE.png, or - for SVG on standard output
+    #[arg(long, value_name = "FILE", value_parser = output_file::figure)]
+    cobweb: Option<OutputFile>,
+    /// Write the motion of both masses: FILE.csv, or a figure FILE.svg or FILE.png, or - for CSV on standard output
+    #[arg(long, value_name = "FILE", value_parser = output_file::motion)]
+    motion: Option<OutputFile>,
+    /// Animate the hopper: FILE.gif or FILE.apng, or - for GIF on standard output
+    #[arg(long, value_name = "FILE", value_parser = output_file::animation)]
+    animate: Option<OutputFile>,
+    #[command(flatten)]
+    output: OutputOptions,
+}
+
+/// The most hops of a call: their table has some 100 MB.
+const MOST_HOPS: u64 = 1_000_000;
+
+/// The most hops unless --hops is given: a table that a person can read.
+const USUAL_HOPS: usize = 1000;
+
+/// The fewest hops of a picture unless --hops is given. An orbit that begins in a trap has its fate after none.
+const FEWEST_DRAWN: usize = 3;
+
+/// PNG pixels for each CSS pixel: of a figure for print, and of a frame for a screen.
+const PRINT_SCALE: f64 = 2.5;
+const SCREEN_SCALE: f64 = 1.0;
+
+/// The help beside the options.
+pub(crate) const PAGE: Page = Page {
+    units: "Speeds in m₂gω/k, times in 1/ω, lengths in m₂g/k, energies in m₁m₂g²/k; ω² = k(1+M)/m₂.",
+    limits: "Speeds up to 8796093022208 = 2⁴³; mass ratios from 2⁻¹⁰²² to 2¹⁰²²; up to 1000000 hops.\n\
+             The orbit ends early if the hopper is grounded, or at a hop that 1024 bits do not decide. A note says so.\n\
+             A picture of an orbit whose fate is known at once shows 3 hops. A cobweb shows up to 200 humps of the map, a motion\n\
+             has up to 1000000 samples, an animation up to 1200 frames, which is a minute.\n\
+             The columns of --motion FILE.csv: time, hop, phase (flight or contact), upper_position y₁, upper_velocity ẏ₁,\n\
+             lower_position y₂, lower_velocity ẏ₂. At a landing there are two lines: before the collision and after it.",
+    tables: &[&ORBIT, &fate::FATES],
+    examples: &[
+        Example { about: "The orbit, hop by hop.", line: "hopper orbit 7.0 -M 0.2" },
+        Example {
+            about: "Its cobweb, and the motion of both masses as a figure.",
+            line: "hopper orbit 7.0 -M 0.2 --cobweb cobweb.png --motion motion.svg",
+        },
+        Example {
+            about: "The motion of two hops as data.",
+            line: "hopper orbit 7.0 -M 0.2 --hops 2 --motion -",
+        },
+    ],
+};
+
+const SPEED: &str = "m₂gω/k";
+
+static ORBIT: TableKind = TableKind {
+    name: "orbit",
+    about: "one row for each lift-off",
+    long: false,
+    columns: &[
+        Column { name: "hop", unit: "", meaning: "hops before this lift-off" },
+        Column { name: "speed", unit: SPEED, meaning: "lift-off speed α" },
+        Column {
+            name: "error",
+            unit: SPEED,
+            meaning: "bound on the distance of the exact orbit from it",
+        },
+        Column {
+            name: "n",
+            unit: "",
+            meaning: "index of the fixed point α*ₙ at or below the speed",
+        },
+        Column { name: "offset", unit: SPEED, meaning: "α − α*ₙ" },
+        Column {
+            name: "sudden_lift_offs",
+            unit: "",
+            meaning: "sudden lift-offs in the hop from here",
+        },
+        Column { name: "flight_time", unit: "1/ω", meaning: "time in flight in this hop" },
+        Column {
+            name: "energy_loss", unit: "m₁m₂g²/k", meaning: "energy that its landings take"
+        },
+    ],
+};
+
+/// Runs the command.
+pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
+    let form = options.output.form(PAGE.tables)?;
+    let to_stdout = output_file::check(&[
+        ("--cobweb", options.cobweb.as_ref()),
+        ("--motion", options.motion.as_ref()),
+        ("--animate", options.animate.as_ref()),
+    ])?;
+    let fates = Fates::new(options.mass_ratio)?;
+    let found = fates.fate_within(options.speed, HOP_BUDGET)?;
+    let given = options.hops.map(|hops| usize::try_from(hops).unwrap_or(usize::MAX));
+    let orbit =
+        Orbit::follow(fates.map(), options.speed, given.unwrap_or(found.1.min(USUAL_HOPS)))?;
+    if given.is_none() && found.1 > USUAL_HOPS {
+        let text = format!(
+            "the fate is known after {} hops; the first {USUAL_HOPS} are shown, --hops shows more",
+            found.1
+        );
+        options.output.note(&mut streams, text);
+    }
+    if orbit.undecided {
+        let text =
+            format!("1024 bits do not decide hop {}; the orbit ends before it", orbit.speeds.len());
+        options.output.note(&mut streams, text);
+    }
+    let drawn = given.unwrap_or(orbit.hops().max(FEWEST_DRAWN));
+    if let Some(file) = &options.cobweb {
+        let longer = Orbit::follow(fates.map(), options.speed, drawn)?;
+        let plot = MapPlot {
+            map: fates.map(),
+            window: MapPlot::window_of(&longer.speeds, longer.grounded),
+            orbit: &longer.speeds,
+            grounded: longer.grounded,
+        };
+        file.write(&drawing("cobweb", file.format, &plot.draw()?)?, &options.output, &mut streams)?;
+    }
+    if options.motion.is_some() || options.animate.is_some() {
+        // A grounded hopper has one hop more: the one that does not end.
+        let motion = Motion::new(
+            options.mass_ratio,
+            options.speed,
+            drawn.max(1) + usize::from(orbit.grounded),
+        )?;
+        if let Some(file) = &options.motion {
+            let bytes = match file.format {
+                Format::Csv => motion_table(&motion).into_bytes(),
+                format => drawing("motion", format, &draw_motion(&motion))?,
+            };
+            file.write(&bytes, &options.output, &mut streams)?;
+        }
+        if let Some(file) = &options.animate {
+            let bytes = animation(&motion, file.format)?;
+            file.write(&bytes, &options.output, &mut streams)?;
+        }
+    }
+    options.output.explain(&mut streams, format_args!("arithmetic: {}", orbit.arithmetic));
+    if to_stdout {
+        return Ok(());
+    }
+    let mut fate = Table::new(&fate::FATES);
+    fate.push(fate::row(&fates, options.speed, found)?);
+    form.print(&[table(fates.map(), &orbit)?, fate], streams.output)
+}
+
+/// An orbit as it was followed.
+struct Orbit {
+    speeds: Vec<f64>,
+    errors: Vec<f64>,
+    grounded: bool,
+    undecided: bool,
+    arithmetic: String,
+}
+
+impl Orbit {
+    fn follow(map: &LiftOffMap, speed: f64, hops: usize) -> Result<Self, Error> {
+        let mut orbit = BoundedOrbit::new(map, speed)?;
+        let (mut speeds, mut errors) = (vec![speed], vec![0.0]);
+        // The hop after the last one is tried as well, to see whether the hopper is grounded there.
+        let mut end = ExtendedStep::LiftsOff;
+        while end == ExtendedStep::LiftsOff && speeds.len() <= hops + 1 {
+            end = orbit.hop()?;
+            if end == ExtendedStep::LiftsOff && speeds.len() <= hops {
+                speeds.push(orbit.speed());
+                errors.push(orbit.error());
+            } else if end == ExtendedStep::LiftsOff {
+                break;
+            }
+        }
+        let arithmetic = match orbit.arithmetic() {
+            None => "f64".into(),
+            Some(arithmetic) => format!("{arithmetic:?}"),
+        };
+        let grounded = end == ExtendedStep::Grounded;
+        let undecided = end == ExtendedStep::Inconclusive && speeds.len() <= hops;
+        Ok(Orbit { speeds, errors, grounded, undecided, arithmetic })
+    }
+
+    fn hops(&self) -> usize {
+        self.speeds.len() - 1
+    }
+}
+
+/// The table of an orbit.
+fn table(map: &LiftOffMap, orbit: &Orbit) -> Result<Table, Error> {
+    let mut table = Table::new(&ORBIT);
+    for (hop, (&speed, &error)) in orbit.speeds.iter().zip(&orbit.errors).enumerate() {
+        let n = index_below(speed)?;
+        // The hop of the rounded speed may be one that 1024 bits do not decide.
+        let details = map.hop(speed).ok();
+        let cells: [Cell; 8] = [
+            hop.into(),
+            speed.into(),
+            error.into(),
+            n.into(),
+            FixedPointSpeed::new(n).offset_of(speed).into(),
+            details.map(|hop| hop.sudden).into(),
+            details.map(|hop| hop.flight_time).into(),
+            details.map(|hop| hop.energy_loss(map.mass_ratio())).into(),
+        ];
+        table.push(cells);
+    }
+    Ok(table)
+}
+
+/// A drawing as the bytes of a file.
+pub(crate) fn drawing(name: &str, format: Format, svg: &Svg) -> Result<Vec<u8>, Error> {
+    let rendered = render(name, svg, PRINT_SCALE)?;
+    Ok(if format == Format::Svg { rendered.svg.into_bytes() } else { rendered.png })
+}
+
+/// The animation of a motion.
+fn animation(motion: &Motion, format: Format) -> Result<Vec<u8>, Error> {
+    let frame = |time: f64| Ok(render("frame", &draw_frame(motion, time), SCREEN_SCALE)?.png);
+    let frames = frame_times(motion)?.into_iter().map(frame).collect::<Result<Vec<_>, Error>>()?;
+    Ok(match format {
+        Format::Gif => animated_gif("animation", &frames, SECONDS_A_FRAME)?,
+        _ => animated_png("animation", &frames, SECONDS_A_FRAME)?,
+    })
+}

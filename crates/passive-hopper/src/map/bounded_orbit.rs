@@ -1,0 +1,143 @@
+//! An orbit with a bound on the error of each speed, in the shortest arithmetic that suffices.
+//!
+//! ```text
+//!   f64, sum of absolute values ──► f64, signed derivative ──► 106 … 1024 bits, from the start again
+//! ```
+//!
+//! The orbit goes one step to the right if a hop is inconclusive, or if its bound is larger than [`COARSE`].
+
+use crate::error::Error;
+use crate::map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep};
+use crate::map::hop_within::HopWithin;
+use crate::map::lift_off_map::LiftOffMap;
+
+/// A bound larger than this part of its speed moves the orbit to longer arithmetic: a table of speeds then shows nine digits at
+/// least. A smaller number costs time, since a hop in 106 bits takes fifty times as long; a larger one shows fewer digits.
+const COARSE: f64 = 1e-9;
+
+/// Most hops in each of [`Arithmetic::ALL`]: they take some tenths of a second. An orbit that needs more is inconclusive.
+const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
+
+/// The exact orbit of a speed, with a bound on the error of each speed that it shows.
+///
+/// ```
+/// use passive_hopper::{BoundedOrbit, ExtendedStep, LiftOffMap, MassRatio};
+/// let map = LiftOffMap::new(MassRatio::new(0.2)?);
+/// let mut orbit = BoundedOrbit::new(&map, 5.5)?;
+/// assert_eq!((orbit.speed(), orbit.error()), (5.5, 0.0));
+/// assert_eq!(orbit.hop()?, ExtendedStep::LiftsOff);
+/// assert!((orbit.speed() - 3.783365713345068).abs() <= orbit.error() && orbit.error() < 1e-11);
+/// # Ok::<(), passive_hopper::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct BoundedOrbit<'a> {
+    map: &'a LiftOffMap,
+    start: f64,
+    hops: usize,
+    speed: f64,
+    error: f64,
+    /// The orbit in longer arithmetic, once `f64` does not suffice.
+    extended: Option<(Arithmetic, ExtendedOrbit)>,
+}
+
+impl<'a> BoundedOrbit<'a> {
+    /// The orbit that starts at exactly `alpha`, under `map`.
+    ///
+    /// # Errors
+    /// The errors of [`LiftOffMap::check_speed`].
+    pub fn new(map: &'a LiftOffMap, alpha: f64) -> Result<Self, Error> {
+        map.check_speed(alpha)?;
+        Ok(BoundedOrbit { map, start: alpha, hops: 0, speed: alpha, error: 0.0, extended: None })
+    }
+
+    /// The number of hops since the start.
+    pub fn hops(&self) -> usize {
+        self.hops
+    }
+
+    /// The lift-off speed.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Bound on the distance of the exact orbit from [`speed`](Self::speed).
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// The arithmetic that the orbit needs; `None` for `f64`.
+    pub fn arithmetic(&self) -> Option<Arithmetic> {
+        self.extended.as_ref().map(|(arithmetic, _)| *arithmetic)
+    }
+
+    /// Follows one hop. After [`ExtendedStep::Grounded`] and [`ExtendedStep::Inconclusive`] the orbit stays where it was.
+    ///
+    /// # Errors
+    /// [`Error::SuddenLiftOffBudget`] after a million sudden lift-offs in a hop.
+    pub fn hop(&mut self) -> Result<ExtendedStep, Error> {
+        if self.extended.is_none() {
+            match self.plain_hop() {
+                HopWithin::Next { speed, error } => {
+                    (self.speed, self.error) = (speed, error);
+                    self.hops += 1;
+                    return Ok(ExtendedStep::LiftsOff);
+                }
+                HopWithin::Grounded => return Ok(ExtendedStep::Grounded),
+                HopWithin::Inconclusive => {}
+            }
+        }
+        let needed = self.arithmetic();
+        let longer = Arithmetic::ALL.into_iter().zip(EXTENDED_BUDGETS);
+        for (arithmetic, most) in longer.filter(|(other, _)| needed <= Some(*other)) {
+            if self.hops >= most {
+                break;
+            }
+            let orbit = match self.extended.take() {
+                Some((own, orbit)) if own == arithmetic => Some(orbit),
+                _ => self.followed_again(arithmetic)?,
+            };
+            let Some(mut orbit) = orbit else { continue };
+            match orbit.hop()? {
+                ExtendedStep::LiftsOff => {
+                    (self.speed, self.hops) = (orbit.speed(), self.hops + 1);
+                    // The speed shown is rounded to `f64`.
+                    self.error = orbit.error() + 0.5 * f64::EPSILON * self.speed;
+                    self.extended = Some((arithmetic, orbit));
+                    return Ok(ExtendedStep::LiftsOff);
+                }
+                ExtendedStep::Grounded => {
+                    self.extended = Some((arithmetic, orbit));
+                    return Ok(ExtendedStep::Grounded);
+                }
+                ExtendedStep::Inconclusive => {}
+            }
+        }
+        Ok(ExtendedStep::Inconclusive)
+    }
+
+    /// The next hop in `f64`; inconclusive also if its bound is too large.
+    fn plain_hop(&self) -> HopWithin {
+        let fine = |hop: &HopWithin| match *hop {
+            HopWithin::Next { speed, error } => error <= COARSE * speed,
+            HopWithin::Grounded => true,
+            HopWithin::Inconclusive => false,
+        };
+        let absolute = self.map.hop_within(self.speed, self.error);
+        if fine(&absolute) {
+            return absolute;
+        }
+        let signed = self.map.signed_hop_within(self.speed, self.error);
+        if fine(&signed) { signed } else { HopWithin::Inconclusive }
+    }
+
+    /// The orbit from its start to here in longer arithmetic; `None` if that leaves one of these hops inconclusive.
+    fn followed_again(&self, arithmetic: Arithmetic) -> Result<Option<ExtendedOrbit>, Error> {
+        let mut orbit = ExtendedOrbit::new(self.map, self.start, arithmetic)?;
+        for _ in 0..self.hops {
+            if orbit.hop()? != ExtendedStep::LiftsOff {
+                return Ok(None);
+            }
+        }
+        Ok(Some(orbit))
+    }
+}
