@@ -1,7 +1,7 @@
 //! Calls of `hopper basins` that are killed at any instant, beside others or alone, and full disks: no result has wrong bytes, and
 //! no exit status is wrong.
 //!
-//! `HOPPER_KILLS=200 cargo test --release -p hopper --test kills -- --nocapture` kills 200 calls, and prints what happened.
+//! `HOPPER_KILLS=200 cargo test -p hopper --test kills -- --nocapture` kills 200 calls, and prints what happened.
 
 #![cfg(unix)]
 #![allow(

@@ -215,7 +215,7 @@ mod tests {
         assert_eq!(found(&kept, 3), Found::Missing);
         kept.write(3, b"some bytes").unwrap();
         kept.write(4, b"").unwrap();
-        [12, 3, 12].map(|of| kept.note_parts(of).unwrap());
+        [12, 3, 12].into_iter().for_each(|of| kept.note_parts(of).unwrap());
         assert_eq!(kept.numbers_of_parts().unwrap(), [3, 12]);
         let again = Pieces::open(&folder, "a job").unwrap();
         assert_eq!(found(&again, 3), Found::Finished(b"some bytes".to_vec()));

@@ -24,7 +24,7 @@ impl Interrupt {
     pub(crate) fn watch() -> Result<Self, Error> {
         let interrupt = Interrupt::default();
         let second = Arc::new(AtomicBool::new(false));
-        let watch = || {
+        let watch = || -> std::io::Result<()> {
             for number in [SIGINT, SIGTERM] {
                 // The actions of a signal run in this order: the first signal finds `second` false, and sets it.
                 let status = i32::from(STATUS_OF_SIGNALS) + number;
@@ -38,7 +38,8 @@ impl Interrupt {
             flag::register(signal_hook::consts::SIGXFSZ, Arc::new(AtomicBool::new(false)))?;
             Ok(())
         };
-        watch().map_err(Error::at("the signals of this process".as_ref()))?;
+        let path = "the signals of this process".into();
+        watch().map_err(|source| Error::File { path, source })?;
         Ok(interrupt)
     }
 

@@ -128,7 +128,7 @@ impl JobFolder {
     /// As [`write`](Self::write).
     pub(crate) fn write_summary(&self, name: &str, value: &serde_json::Value) -> Result<(), Error> {
         let text = serde_json::to_string_pretty(value)
-            .map_err(|error| Error::at(name.as_ref())(error.into()))?;
+            .map_err(|error| Error::File { path: self.path.join(name), source: error.into() })?;
         self.write(name, text.as_bytes())
     }
 
