@@ -32,6 +32,8 @@ pub(crate) enum Layer {
 /// The names of a layer's files.
 pub(crate) struct Names {
     pub(crate) tiles: &'static str,
+    /// What messages call a tile.
+    pub(crate) unit: &'static str,
     pub(crate) array: &'static str,
     pub(crate) picture: &'static str,
     /// Written last.
@@ -43,12 +45,14 @@ impl Layer {
         match self {
             Layer::Label => Names {
                 tiles: "tiles",
+                unit: "tiles",
                 array: "basin.npy",
                 picture: "basin.png",
                 summary: "legend.json",
             },
             Layer::Hops => Names {
                 tiles: "tiles_hops",
+                unit: "tiles of hops",
                 array: "hops.npy",
                 picture: "hops.png",
                 summary: "hops.json",

@@ -62,7 +62,7 @@ fn one_layer(
             let columns = TILE.min(grid.columns);
             let work = Work {
                 folder: names.tiles,
-                unit: "tiles",
+                unit: names.unit,
                 count: tiles,
                 pixels: columns * grid.rows,
             };
