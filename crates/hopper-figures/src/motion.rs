@@ -103,10 +103,20 @@ impl Motion {
         self.samples.last().map_or(0.0, |sample| sample.time)
     }
 
-    /// The sample next to a time, at or before it.
-    pub fn at(&self, time: f64) -> Option<&Sample> {
+    /// The state at a time, on the straight line between the samples before and after it; `None` for a motion without samples.
+    pub fn at(&self, time: f64) -> Option<HopperState> {
         let after = self.samples.partition_point(|sample| sample.time <= time);
-        self.samples.get(after.saturating_sub(1))
+        let before = self.samples.get(after.saturating_sub(1))?;
+        let Some(after) = self.samples.get(after) else { return Some(before.state) };
+        let part = ((time - before.time) / (after.time - before.time)).clamp(0.0, 1.0);
+        let (from, to) = (before.state, after.state);
+        let between = |of: fn(&HopperState) -> f64| of(&from) + part * (of(&to) - of(&from));
+        Some(HopperState {
+            upper_position: between(|s| s.upper_position),
+            upper_velocity: between(|s| s.upper_velocity),
+            lower_position: between(|s| s.lower_position),
+            lower_velocity: between(|s| s.lower_velocity),
+        })
     }
 
     /// The smallest and the largest value of a coordinate.

@@ -52,10 +52,10 @@ pub fn draw_frame(motion: &Motion, time: f64) -> Svg {
     draw_curves(&mut svg, &frame, motion);
     let labels = ("time $τ$ (units of 1/$ω$)", "$y$_{1}, $y$_{2} (units of $m$_{2}$g$/$k$)");
     frame.axes(&mut svg, &ticks(frame.x, 5), &ticks(frame.y, 6), labels.0, labels.1);
-    if let Some(sample) = motion.at(time) {
+    if let Some(state) = motion.at(time) {
         let x = frame.at((time, 0.0)).0;
         svg.line((x, frame.top), (x, frame.top + frame.height), Pen::solid("#777", 0.8));
-        let ends = [(sample.state.upper_position, UPPER), (sample.state.lower_position, LOWER)];
+        let ends = [(state.upper_position, UPPER), (state.lower_position, LOWER)];
         for (value, pen) in ends {
             let (x, y) = frame.at((time, value));
             svg.dot(x, y, 4.0, pen.color);
@@ -69,7 +69,7 @@ pub fn draw_frame(motion: &Motion, time: f64) -> Svg {
 
 /// The hopper at a time.
 fn draw_machine(svg: &mut Svg, motion: &Motion, time: f64) {
-    let Some(sample) = motion.at(time) else { return };
+    let Some(state) = motion.at(time) else { return };
     let kappa = motion.mass_ratio.kappa();
     let height = |share: f64| BLOCKS * share.clamp(0.25, 0.75);
     let (lower_block, upper_block) = (height(kappa), height(1.0 - kappa));
@@ -80,7 +80,7 @@ fn draw_machine(svg: &mut Svg, motion: &Motion, time: f64) {
     let lift = (highest - shortest).max(f64::MIN_POSITIVE);
     let scale = (1.0 - SHORTEST) * room / lift;
     let relaxed = SHORTEST * room - scale * shortest;
-    let (y1, y2) = (sample.state.upper_position, sample.state.lower_position);
+    let (y1, y2) = (state.upper_position, state.lower_position);
     let lower_bottom = GROUND - scale * y2;
     let upper_bottom = GROUND - lower_block - relaxed - scale * y1;
     draw_ground(svg, MIDDLE, GROUND);

@@ -11,7 +11,7 @@ pub(crate) enum Error {
     #[error("{0}")]
     Misuse(String),
     /// A line of the input is wrong.
-    #[error("standard input, line {line}: '{text}' {reason}")]
+    #[error("standard input, line {line}, '{text}': {reason}")]
     Input {
         /// The line, from one.
         line: u64,

@@ -21,7 +21,7 @@
 //! };
 //! let code = hopper::run(["hopper", "hop", "5.5", "-M", "0.2", "--csv"].map(Into::into), streams);
 //! assert_eq!(code, 0);
-//! assert!(String::from_utf8_lossy(&output).contains("3.783365713345068"));
+//! assert!(String::from_utf8_lossy(&output).contains("3.78336571334506"));
 //! ```
 //!
 //! # Exit status

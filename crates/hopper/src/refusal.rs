@@ -8,7 +8,7 @@ const LONGEST_VALUE: usize = 60;
 
 /// The message of the argument parser as one line: what is wrong, and the nearest name or the names that exist.
 pub(crate) fn line(error: &clap::Error, arguments: &[OsString]) -> String {
-    if let Some(text) = infinite_argument(error, arguments) {
+    if let Some(text) = negative_argument(error, arguments) {
         return text;
     }
     let text = error.to_string();
@@ -31,16 +31,27 @@ pub(crate) fn line(error: &clap::Error, arguments: &[OsString]) -> String {
     parts.join("; ").replace(":; ", ": ") + remedy
 }
 
-/// "-inf" begins like an option. It is a number that no option takes.
-fn infinite_argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
+/// "-inf" and "-1e-6" begin like options. They are numbers that no argument takes.
+fn negative_argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     if error.kind() != ErrorKind::UnknownArgument {
         return None;
     }
-    let is_negative = |text: &&str| text.starts_with('-') && text.len() > 1;
-    let infinite = |text: &&str| text.parse::<f64>().is_ok_and(|value| !value.is_finite());
-    let texts = arguments.iter().filter_map(|argument| argument.to_str());
-    let found = texts.filter(is_negative).find(infinite)?;
-    Some(format!("'{found}' is not a finite number; give a number such as 7.5 or 1e-3"))
+    let is_number = |text: &&str| {
+        let rest = text.strip_prefix('-').unwrap_or_default();
+        rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') || rest.parse::<f64>().is_ok()
+    };
+    let found = arguments.iter().filter_map(|argument| argument.to_str()).find(is_number)?;
+    let finite = found.parse::<f64>().is_ok_and(f64::is_finite);
+    let found = shortened(found);
+    Some(if finite {
+        format!(
+            "'{found}' is negative, or not expected here; give a positive number such as 7.5 or 1e-3"
+        )
+    } else {
+        format!(
+            "'{found}' is not a finite number, or not expected here; give a number such as 7.5 or 1e-3"
+        )
+    })
 }
 
 /// A text with its line breaks and control characters written out.

@@ -17,7 +17,7 @@ pub(crate) struct Options {
     #[arg(value_name = "SPEED", num_args = 0.., value_parser = values::speed_or_input, allow_negative_numbers = true)]
     speeds: Vec<values::SpeedOrInput>,
     /// The mass ratio M = m₂/m₁, lower mass over upper mass
-    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     #[command(flatten)]
     output: OutputOptions,

@@ -6,7 +6,7 @@ use crate::options::form::OutputOptions;
 use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
-use passive_hopper::{LiftOffMap, MassRatio, Solver};
+use passive_hopper::{Landing, LiftOffMap, MassRatio, Solver, contact_time};
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
@@ -15,7 +15,7 @@ pub(crate) struct Options {
     #[arg(value_name = "SPEED", required = true, num_args = 1.., value_parser = values::speed, allow_negative_numbers = true)]
     speeds: Vec<f64>,
     /// The mass ratio M = m₂/m₁, lower mass over upper mass
-    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     #[command(flatten)]
     output: OutputOptions,
@@ -50,11 +50,19 @@ static HOPS: TableKind = TableKind {
         Column { name: "next_error", unit: SPEED, meaning: "bound on the error of α′" },
         Column { name: "speed_loss", unit: SPEED, meaning: "α − α′, without cancellation" },
         Column {
+            name: "energy_loss", unit: "m₁m₂g²/k", meaning: "energy that the landings take"
+        },
+        Column {
             name: "sudden_lift_offs",
             unit: "",
             meaning: "landings at which the spring pulls the lower mass off at once",
         },
         Column { name: "flight_time", unit: TIME, meaning: "time in flight" },
+        Column {
+            name: "contact_time",
+            unit: TIME,
+            meaning: "time on the ground from the last landing to the next lift-off",
+        },
         Column { name: "slope", unit: "", meaning: "∂α′/∂α" },
         Column { name: "mass_ratio_slope", unit: SPEED, meaning: "∂α′/∂M" },
         Column {
@@ -84,9 +92,17 @@ static LANDINGS: TableKind = TableKind {
             meaning: "y₁ − 1; a sudden lift-off follows if it is positive",
         },
         Column {
+            name: "excess_error",
+            unit: "m₂g/k",
+            meaning: "bound on its error, if the hop has a sudden lift-off",
+        },
+        Column {
             name: "upper_velocity",
             unit: SPEED,
             meaning: "ẏ₁, which the collision does not change",
+        },
+        Column {
+            name: "energy_loss", unit: "m₁m₂g²/k", meaning: "energy that the landing takes"
         },
         Column { name: "sudden", unit: "", meaning: "whether a sudden lift-off follows" },
     ],
@@ -100,14 +116,20 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
     for &speed in &options.speeds {
         let bounded = map.bounded_hop(speed)?;
         let (hop, slopes) = (bounded.hop, map.slopes(speed)?);
+        let last = bounded.landings.last().map(|last| last.landing);
+        let time = |last: Landing| contact_time(options.mass_ratio, last.excess, last.velocity);
+        // A grounded hopper is in contact for ever.
+        let contact = last.filter(|_| hop.next.is_some()).map(time).transpose()?.flatten();
         hops.push([
             speed.into(),
             if hop.next.is_some() { "lifts off" } else { "grounded" }.into(),
             hop.next.into(),
             bounded.next_error.into(),
             hop.loss.into(),
+            hop.energy_loss(options.mass_ratio).into(),
             hop.sudden.into(),
             hop.flight_time.into(),
+            contact.into(),
             slopes.map(|slopes| slopes.by_speed).into(),
             slopes.map(|slopes| slopes.by_mass_ratio).into(),
             solver(bounded.solver),
@@ -120,7 +142,9 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
                 landing.time.into(),
                 landing.closing_speed.into(),
                 landing.excess.into(),
+                bounded.state_error.map(|error| error.excess).into(),
                 landing.velocity.into(),
+                landing.energy_loss(options.mass_ratio).into(),
                 landing.sudden.into(),
             ]);
         }

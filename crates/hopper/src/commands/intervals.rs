@@ -14,25 +14,25 @@ use passive_hopper::MassRatio;
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct Options {
     /// The mass ratio M = m₂/m₁, lower mass over upper mass
-    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     /// Index of the fixed point at which the window begins; 0 is the speed 0
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..MOST_HUMPS), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..MOST_HUMPS), allow_hyphen_values = true)]
     from: u64,
     /// Index of the fixed point at which the window ends
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(1..=MOST_HUMPS), allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(1..=MOST_HUMPS), allow_hyphen_values = true)]
     to: u64,
     /// Stop when no more than this length is undecided, in units of m₂gω/k
-    #[arg(long, value_name = "LENGTH", default_value = "1e-4", value_parser = values::not_negative, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "1e-4", value_parser = values::not_negative, allow_hyphen_values = true)]
     undecided: f64,
     /// Do not follow intervals shorter than this, in units of m₂gω/k
-    #[arg(long, value_name = "LENGTH", default_value = "1e-12", value_parser = values::not_negative, allow_negative_numbers = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "1e-12", value_parser = values::not_negative, allow_hyphen_values = true)]
     shortest: f64,
     /// Stop at this number of intervals
-    #[arg(long, value_name = "COUNT", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=10_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=10_000_000), allow_hyphen_values = true)]
     most: u64,
     /// Points in which each sudden window is searched for branches of the map
-    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u64).range(2..=1_000_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u64).range(2..=1_000_000), allow_hyphen_values = true)]
     samples: u64,
     #[command(flatten)]
     output: OutputOptions,

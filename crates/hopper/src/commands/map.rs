@@ -16,13 +16,13 @@ use passive_hopper::{LiftOffMap, MassRatio, alpha_star, index_below};
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct Options {
     /// The mass ratio M = m₂/m₁, lower mass over upper mass
-    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     /// The window of lift-off speeds, in units of m₂gω/k [default: from 0 to the sixth fixed point, 20.37]
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"], value_parser = values::speed_or_zero, allow_hyphen_values = true)]
     speed: Option<Vec<f64>>,
     /// Points on each piece of the curve
-    #[arg(long, value_name = "COUNT", default_value_t = 120, value_parser = clap::value_parser!(u64).range(2..=100_000), allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", default_value_t = 120, value_parser = clap::value_parser!(u64).range(2..=100_000), allow_hyphen_values = true)]
     points: u64,
     /// Draw the map: FILE.svg or FILE.png, or - for SVG on standard output
     #[arg(long, value_name = "FILE", value_parser = output_file::figure)]

@@ -14,6 +14,7 @@ use journal_figures::{Svg, animated_gif, animated_png, render};
 use passive_hopper::{
     BoundedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio, index_below,
 };
+use rayon::prelude::*;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
@@ -22,10 +23,10 @@ pub(crate) struct Options {
     #[arg(value_name = "SPEED", value_parser = values::speed, allow_negative_numbers = true)]
     speed: f64,
     /// The mass ratio M = m₂/m₁, lower mass over upper mass
-    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_negative_numbers = true)]
+    #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     /// Follow this number of hops [default: until the fate is known, at most 1000]
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(0..=MOST_HOPS), allow_negative_numbers = true)]
+    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(0..=MOST_HOPS), allow_hyphen_values = true)]
     hops: Option<u64>,
     /// Draw the orbit as a cobweb on the map: FILE.svg or FILE.png, or - for SVG on standard output
     #[arg(long, value_name = "FILE", value_parser = output_file::figure)]
@@ -51,7 +52,7 @@ const FEWEST_DRAWN: usize = 3;
 
 /// PNG pixels for each CSS pixel: of a figure for print, and of a frame for a screen.
 const PRINT_SCALE: f64 = 2.5;
-const SCREEN_SCALE: f64 = 1.0;
+const SCREEN_SCALE: f64 = 0.75;
 
 /// The help beside the options.
 pub(crate) const PAGE: Page = Page {
@@ -121,19 +122,9 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     let given = options.hops.map(|hops| usize::try_from(hops).unwrap_or(usize::MAX));
     let orbit =
         Orbit::follow(fates.map(), options.speed, given.unwrap_or(found.1.min(USUAL_HOPS)))?;
-    if given.is_none() && found.1 > USUAL_HOPS {
-        let text = format!(
-            "the fate is known after {} hops; the first {USUAL_HOPS} are shown, --hops shows more",
-            found.1
-        );
-        options.output.note(&mut streams, text);
-    }
-    if orbit.undecided {
-        let text =
-            format!("1024 bits do not decide hop {}; the orbit ends before it", orbit.speeds.len());
-        options.output.note(&mut streams, text);
-    }
+    // All pictures are made before the first file is written: a refusal leaves no file.
     let drawn = given.unwrap_or(orbit.hops().max(FEWEST_DRAWN));
+    let mut files: Vec<(&OutputFile, Vec<u8>)> = Vec::new();
     if let Some(file) = &options.cobweb {
         let longer = Orbit::follow(fates.map(), options.speed, drawn)?;
         let plot = MapPlot {
@@ -142,34 +133,67 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
             orbit: &longer.speeds,
             grounded: longer.grounded,
         };
-        file.write(&drawing("cobweb", file.format, &plot.draw()?)?, &options.output, &mut streams)?;
+        let svg = plot.draw().map_err(|error| refused("--cobweb", error))?;
+        files.push((file, drawing("cobweb", file.format, &svg)?));
     }
-    if options.motion.is_some() || options.animate.is_some() {
-        // A grounded hopper has one hop more: the one that does not end.
-        let motion = Motion::new(
-            options.mass_ratio,
-            options.speed,
-            drawn.max(1) + usize::from(orbit.grounded),
-        )?;
-        if let Some(file) = &options.motion {
-            let bytes = match file.format {
-                Format::Csv => motion_table(&motion).into_bytes(),
-                format => drawing("motion", format, &draw_motion(&motion))?,
-            };
-            file.write(&bytes, &options.output, &mut streams)?;
+    // A grounded hopper has one hop more: the one that does not end.
+    let hops = drawn.max(1) + usize::from(orbit.grounded);
+    let motion = |option: &str| {
+        let motion = Motion::new(options.mass_ratio, options.speed, hops);
+        motion.map_err(|error| refused(&format!("{option}, --hops {hops}"), error))
+    };
+    if let Some(file) = &options.motion {
+        let motion = motion("--motion")?;
+        let bytes = match file.format {
+            Format::Csv => motion_table(&motion).into_bytes(),
+            format => drawing("motion", format, &draw_motion(&motion))?,
+        };
+        files.push((file, bytes));
+    }
+    if let Some(file) = &options.animate {
+        let motion = motion("--animate")?;
+        let refused = |error| refused(&format!("--animate, --hops {hops}"), error);
+        let times = frame_times(&motion).map_err(refused)?;
+        files.push((file, animation(&motion, &times, file.format)?));
+    }
+    for (file, bytes) in files {
+        file.write(&bytes, &options.output, &mut streams)?;
+    }
+    if !to_stdout {
+        let mut fate = Table::new(&fate::FATES);
+        fate.push(fate::row(&fates, options.speed, found)?);
+        form.print(&[table(fates.map(), &orbit)?, fate], streams.output)?;
+    }
+    note_the_end(options, &orbit, found.1, &mut streams);
+    Ok(())
+}
+
+/// Notes why the orbit ends where it ends.
+fn note_the_end(options: &Options, orbit: &Orbit, hops: usize, streams: &mut Streams<'_>) {
+    if options.hops.is_none() && hops > USUAL_HOPS {
+        let text = format!(
+            "the fate is known after {hops} hops; {USUAL_HOPS} are shown, --hops shows more"
+        );
+        options.output.note(streams, text);
+    }
+    if orbit.undecided {
+        let hop = orbit.speeds.len();
+        let text = format!("1024 bits do not decide hop {hop}; the orbit ends before it");
+        options.output.note(streams, text);
+    }
+    options.output.explain(streams, format_args!("arithmetic: {}", orbit.arithmetic));
+}
+
+/// A picture that would be too large is a wrong call.
+fn refused(option: &str, error: hopper_figures::Error) -> Error {
+    match error {
+        error @ (hopper_figures::Error::TooLong { .. }
+        | hopper_figures::Error::TooWide { .. }
+        | hopper_figures::Error::TooManyFrames { .. }) => {
+            Error::Misuse(format!("{option}: {error}"))
         }
-        if let Some(file) = &options.animate {
-            let bytes = animation(&motion, file.format)?;
-            file.write(&bytes, &options.output, &mut streams)?;
-        }
+        error => error.into(),
     }
-    options.output.explain(&mut streams, format_args!("arithmetic: {}", orbit.arithmetic));
-    if to_stdout {
-        return Ok(());
-    }
-    let mut fate = Table::new(&fate::FATES);
-    fate.push(fate::row(&fates, options.speed, found)?);
-    form.print(&[table(fates.map(), &orbit)?, fate], streams.output)
 }
 
 /// An orbit as it was followed.
@@ -239,9 +263,9 @@ pub(crate) fn drawing(name: &str, format: Format, svg: &Svg) -> Result<Vec<u8>, 
 }
 
 /// The animation of a motion.
-fn animation(motion: &Motion, format: Format) -> Result<Vec<u8>, Error> {
-    let frame = |time: f64| Ok(render("frame", &draw_frame(motion, time), SCREEN_SCALE)?.png);
-    let frames = frame_times(motion)?.into_iter().map(frame).collect::<Result<Vec<_>, Error>>()?;
+fn animation(motion: &Motion, times: &[f64], format: Format) -> Result<Vec<u8>, Error> {
+    let frame = |&time: &f64| Ok(render("frame", &draw_frame(motion, time), SCREEN_SCALE)?.png);
+    let frames = times.par_iter().map(frame).collect::<Result<Vec<_>, Error>>()?;
     Ok(match format {
         Format::Gif => animated_gif("animation", &frames, SECONDS_A_FRAME)?,
         _ => animated_png("animation", &frames, SECONDS_A_FRAME)?,

@@ -16,19 +16,19 @@ pub(crate) struct Options {
     #[arg(value_name = "QUANTITY", value_parser = quantity::any, allow_negative_numbers = true)]
     quantities: Vec<Quantity>,
     /// m₁, the upper mass, such as 80g
-    #[arg(long, value_name = "MASS", value_parser = quantity::mass, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MASS", value_parser = quantity::mass, allow_hyphen_values = true)]
     upper: f64,
     /// m₂, the lower mass, such as 16g
-    #[arg(long, value_name = "MASS", value_parser = quantity::mass, allow_negative_numbers = true)]
+    #[arg(long, value_name = "MASS", value_parser = quantity::mass, allow_hyphen_values = true)]
     lower: f64,
     /// k, the stiffness of the spring, such as 120N/m
-    #[arg(long, value_name = "STIFFNESS", value_parser = quantity::stiffness, allow_negative_numbers = true)]
+    #[arg(long, value_name = "STIFFNESS", value_parser = quantity::stiffness, allow_hyphen_values = true)]
     stiffness: f64,
     /// g, the acceleration of gravity; the default is the standard one
-    #[arg(long, value_name = "ACCELERATION", value_parser = quantity::acceleration, default_value = "9.80665m/s²", allow_negative_numbers = true)]
+    #[arg(long, value_name = "ACCELERATION", value_parser = quantity::acceleration, default_value = "9.80665m/s²", allow_hyphen_values = true)]
     gravity: f64,
     /// Dimensionless lift-off speeds α to give in metres per second
-    #[arg(long, value_name = "SPEED", num_args = 1.., value_parser = values::speed, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SPEED", num_args = 1.., value_parser = values::speed, allow_hyphen_values = true)]
     alpha: Vec<f64>,
     #[command(flatten)]
     output: OutputOptions,

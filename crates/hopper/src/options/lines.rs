@@ -51,7 +51,7 @@ pub(crate) fn filter(
             Some(at) => kept + at + 1,
             None if filled == block.len() => {
                 let text = shortened(&String::from_utf8_lossy(&block[..filled]));
-                let reason = format!("is longer than {BLOCK} bytes; give one number a line");
+                let reason = format!("it is longer than {BLOCK} bytes; give one number a line");
                 return Err(Error::Input { line: line + 1, text, reason });
             }
             None => {
@@ -163,7 +163,7 @@ mod tests {
                 .map(|(k, v)| format!("{v}{}", if first && k == 0 { "!" } else { "," }))
                 .collect())
         };
-        let value = |text: &str| text.parse().map_err(|_| "is no number".to_owned());
+        let value = |text: &str| text.parse().map_err(|_| "it is no number".to_owned());
         let result = filter(&mut streams, value, write);
         (String::from_utf8(output).unwrap(), result)
     }
@@ -189,7 +189,7 @@ mod tests {
             let (output, result) = filtered(&format!("{many}seven\n8\n"), at_a_time);
             assert!(output.ends_with("49998,49999,"), "{at_a_time}");
             let message = result.unwrap_err().to_string();
-            assert_eq!(message, "standard input, line 50001: 'seven' is no number");
+            assert_eq!(message, "standard input, line 50001, 'seven': it is no number");
         }
         let long = "1".repeat(BLOCK + 1);
         assert!(matches!(filtered(&long, 1 << 20).1, Err(Error::Input { line: 1, .. })));

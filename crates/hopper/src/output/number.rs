@@ -1,6 +1,11 @@
 //! Numbers as text.
 
-/// The shortest decimal form that reads back as the same number: with an exponent below 10⁻⁵ and from 10¹⁶ on.
+use std::fmt::Write;
+
+/// Smaller numbers are shorter with an exponent: 1e-5 and not 0.00001.
+const SMALLEST_WITHOUT_EXPONENT: f64 = 1e-4;
+
+/// The shortest decimal form that reads back as the same number: with an exponent below 10⁻⁴ and from 10¹⁶ on.
 pub(crate) fn number(value: f64) -> String {
     let mut text = String::new();
     append_number(value, &mut text);
@@ -11,8 +16,16 @@ pub(crate) fn number(value: f64) -> String {
 pub(crate) fn append_number(value: f64, text: &mut String) {
     // Several times as fast as the formatter of the standard library, which a filter notices.
     let mut buffer = zmij::Buffer::new();
+    if value != 0.0 && value.abs() < SMALLEST_WITHOUT_EXPONENT {
+        // Writing to a string does not fail.
+        let _ = write!(text, "{value:e}");
+        return;
+    }
     let digits = buffer.format(value);
-    *text += digits.strip_suffix(".0").unwrap_or(digits);
+    match digits.split_once("e+") {
+        Some((mantissa, exponent)) => text.extend([mantissa, "e", exponent]),
+        None => *text += digits.strip_suffix(".0").unwrap_or(digits),
+    }
 }
 
 #[cfg(test)]
@@ -32,8 +45,9 @@ mod tests {
             let value = f64::from_bits(bits);
             if value.is_finite() {
                 let text = number(value);
+                // Another formatter of shortest digits needs no fewer.
                 let shortest = format!("{value:?}");
-                assert_eq!(text, shortest.strip_suffix(".0").unwrap_or(&shortest));
+                assert!(text.len() <= shortest.len(), "{text} {shortest}");
                 assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits(), "{text}");
                 assert!(text.len() <= 24, "{text}");
             }

@@ -58,7 +58,7 @@ mod tests {
     fn errors_name_the_invalid_value() {
         for value in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e-310, 1e308, -0.0] {
             let error = MassRatio::new(value).unwrap_err();
-            assert!(error.to_string().contains(&value.to_string()), "{error}");
+            assert!(error.to_string().contains(&format!("{value:?}")), "{error}");
         }
     }
 

@@ -126,6 +126,6 @@ mod tests {
     #[test]
     fn errors_name_the_parameter() {
         let error = PhysicalHopper::new(1.0, 1.0, -3.0, 9.8).unwrap_err();
-        assert_eq!(error.to_string(), "k must be positive and finite, not -3");
+        assert_eq!(error.to_string(), "k must be positive and finite, not -3.0");
     }
 }

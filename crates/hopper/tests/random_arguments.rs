@@ -1,0 +1,147 @@
+//! Thousands of random calls: no panic, a known exit status, one line for a refusal.
+
+mod common;
+
+use basin_of_attraction::SplitMix64;
+use common::call;
+use std::panic::catch_unwind;
+
+/// Words that calls are made of: names, options, values, and what is none.
+const WORDS: &[&str] = &[
+    "hop",
+    "orbit",
+    "fate",
+    "map",
+    "intervals",
+    "units",
+    "completions",
+    "manual",
+    "help",
+    "bash",
+    "-M",
+    "--mass-ratio",
+    "--mass-ratio=0.2",
+    "-M1",
+    "--json",
+    "--csv",
+    "--table",
+    "--quiet",
+    "-v",
+    "-qv",
+    "--hops",
+    "--speed",
+    "--points",
+    "--from",
+    "--to",
+    "--undecided",
+    "--shortest",
+    "--most",
+    "--samples",
+    "--upper",
+    "--lower",
+    "--stiffness",
+    "--gravity",
+    "--alpha",
+    "--motion",
+    "--cobweb",
+    "--figure",
+    "--animate",
+    "--help",
+    "-h",
+    "--version",
+    "--",
+    "-",
+    "--=",
+    "---",
+    "-=",
+    "",
+    " ",
+    "\n",
+    "\t7",
+    "7 ",
+    "\u{0}",
+    "é",
+    "−7",
+    "7",
+    "4.55",
+    "0.2",
+    "1",
+    "2",
+    "3",
+    "0",
+    "-0",
+    "-1",
+    "1e-300",
+    "1e300",
+    "1e-5",
+    "1e9",
+    "5e-324",
+    "inf",
+    "-inf",
+    "nan",
+    "-nan",
+    "1e",
+    "e1",
+    ".",
+    "-.",
+    "+",
+    "1_000",
+    "0x1p3",
+    "80g",
+    "16g",
+    "120N/m",
+    "9.81m/s2",
+    "1.2m/s",
+    "-3cm",
+    "2e5mJ",
+    "g",
+    "fates",
+    "curve",
+    "hops",
+    "values",
+    "search",
+    "{}",
+    "%n",
+    "$HOME",
+    "a b",
+    "'",
+    "\"",
+    "\\",
+];
+
+#[test]
+fn random_calls_never_panic() {
+    let random = SplitMix64::from_seed(2026);
+    let mut at = 0;
+    let mut next = |most: usize| {
+        at += 1;
+        (random.uniform(at) * most as f64) as usize
+    };
+    let mut codes = [0u32; 3];
+    for k in 0..6000 {
+        let mut arguments: Vec<&str> = (0..next(9)).map(|_| WORDS[next(WORDS.len())]).collect();
+        // Two of three calls begin as a sensible one does, so that the words reach further.
+        match k % 3 {
+            0 => arguments.splice(0..0, [WORDS[next(6)], "-M", "0.2"]).for_each(drop),
+            1 => arguments.insert(0, WORDS[next(8)]),
+            _ => {}
+        }
+        // A file with a random ending would be written.
+        let writes = ["--motion", "--cobweb", "--figure", "--animate"];
+        if arguments.iter().any(|word| writes.contains(word)) {
+            arguments.retain(|word| !word.contains('.') || *word == "4.55" || *word == "0.2");
+        }
+        let input: Vec<u8> = (0..next(40)).map(|_| b"0123456789.e-\n\r \xff#"[next(18)]).collect();
+        let called = catch_unwind(|| call(&arguments, &input));
+        let called = called.unwrap_or_else(|_| panic!("panic: {arguments:?} {input:?}"));
+        assert!(called.code <= 2, "{arguments:?}: {}", called.messages);
+        codes[usize::from(called.code)] += 1;
+        assert!(called.code != 0 || !called.output.is_empty() || called.messages.is_empty());
+        if called.code > 0 {
+            let lines = called.messages.lines().filter(|line| line.starts_with("error: "));
+            assert_eq!(lines.count(), 1, "{arguments:?}: {}", called.messages);
+            assert!(called.messages.ends_with('\n'), "{arguments:?}");
+        }
+    }
+    assert!(codes[0] > 100 && codes[2] > 3000, "{codes:?}");
+}

@@ -1,0 +1,118 @@
+//! Standard streams: filters, numbers that read back, readers that go away, full disks.
+
+mod common;
+
+use common::call;
+use std::io::{Read, Write};
+use std::process::{Command, Stdio};
+
+fn program() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_hopper"))
+}
+
+/// A filter of a hundred thousand lines whose reader goes away after the first: no error.
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    for form in ["--csv", "--json", "--quiet"] {
+        let mut child = program()
+            .args(["fate", "-M", "0.2", form])
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut input = child.stdin.take().unwrap();
+        let writer = std::thread::spawn(move || {
+            for k in 0..100_000 {
+                // The program ends before it has read everything.
+                if writeln!(input, "{}", 4.5 + f64::from(k) * 1e-4).is_err() {
+                    break;
+                }
+            }
+        });
+        let mut first = [0; 10];
+        child.stdout.take().unwrap().read_exact(&mut first).unwrap();
+        let done = child.wait_with_output().unwrap();
+        writer.join().unwrap();
+        assert_eq!(done.status.code(), Some(0), "{form}");
+        assert_eq!(String::from_utf8_lossy(&done.stderr), "", "{form}");
+    }
+}
+
+#[test]
+fn help_into_a_closed_pipe_is_no_error() {
+    let mut child =
+        program().arg("--help").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    drop(child.stdout.take());
+    let done = child.wait_with_output().unwrap();
+    assert_eq!((done.status.code(), done.stderr), (Some(0), Vec::new()));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure() {
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let done = program().args(["hop", "7", "-M", "0.2"]).stdout(full).output().unwrap();
+    assert_eq!(done.status.code(), Some(1));
+    let message = String::from_utf8_lossy(&done.stderr);
+    assert!(message.starts_with("error: standard output: ") && message.lines().count() == 1);
+}
+
+#[test]
+fn the_exit_status_of_the_process_is_that_of_the_call() {
+    let code = |arguments: &[&str]| program().args(arguments).output().unwrap().status.code();
+    assert_eq!(code(&["hop", "7", "-M", "0.2"]), Some(0));
+    assert_eq!(code(&["hop", "7", "-M", "0"]), Some(2));
+    assert_eq!(code(&["orbit", "7", "-M", "0.2", "--motion", "/nowhere/a.csv"]), Some(1));
+    assert_eq!(code(&["--version"]), Some(0));
+}
+
+/// The filter gives the rows of the arguments, in their order.
+#[test]
+fn a_filter_gives_the_rows_of_single_calls() {
+    let speeds: Vec<String> = (1..400).map(|k| format!("{}", 0.05 * f64::from(k))).collect();
+    let mut arguments = vec!["fate", "-M", "0.4", "--csv"];
+    arguments.extend(speeds.iter().map(String::as_str));
+    let alone = call(&arguments, b"");
+    let filtered = call(&["fate", "-M", "0.4", "--csv", "-"], speeds.join("\n").as_bytes());
+    assert_eq!((alone.code, filtered.code), (0, 0));
+    assert_eq!(alone.output, filtered.output);
+    assert!(["incessant", "decaying", "grounded"].iter().all(|fate| alone.output.contains(fate)));
+    let json = call(&["fate", "-M", "0.4", "--json"], speeds.join("\r\n").as_bytes());
+    let json: serde_json::Value = serde_json::from_str(&json.output).unwrap();
+    assert_eq!(json["fates"].as_array().unwrap().len(), speeds.len());
+    // Also without any line.
+    let none = call(&["fate", "-M", "0.4", "--json"], b"");
+    assert_eq!(
+        serde_json::from_str::<serde_json::Value>(&none.output).unwrap()["fates"]
+            .as_array()
+            .unwrap()
+            .len(),
+        0
+    );
+}
+
+#[test]
+fn numbers_read_back_and_are_short() {
+    let called = call(&["hop", "1e-300", "2e-5", "7", "268435457", "-M", "1e-200", "--csv"], b"");
+    assert_eq!(called.code, 0, "{}", called.messages);
+    assert!(called.output.lines().nth(1).unwrap().starts_with("1e-300,lifts off,1e-300,"));
+    for field in called.output.split([',', '\n']) {
+        assert!(field.len() <= 24, "{field}");
+    }
+}
+
+#[test]
+fn figures_and_motions_go_to_standard_output() {
+    let svg = call(&["orbit", "7", "-M", "0.2", "--cobweb", "-"], b"");
+    assert!(svg.code == 0 && svg.output.starts_with("<svg") && svg.output.ends_with("</svg>\n"));
+    let csv = call(&["orbit", "7", "-M", "0.2", "--hops", "1", "--motion", "-"], b"").output;
+    let mut lines = csv.lines();
+    assert_eq!(lines.next().unwrap().split(',').count(), 7);
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert_eq!(rows[0][..5], ["0", "0", "flight", "1", "7"]);
+    // The last line is the next lift-off, with the speed of the table.
+    let next = rows.last().unwrap();
+    let (position, velocity) = (next[3].parse::<f64>().unwrap(), next[4].parse::<f64>().unwrap());
+    assert!((position - 1.0).abs() < 1e-12 && (velocity - 5.4319312674983316).abs() < 1e-12);
+}
