@@ -5,7 +5,7 @@ mod common;
 use common::call;
 use std::process::Command;
 
-const COMMANDS: [&str; 6] = ["hop", "orbit", "fate", "map", "intervals", "units"];
+const COMMANDS: [&str; 7] = ["hop", "orbit", "fate", "basins", "map", "intervals", "units"];
 
 /// The calls in the examples of a help text.
 fn examples(help: &str) -> Vec<String> {
