@@ -1,8 +1,9 @@
 //! The job whose results a folder has, in a text file beside them.
 
-use crate::atomic_file::write_atomically;
+use crate::atomic_file::{remove_leftovers, write_atomically};
 use crate::error::Error;
 use crate::lock::Lock;
+use crate::pieces::is_piece_name;
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -20,7 +21,7 @@ const LONGEST: u64 = 1 << 16;
 /// The description has all that the results depend on: the parameters, and the version of the computation. A process
 /// with another description is refused, so that results of two jobs never mix. Processes may call this at the same time.
 /// `is_result` tells the names of results and of folders of pieces: if there are any without a `job.txt`, nobody knows
-/// which job made them.
+/// which job made them. A folder without pieces is none of them.
 ///
 /// # Errors
 /// [`Error::OtherJob`] for a folder with another job, [`Error::UnknownJob`] for results without `job.txt`, and the
@@ -38,8 +39,11 @@ pub fn claim(
             Err(Error::OtherJob { folder: folder.into(), found, wanted: description.to_owned() })
         }
         None => {
-            if let Some(name) = names(folder)?.into_iter().find(|name| is_result(name)) {
-                return Err(Error::UnknownJob { path: folder.join(name) });
+            for name in names(folder)?.into_iter().filter(|name| is_result(name)) {
+                let path = folder.join(name);
+                if !is_folder(&path) || names(&path)?.iter().any(|name| is_piece_name(name)) {
+                    return Err(Error::UnknownJob { path });
+                }
             }
             lock.confirm()?;
             write_atomically(&path, format!("{description}\n").as_bytes())
@@ -50,23 +54,41 @@ pub fn claim(
 /// Removes all results from a folder, and `job.txt` after them. The caller holds the lock on the job, and a [`claim`]
 /// follows. A process that is killed here leaves `job.txt` and some results.
 ///
-/// `is_result` tells the names of the files and folders to remove. A folder is removed with all its files.
+/// `is_result` tells the names of the files and folders to remove. Of a folder, only the pieces are removed, and the folder
+/// itself if nothing else is in it.
 ///
 /// # Errors
 /// [`Error::File`] for what cannot be removed.
 pub fn remove_results(folder: &Path, is_result: impl Fn(&str) -> bool) -> Result<(), Error> {
     for name in names(folder)?.into_iter().filter(|name| is_result(name)) {
         let path = folder.join(name);
-        let is_folder = std::fs::symlink_metadata(&path).is_ok_and(|data| data.is_dir());
-        let removed =
-            if is_folder { std::fs::remove_dir_all(&path) } else { std::fs::remove_file(&path) };
-        removed.map_err(Error::at(&path))?;
+        if !is_folder(&path) {
+            std::fs::remove_file(&path).map_err(Error::at(&path))?;
+            continue;
+        }
+        for name in names(&path)?.into_iter().filter(|name| is_piece_name(name)) {
+            let path = path.join(name);
+            std::fs::remove_file(&path).map_err(Error::at(&path))?;
+        }
+        remove_leftovers(&path);
+        // A folder with files of others stays.
+        let _ = std::fs::remove_dir(&path);
     }
     let path = folder.join(JOB_FILE);
     match std::fs::remove_file(&path) {
         Err(error) if error.kind() != ErrorKind::NotFound => Err(Error::at(&path)(error)),
         _ => Ok(()),
     }
+}
+
+/// Whether the folder has the description of a job.
+pub fn is_claimed(folder: &Path) -> bool {
+    folder.join(JOB_FILE).is_file()
+}
+
+/// Whether this is a folder itself, and not a link to one.
+fn is_folder(path: &Path) -> bool {
+    std::fs::symlink_metadata(path).is_ok_and(|data| data.is_dir())
 }
 
 /// The description in a file; `None` if there is no file.
@@ -120,8 +142,11 @@ mod tests {
         std::fs::write(folder.join("notes.md"), b"of the user").unwrap();
         claim(&folder, "squares of 0 to 3", is_result).unwrap();
         claim(&folder, "squares of 0 to 3", is_result).unwrap();
+        assert!(is_claimed(&folder));
         std::fs::create_dir_all(folder.join("tiles")).unwrap();
-        std::fs::write(folder.join("tiles/piece"), b"").unwrap();
+        for name in ["piece_000012.bin", "parts_of_3", "piece_000001.bin.1-2.partial.tmp"] {
+            std::fs::write(folder.join("tiles").join(name), b"").unwrap();
+        }
         std::fs::write(folder.join("array.npy"), b"").unwrap();
         let error = claim(&folder, "cubes of 0 to 3", is_result).unwrap_err();
         assert!(matches!(error, Error::OtherJob { .. }), "{error}");
@@ -132,6 +157,20 @@ mod tests {
         claim(&folder, "cubes of 0 to 3", is_result).unwrap();
         assert_eq!(names(&folder).unwrap(), ["job.txt", "notes.md"]);
         assert_eq!(std::fs::read(folder.join("job.txt")).unwrap(), b"cubes of 0 to 3\n");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    /// A user's folder can have the name of a folder of pieces.
+    #[test]
+    fn only_pieces_are_removed_from_a_folder() {
+        let folder = folder("own");
+        std::fs::create_dir_all(folder.join("tiles/more")).unwrap();
+        std::fs::write(folder.join("tiles/photo.png"), b"of the user").unwrap();
+        claim(&folder, "squares", is_result).unwrap();
+        std::fs::write(folder.join("tiles/piece_000000.bin"), b"").unwrap();
+        remove_results(&folder, is_result).unwrap();
+        assert!(!is_claimed(&folder));
+        assert_eq!(names(&folder.join("tiles")).unwrap(), ["more", "photo.png"]);
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -13,13 +13,13 @@
 //! |---|---|
 //! | [`Lock`] | gives a job in a folder to one process, or each of its parts to one process; ends with the process |
 //! | [`Part`] | part K of N of a job: each N-th piece |
-//! | [`claim`], [`remove_results`] | `job.txt`: the one job whose results a folder has |
+//! | [`claim`], [`is_claimed`], [`remove_results`] | `job.txt`: the one job whose results a folder has |
 //! | [`Pieces`], [`Found`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
 //! | [`AtomicFile`], [`write_atomically`] | a file that appears under its name complete or not at all |
 //! | [`make_folder`] | makes a folder with its parents, and tells a file that has its name |
 //! | [`remove_leftovers`] | removes temporary files of processes that no longer run |
 //! | [`npy_header`], [`Order`], [`Element`] | the header of a NumPy file for a two-dimensional array of integers |
-//! | [`digest`], [`program_digest`] | 64-bit FNV-1a of bytes; of the running program |
+//! | [`digest`], [`file_digest`], [`program_digest`] | 64-bit FNV-1a of bytes; of a file; of the running program |
 //! | [`Error`], [`UnusablePiece`] | the reason of a failure, with path, process number and remedy |
 //!
 //! ```
@@ -94,8 +94,8 @@ mod part;
 mod pieces;
 
 pub use atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
-pub use claim::{claim, remove_results};
-pub use digest::{digest, program_digest};
+pub use claim::{claim, is_claimed, remove_results};
+pub use digest::{digest, file_digest, program_digest};
 pub use error::{Error, UnusablePiece};
 pub use lock::Lock;
 pub use npy::{Element, Order, npy_header};

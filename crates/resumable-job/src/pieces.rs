@@ -21,6 +21,13 @@ const HEAD: usize = MAGIC.len() + DIGEST + 8;
 /// The beginning of the name of a note that the job is done in N parts; the name ends with N.
 const PARTS: &str = "parts_of_";
 
+/// True for the names of pieces and of notes of parts: the files that a folder of pieces has.
+pub(crate) fn is_piece_name(name: &str) -> bool {
+    let number = name.strip_prefix("piece_").and_then(|rest| rest.strip_suffix(".bin"));
+    let digits = number.or_else(|| name.strip_prefix(PARTS));
+    digits.is_some_and(|text| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
 /// The pieces of one job in one folder.
 ///
 /// Two processes that write the same piece at once do no harm, but waste work. A [`crate::Lock`] on a part avoids this.

@@ -54,7 +54,9 @@ impl Interrupt {
     pub(crate) fn check(&self) -> Result<(), Error> {
         match self.status() {
             None => Ok(()),
-            Some(status) => Err(Error::Interrupted { status, done: String::new() }),
+            Some(status) => {
+                Err(Error::Interrupted { status, done: "the finished pieces are kept".into() })
+            }
         }
     }
 }

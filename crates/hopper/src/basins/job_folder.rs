@@ -1,9 +1,12 @@
 //! The folder of one job: who may write there, which job it has, and whether its results are there already.
 
+use crate::basins::call::{Call, Work};
 use crate::error::Error;
 use resumable_job::{
-    AtomicFile, Lock, Part, claim, make_folder, remove_leftovers, remove_results, write_atomically,
+    AtomicFile, Lock, Part, Pieces, claim, file_digest, is_claimed, make_folder, remove_leftovers,
+    remove_results, write_atomically,
 };
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The lock of all jobs of this command: a folder has one job.
@@ -13,7 +16,7 @@ const LOCK: &str = "basins";
 const PIECES: [&str; 4] = ["tiles", "tiles_hops", "columns", "frames"];
 
 /// The results with fixed names.
-const RESULTS: [&str; 11] = [
+const RESULTS: [&str; 15] = [
     "basin.npy",
     "basin.png",
     "legend.json",
@@ -25,6 +28,10 @@ const RESULTS: [&str; 11] = [
     "zoom.png",
     "zoom_animation.png",
     "zoom.json",
+    "basin.digests",
+    "hops.digests",
+    "shares.digests",
+    "zoom.digests",
 ];
 
 /// What a call does of a job.
@@ -36,6 +43,17 @@ pub(crate) enum Share {
     Part(Part),
     /// Joining the pieces of all parts.
     Join,
+}
+
+/// The results of a job, or of a layer of it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Results {
+    /// The one that messages name.
+    pub(crate) main: &'static str,
+    /// What the table shows, as JSON.
+    pub(crate) summary: &'static str,
+    /// The digest of every result, one a line. Written last.
+    pub(crate) digests: &'static str,
 }
 
 /// The folder of a job, locked for this call.
@@ -60,6 +78,13 @@ impl JobFolder {
         description: String,
         results: &[&str],
     ) -> Result<Self, Error> {
+        if share == Share::Join && !is_claimed(out) {
+            return Err(Error::misuse(
+                "--join --out",
+                out.display(),
+                "this folder has no parts of a job; compute them before, such as --part 1/2 and --part 2/2, or give their folder",
+            ));
+        }
         make_folder(out)?;
         // The trial files are dropped unfinished, which removes them.
         drop(AtomicFile::create(&out.join(".writable"))?);
@@ -79,7 +104,7 @@ impl JobFolder {
                 "--out",
                 out.display(),
                 &format!(
-                    "this folder has the results of another job: '{found}', and not '{wanted}'; give another folder, or \
+                    "this folder has the results of another job or version: '{found}', and not '{wanted}'; give another folder, or \
                      add --force to replace them"
                 ),
             ),
@@ -114,22 +139,76 @@ impl JobFolder {
         Ok(write_atomically(&self.path.join(name), bytes)?)
     }
 
-    /// The summary of results that are complete. It is the last file that is written: if it is there with the other
-    /// `results`, nothing is left to do.
-    pub(crate) fn summary(&self, name: &str, results: &[&str]) -> Option<serde_json::Value> {
-        let all = results.iter().all(|name| self.path.join(name).is_file());
-        let text = std::fs::read(self.path.join(name)).ok().filter(|_| all)?;
-        serde_json::from_slice(&text).ok()
+    /// The summary of results that are complete and undamaged: that of an earlier call. Pieces that are left of it are removed.
+    ///
+    /// # Errors
+    /// [`Error::Job`] if files cannot be read or removed.
+    pub(crate) fn complete(
+        &self,
+        results: &Results,
+        work: &Work,
+        call: &mut Call<'_>,
+    ) -> Result<Option<Value>, Error> {
+        // Without the digests, which are written last, the call was killed before its end.
+        let Ok(digests) = std::fs::read_to_string(self.path.join(results.digests)) else {
+            return Ok(None);
+        };
+        let mut has_summary = false;
+        for line in digests.lines() {
+            let (digest, name) = line.split_once("  ").unwrap_or_default();
+            let path = self.path.join(name);
+            has_summary |= name == results.summary;
+            if name.contains('/') || !path.is_file() || file_digest(&path)? != digest {
+                call.note(&format!(
+                    "{}: it is damaged or missing; it is computed again",
+                    path.display()
+                ));
+                return Ok(None);
+            }
+        }
+        let summary = std::fs::read(self.path.join(results.summary)).ok();
+        let summary = summary.and_then(|text| serde_json::from_slice(&text).ok());
+        let Some(summary) = summary.filter(|_| has_summary) else {
+            call.note(&format!(
+                "{}: it is damaged; the results are computed again",
+                self.place_of(results.digests)
+            ));
+            return Ok(None);
+        };
+        call.note(&format!(
+            "{} is complete already; --force computes it again",
+            self.place_of(results.main)
+        ));
+        let pieces = self.path.join(work.folder);
+        if !matches!(self.share, Share::Part(_)) && pieces.is_dir() {
+            // A call was killed while it removed its pieces.
+            Pieces::open(&pieces, &self.description)?.remove(work.count)?;
+        }
+        Ok(Some(summary))
     }
 
-    /// Writes the summary, after all other results.
+    /// Writes the summary and the digests of all results, and removes the pieces.
     ///
     /// # Errors
     /// As [`write`](Self::write).
-    pub(crate) fn write_summary(&self, name: &str, value: &serde_json::Value) -> Result<(), Error> {
-        let text = serde_json::to_string_pretty(value)
-            .map_err(|error| Error::File { path: self.path.join(name), source: error.into() })?;
-        self.write(name, text.as_bytes())
+    pub(crate) fn finish(
+        &self,
+        results: &Results,
+        others: &[&str],
+        summary: &Value,
+        (kept, count): (Pieces, usize),
+    ) -> Result<(), Error> {
+        let text = serde_json::to_string_pretty(summary).map_err(|error| Error::File {
+            path: self.path.join(results.summary),
+            source: error.into(),
+        })?;
+        self.write(results.summary, text.as_bytes())?;
+        let mut digests = String::new();
+        for name in others.iter().chain(&[results.summary]) {
+            digests += &format!("{}  {name}\n", file_digest(&self.path.join(name))?);
+        }
+        self.write(results.digests, digests.as_bytes())?;
+        Ok(kept.remove(count)?)
     }
 
     /// Rows of the table of files.
@@ -158,7 +237,7 @@ mod tests {
 
     #[test]
     fn the_files_of_users_are_no_results() {
-        for name in ["basin.npy", "share_12.npy", "zoom_0100.png", "tiles"] {
+        for name in ["basin.npy", "share_12.npy", "zoom_0100.png", "tiles", "basin.digests"] {
             assert!(is_result(name), "{name}");
         }
         for name in ["job.txt", "notes.txt", "share_.npy", "share_x.npy", "zoom_1.pdf", "my_tiles"]

@@ -1,7 +1,7 @@
 //! The layers of a raster: the labels of fates, and the numbers of hops until they are known.
 
 use crate::basins::interrupt::Interrupt;
-use crate::basins::job_folder::JobFolder;
+use crate::basins::job_folder::{JobFolder, Results};
 use crate::basins::picture::Picture;
 use crate::basins::pieces::Finished;
 use crate::error::Error;
@@ -36,8 +36,7 @@ pub(crate) struct Names {
     pub(crate) unit: &'static str,
     pub(crate) array: &'static str,
     pub(crate) picture: &'static str,
-    /// Written last.
-    pub(crate) summary: &'static str,
+    pub(crate) results: Results,
 }
 
 impl Layer {
@@ -48,14 +47,22 @@ impl Layer {
                 unit: "tiles",
                 array: "basin.npy",
                 picture: "basin.png",
-                summary: "legend.json",
+                results: Results {
+                    main: "basin.npy",
+                    summary: "legend.json",
+                    digests: "basin.digests",
+                },
             },
             Layer::Hops => Names {
                 tiles: "tiles_hops",
                 unit: "tiles of hops",
                 array: "hops.npy",
                 picture: "hops.png",
-                summary: "hops.json",
+                results: Results {
+                    main: "hops.npy",
+                    summary: "hops.json",
+                    digests: "hops.digests",
+                },
             },
         }
     }

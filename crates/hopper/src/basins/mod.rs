@@ -8,8 +8,9 @@
 //!
 //! A job is cut into pieces: tiles of a raster ([`rasters`], [`layer`]), columns of shares ([`shares`]) or frames of a zoom ([`zoom`]).
 //! A folder has one job ([`job_folder`]). Its pieces are found or computed ([`pieces`]) with the [`progress`] shown and signals
-//! obeyed ([`interrupt`]). [`picture`] and [`column_bytes`] are forms of data.
+//! obeyed ([`interrupt`]); [`call`] has what they need. [`picture`] and [`column_bytes`] are forms of data.
 
+mod call;
 mod column_bytes;
 mod interrupt;
 mod job_folder;
@@ -26,10 +27,10 @@ mod zoom;
 
 use crate::error::Error;
 use crate::streams::Streams;
+use call::Call;
 use interrupt::Interrupt;
 use job_folder::Share;
 pub(crate) use options::{Options, PAGE};
-use pieces::Call;
 
 /// Pixels across and up unless others are given.
 const PIXELS_OF_RASTER: [usize; 2] = [1024, 1024];

@@ -1,12 +1,11 @@
 //! The pieces of a job: computed in parallel, stored one by one, found again by the next call.
 
-use crate::basins::interrupt::Interrupt;
+use crate::basins::call::{Call, Work};
 use crate::basins::job_folder::{JobFolder, Share};
 use crate::basins::progress::{Pace, Progress};
 use crate::error::Error;
 use rayon::prelude::*;
 use resumable_job::{Found, Part, Pieces};
-use std::io::Write;
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::Duration;
 
@@ -15,35 +14,6 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// A message lists so many missing pieces; more would be no line that one reads.
 const LISTED: usize = 5;
-
-/// The pieces of a job.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Work {
-    /// The folder of the finished ones.
-    pub(crate) folder: &'static str,
-    /// What messages call them.
-    pub(crate) unit: &'static str,
-    pub(crate) count: usize,
-    /// Pixels of a piece.
-    pub(crate) pixels: usize,
-}
-
-/// What a call has besides its options.
-pub(crate) struct Call<'a> {
-    pub(crate) interrupt: Interrupt,
-    pub(crate) quiet: bool,
-    pub(crate) messages: &'a mut dyn Write,
-}
-
-impl Call<'_> {
-    /// A line for the user that is no result.
-    pub(crate) fn note(&mut self, text: &str) {
-        if !self.quiet {
-            // A note that cannot be written is no failure of the job.
-            let _ = writeln!(self.messages, "{text}");
-        }
-    }
-}
 
 /// Pieces of which this call has finished its share.
 pub(crate) struct Finished {

@@ -3,14 +3,14 @@
 //! A call that is killed leaves its finished tiles, and the next call computes the others. The array is written from the
 //! tiles and compared with them. The tiles are removed only after this comparison.
 
+use crate::basins::call::{Call, Work};
 use crate::basins::job_folder::{JobFolder, Share};
 use crate::basins::layer::{Layer, TILE};
-use crate::basins::pieces::{Call, Work, compute};
+use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
 use crate::error::Error;
 use basin_of_attraction::Grid;
 use hopper_basin::RASTER_VERSION;
-use resumable_job::Pieces;
 use std::path::Path;
 
 /// Computes the layers of a raster.
@@ -27,7 +27,9 @@ pub(crate) fn run(
     let results: Vec<&str> = layers
         .iter()
         .map(|layer| layer.names())
-        .flat_map(|names| [names.array, names.picture, names.summary])
+        .flat_map(|names| {
+            [names.array, names.picture, names.results.summary, names.results.digests]
+        })
         .collect();
     let job = JobFolder::open(place, description, &results)?;
     let mut tables = Tables::default();
@@ -46,26 +48,11 @@ fn one_layer(
 ) -> Result<(), Error> {
     let names = layer.names();
     let tiles = grid.columns.div_ceil(TILE);
-    let summary = match job.summary(names.summary, &[names.array, names.picture]) {
-        Some(summary) => {
-            call.note(&format!(
-                "{} is complete already; --force computes it again",
-                job.place_of(names.array)
-            ));
-            if job.share == Share::Whole && job.path.join(names.tiles).is_dir() {
-                // A call was killed while it removed its tiles.
-                Pieces::open(&job.path.join(names.tiles), &job.description)?.remove(tiles)?;
-            }
-            summary
-        }
+    let pixels = TILE.min(grid.columns) * grid.rows;
+    let work = Work { folder: names.tiles, unit: names.unit, count: tiles, pixels };
+    let summary = match job.complete(&names.results, &work, call)? {
+        Some(summary) => summary,
         None => {
-            let columns = TILE.min(grid.columns);
-            let work = Work {
-                folder: names.tiles,
-                unit: names.unit,
-                count: tiles,
-                pixels: columns * grid.rows,
-            };
             let interrupt = call.interrupt.clone();
             let finished = compute(job, &work, call, |tile| layer.tile(grid, tile, &interrupt))?;
             if let Share::Part(part) = job.share {
@@ -73,8 +60,8 @@ fn one_layer(
                 return Ok(());
             }
             let summary = layer.assemble(job, grid, tiles, &finished)?;
-            job.write_summary(names.summary, &summary)?;
-            finished.kept.remove(tiles)?;
+            let others = [names.array, names.picture];
+            job.finish(&names.results, &others, &summary, (finished.kept, tiles))?;
             summary
         }
     };
@@ -89,12 +76,12 @@ fn one_layer(
                 "labels: 16-bit integers, rows from the lowest speed, columns of mass ratios",
             ),
             (names.picture, "the picture, with axes and legend"),
-            (names.summary, "the meaning of the labels"),
+            (names.results.summary, "the meaning of the labels"),
         ],
         Layer::Hops => [
             (names.array, "numbers of hops: 64-bit integers, in the same order"),
             (names.picture, "the picture, with axes and scale"),
-            (names.summary, "their smallest, largest and mean"),
+            (names.results.summary, "their smallest, largest and mean"),
         ],
     };
     for (name, content) in contents {

@@ -3,10 +3,11 @@
 //!
 //! A run that is killed leaves its finished columns, and the next run computes the others.
 
+use crate::basins::call::{Call, Work};
 use crate::basins::column_bytes;
-use crate::basins::job_folder::{JobFolder, Share};
+use crate::basins::job_folder::{JobFolder, Results, Share};
 use crate::basins::options::Options;
-use crate::basins::pieces::{Call, Work, compute};
+use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
 use crate::basins::window::{pair_of_pixels, range};
 use crate::error::Error;
@@ -27,6 +28,7 @@ use std::path::Path;
 /// The names of the results; every label has its own array.
 const PICTURE_FILE: &str = "shares.png";
 const LEGEND: &str = "shares.json";
+const RESULTS: Results = Results { main: PICTURE_FILE, summary: LEGEND, digests: "shares.digests" };
 
 /// The folder of finished columns.
 const COLUMNS: &str = "columns";
@@ -83,16 +85,12 @@ pub(crate) fn run(
          {SHARE_VERSION}",
         grid.x.left, grid.x.right, grid.y.left, grid.y.right, grid.columns, grid.rows
     );
-    let job = JobFolder::open(place, description, &[PICTURE_FILE, LEGEND])?;
+    let job = JobFolder::open(place, description, &[PICTURE_FILE, LEGEND, RESULTS.digests])?;
     let mut tables = Tables::default();
-    let legend = match job.summary(LEGEND, &[PICTURE_FILE]) {
-        Some(legend) => {
-            call.note(&format!(
-                "{} is complete already; --force computes it again",
-                job.place_of(PICTURE_FILE)
-            ));
-            legend
-        }
+    let count = grid.columns;
+    let work = Work { folder: COLUMNS, unit: COLUMNS, count, pixels: grid.rows };
+    let legend = match job.complete(&RESULTS, &work, call)? {
+        Some(legend) => legend,
         None => {
             let limits = CircleLimits::default();
             let column = |at: usize| {
@@ -102,8 +100,6 @@ pub(crate) fn run(
                 };
                 Ok(column_bytes::bytes(own.as_ref()))
             };
-            let count = grid.columns;
-            let work = Work { folder: COLUMNS, unit: COLUMNS, count, pixels: grid.rows };
             let finished = compute(&job, &work, call, column)?;
             if let Share::Part(part) = job.share {
                 tables.push_part(part, COLUMNS, &finished);
@@ -114,7 +110,7 @@ pub(crate) fn run(
                 ShareRaster::from_columns(grid, upwards, columns.collect::<Result<_, _>>()?)?;
             let rendered = render("shares", &draw_shares(n, &raster)?, 2.0)?;
             job.write(PICTURE_FILE, &rendered.png)?;
-            let mut legend = Vec::new();
+            let (mut legend, mut files) = (Vec::new(), vec![PICTURE_FILE.to_owned()]);
             for (at, (label, mean)) in raster.means().into_iter().enumerate() {
                 let file = format!("share_{}.npy", label.code());
                 job.write(&file, &npy(&raster, at))?;
@@ -122,13 +118,14 @@ pub(crate) fn run(
                 legend.push(
                     json!({ "label": label, "name": name, "mean_share": mean, "file": file }),
                 );
+                files.push(file);
             }
             if let Some(edges) = &edges {
                 legend.push(speeds_by_column(n, edges, call));
             }
             let legend = Value::Array(legend);
-            job.write_summary(LEGEND, &legend)?;
-            finished.kept.remove(count)?;
+            let files: Vec<&str> = files.iter().map(String::as_str).collect();
+            job.finish(&RESULTS, &files, &legend, (finished.kept, count))?;
             legend
         }
     };

@@ -2,8 +2,9 @@
 //!
 //! A run that is killed leaves its finished frames, and the next run computes the others.
 
-use crate::basins::job_folder::{JobFolder, Share};
-use crate::basins::pieces::{Call, Work, compute};
+use crate::basins::call::{Call, Work};
+use crate::basins::job_folder::{JobFolder, Results, Share};
+use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
 use crate::error::Error;
 use crate::output::number;
@@ -52,6 +53,7 @@ const SECONDS: f64 = 0.2;
 const OVERVIEW: &str = "zoom.png";
 const ANIMATION: &str = "zoom_animation.png";
 const SUMMARY: &str = "zoom.json";
+const RESULTS: Results = Results { main: ANIMATION, summary: SUMMARY, digests: "zoom.digests" };
 
 /// The folder of finished frames.
 const FRAMES: &str = "frames";
@@ -71,19 +73,14 @@ pub(crate) fn run(
         "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} pixels; \
          computation {SHARE_VERSION}, colours {FRAME_VERSION}"
     );
-    let job = JobFolder::open(place, description, &[OVERVIEW, ANIMATION, SUMMARY])?;
+    let job =
+        JobFolder::open(place, description, &[OVERVIEW, ANIMATION, SUMMARY, RESULTS.digests])?;
     let mut tables = Tables::default();
-    let summary = match job.summary(SUMMARY, &[OVERVIEW, ANIMATION]) {
-        Some(summary) => {
-            call.note(&format!(
-                "{} is complete already; --force computes it again",
-                job.place_of(ANIMATION)
-            ));
-            summary
-        }
+    let work = Work { folder: FRAMES, unit: FRAMES, count: frames, pixels: columns * rows };
+    let summary = match job.complete(&RESULTS, &work, call)? {
+        Some(summary) => summary,
         None => {
             let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default())?;
-            let work = Work { folder: FRAMES, unit: FRAMES, count: frames, pixels: columns * rows };
             let finished = compute(&job, &work, call, |at| {
                 Ok(drawn(zoom, &fates, (&chart, &edge), &circle, step * at as f64)?.bytes())
             })?;
@@ -94,11 +91,13 @@ pub(crate) fn run(
             let drawn = (0..frames).map(|at| Drawn::new(&finished.kept.finished(at)?, zoom));
             let drawn = drawn.collect::<Result<Vec<_>, Error>>()?;
             let mut pngs = Vec::with_capacity(frames);
+            let mut files = Vec::with_capacity(frames + 2);
             for (at, frame) in drawn.iter().enumerate() {
                 call.interrupt.check()?;
                 let svg = draw_frame(zoom, &chart, &edge, step * at as f64, frame)?;
                 pngs.push(render("frame", &svg, 1.5)?.png);
-                job.write(&format!("zoom_{at:04}.png"), &pngs[at])?;
+                files.push(format!("zoom_{at:04}.png"));
+                job.write(&files[at], &pngs[at])?;
             }
             let overview = render("zoom", &draw_all(zoom, &chart, &drawn)?, 2.0)?;
             job.write(OVERVIEW, &overview.png)?;
@@ -108,8 +107,9 @@ pub(crate) fn run(
                 "speed": point, "rest": rest, "error": error, "fixed_point": chart.n(),
                 "hops": chart.hops(), "slope": edge.by_mass_ratio, "frames": frames,
             });
-            job.write_summary(SUMMARY, &summary)?;
-            finished.kept.remove(frames)?;
+            files.extend([OVERVIEW, ANIMATION].map(str::to_owned));
+            let files: Vec<&str> = files.iter().map(String::as_str).collect();
+            job.finish(&RESULTS, &files, &summary, (finished.kept, frames))?;
             summary
         }
     };
