@@ -140,10 +140,34 @@ fn a_folder_has_one_job_until_it_is_replaced_by_force() {
     // Results without the description of their job, as earlier versions left them.
     std::fs::remove_file(folder.0.join("job.txt")).unwrap();
     let text = text(&ends(basins(&folder.0, &JOB), 2));
-    assert!(text.contains("basin.npy") && text.contains("job.txt"), "{text}");
+    assert!(text.contains("basin.") && text.contains("job.txt"), "{text}");
     ends(basins(&folder.0, &with(&JOB, &["--force"])), 0);
     std::fs::remove_file(folder.0.join("notes.md")).unwrap();
     assert!(folder.files() == whole);
+    folder.remove();
+}
+
+#[test]
+fn damaged_results_are_named_and_computed_again() {
+    let folder = Folder::new("results");
+    ends(basins(&folder.0, &JOB), 0);
+    let whole = folder.files();
+    for name in ["basin.npy", "basin.png", "legend.json", "basin.digests"] {
+        let mut damaged = whole[name].clone();
+        let middle = damaged.len() / 2;
+        damaged[middle] ^= 1;
+        for bytes in [Some(&damaged[..]), Some(&damaged[..middle]), Some(b""), None] {
+            let path = folder.0.join(name);
+            match bytes {
+                Some(bytes) => std::fs::write(&path, bytes).unwrap(),
+                None => std::fs::remove_file(&path).unwrap(),
+            }
+            let text = text(&ends(basins(&folder.0, &JOB), 0));
+            assert!(!text.contains("complete already"), "{name}: {text}");
+            assert!(folder.files() == whole, "{name}");
+        }
+    }
+    assert!(text(&ends(basins(&folder.0, &JOB), 0)).contains("complete already"));
     folder.remove();
 }
 
@@ -217,7 +241,7 @@ fn a_reader_that_closes_the_output_is_no_error_and_a_full_output_is_one() {
 /// Each wrong call has one line that names the option and the remedy, exits with 2, and writes nothing.
 #[test]
 fn wrong_calls_are_refused_in_one_line_and_write_nothing() {
-    let calls: [(&[&str], &str); 34] = [
+    let calls: [(&[&str], &str); 35] = [
         (&["--mass-ratio", "1", "0.1"], "--mass-ratio 1 0.1: "),
         (&["--mass-ratio", "1", "1"], "--mass-ratio 1 1: "),
         (&["--mass-ratio", "1", "1.0000000000000002"], "--mass-ratio 1 1.0000000000000002: "),
@@ -242,6 +266,7 @@ fn wrong_calls_are_refused_in_one_line_and_write_nothing() {
         (&["--part", "1/4", "--join"], "--join"),
         (&["--part", "1/4", "--force"], "--force"),
         (&["--join", "--force"], "--force"),
+        (&["--join"], "--join --out "),
         (&["--layer", "labels"], "label"),
         (&["--about", "0"], "--about 0: "),
         (&["--about", "2", "--offset", "1e-9", "1e-3"], "--offset "),

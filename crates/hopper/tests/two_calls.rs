@@ -99,7 +99,8 @@ fn a_call_whose_folder_was_removed_leaves_the_next_call_alone() {
 
 #[test]
 fn a_name_that_no_result_can_have_is_an_error_before_the_computation() {
-    for name in ["basin.npy", "basin.png", "legend.json", "basins.lock", "job.txt"] {
+    for name in ["basin.npy", "basin.png", "legend.json", "basin.digests", "basins.lock", "job.txt"]
+    {
         let folder = Folder::new("names");
         std::fs::create_dir_all(folder.0.join(name)).unwrap();
         let text = text(&ends(raster(&folder.0), 1));
