@@ -208,7 +208,10 @@ impl JobFolder {
             digests += &format!("{}  {name}\n", file_digest(&self.path.join(name))?);
         }
         self.write(results.digests, digests.as_bytes())?;
-        Ok(kept.remove(count)?)
+        kept.remove(count)?;
+        // Another call that was refused, and killed before, leaves its trial file.
+        remove_leftovers(&self.path);
+        Ok(())
     }
 
     /// Rows of the table of files.
