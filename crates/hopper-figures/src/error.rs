@@ -42,7 +42,7 @@ pub enum Error {
     },
     /// A motion with more samples than are kept.
     #[error(
-        "the motion lasts {duration:?}/ω and would need more than {most} samples; take fewer hops"
+        "the motion lasts {duration:?}/ω and would need more than {most} samples; take fewer hops, or a slower start"
     )]
     TooLong {
         /// Its duration so far.
@@ -52,7 +52,7 @@ pub enum Error {
     },
     /// An animation with more frames than are kept.
     #[error(
-        "the motion lasts {duration:?}/ω, which is {frames} frames, and an animation has at most {most}; take fewer hops"
+        "the motion lasts {duration:?}/ω, which is {frames} frames, and an animation has at most {most}; take fewer hops, or a slower start"
     )]
     TooManyFrames {
         /// The duration of the motion.

@@ -57,6 +57,21 @@ pub(crate) enum Command {
     Manual(commands::texts::Manual),
 }
 
+impl Command {
+    /// Whether --verbose is given.
+    pub(crate) fn is_verbose(&self) -> bool {
+        match self {
+            Command::Hop(options) => options.output.is_verbose(),
+            Command::Orbit(options) => options.output.is_verbose(),
+            Command::Fate(options) => options.output.is_verbose(),
+            Command::Map(options) => options.output.is_verbose(),
+            Command::Intervals(options) => options.output.is_verbose(),
+            Command::Units(options) => options.output.is_verbose(),
+            Command::Completions(_) | Command::Manual(_) => false,
+        }
+    }
+}
+
 /// What the arguments ask for.
 #[derive(Debug)]
 pub(crate) enum Parsed {

@@ -7,6 +7,7 @@ use crate::streams::Streams;
 use std::ffi::OsString;
 use std::io::{BufWriter, IsTerminal, Write};
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Runs the program with the arguments and the streams of the process.
 pub fn main() -> ExitCode {
@@ -26,10 +27,13 @@ pub fn main() -> ExitCode {
 pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: Streams<'_>) -> u8 {
     let Streams { input, input_is_terminal, output, messages } = streams;
     let mut output = BufWriter::new(output);
+    let begin = Instant::now();
+    let mut verbose = false;
     let result = match cli::parse(arguments) {
         Ok(Parsed::Command(command)) => {
-            let streams = Streams { input, input_is_terminal, output: &mut output, messages };
-            cli::start(*command, streams)
+            verbose = command.is_verbose();
+            let (output, messages) = (&mut output, &mut *messages);
+            cli::start(*command, Streams { input, input_is_terminal, output, messages })
         }
         Ok(Parsed::Text(text)) => output.write_all(text.as_bytes()).map_err(Error::output),
         Err(refused) => Err(refused),
@@ -38,6 +42,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: Streams<'_>) 
     // What an interrupted call has computed is not lost. A closed output has no reader.
     let _ = output.flush();
     drop(output);
+    if verbose && result.is_ok() {
+        let (seconds, threads) = (begin.elapsed().as_secs_f64(), rayon::current_num_threads());
+        let _ = writeln!(messages, "took {seconds:.3} s, with up to {threads} threads");
+    }
     match result {
         Ok(()) | Err(Error::ClosedOutput) => 0,
         Err(error) => {

@@ -1,5 +1,7 @@
 //! The help: every command says units, limits and fields, and its examples run.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 mod common;
 
 use common::call;

@@ -1,5 +1,7 @@
 //! Thousands of random calls: no panic, a known exit status, one line for a refusal.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 mod common;
 
 use basin_of_attraction::SplitMix64;
@@ -118,7 +120,7 @@ fn random_calls_never_panic() {
         (random.uniform(at) * most as f64) as usize
     };
     let mut codes = [0u32; 3];
-    for k in 0..6000 {
+    for k in 0..3000 {
         let mut arguments: Vec<&str> = (0..next(9)).map(|_| WORDS[next(WORDS.len())]).collect();
         // Two of three calls begin as a sensible one does, so that the words reach further.
         match k % 3 {
@@ -143,5 +145,5 @@ fn random_calls_never_panic() {
             assert!(called.messages.ends_with('\n'), "{arguments:?}");
         }
     }
-    assert!(codes[0] > 100 && codes[2] > 3000, "{codes:?}");
+    assert!(codes[0] > 50 && codes[2] > 1500, "{codes:?}");
 }

@@ -1,5 +1,7 @@
 //! Wrong calls: one clear line each, exit status 2, and nothing written.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 mod common;
 
 use common::call;

@@ -1,5 +1,7 @@
 //! Standard streams: filters, numbers that read back, readers that go away, full disks.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 mod common;
 
 use common::call;

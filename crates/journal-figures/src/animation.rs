@@ -32,8 +32,8 @@ pub fn animated_png(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<
     Ok(bytes)
 }
 
-/// The same as a GIF (89a), for programs that show no animated PNG. A frame with more than 256 colours keeps the nearest 256; times are
-/// rounded to hundredths of a second.
+/// The same as a GIF (89a), for programs that show no animated PNG. In a frame with more than 256 colours they
+/// are rounded to fewer bits; times are rounded to hundredths of a second.
 ///
 /// # Errors
 /// As [`animated_png`]; [`Error::Render`] also for frames of more than 65535 pixels each way.
@@ -53,12 +53,8 @@ pub fn animated_gif(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<
         if (own_width, own_height) != (width, height) {
             return Err(fail(other_size(at, (own_width, own_height), (width, height))));
         }
-        let mut frame = match exact_palette(&pixels) {
-            Some((palette, places)) => {
-                gif::Frame::from_palette_pixels(columns, rows, places, palette, None)
-            }
-            None => gif::Frame::from_rgb_speed(columns, rows, &pixels, PALETTE_SPEED),
-        };
+        let (palette, places) = palette_of(&pixels);
+        let mut frame = gif::Frame::from_palette_pixels(columns, rows, places, palette, None);
         frame.delay = (100.0 * seconds).round() as u16;
         encoder.write_frame(&frame).map_err(refused)?;
     }
@@ -66,22 +62,43 @@ pub fn animated_gif(name: &str, frames: &[Vec<u8>], seconds: f64) -> Result<Vec<
     Ok(bytes)
 }
 
-/// How coarsely 256 colours are chosen among more, from 1 to 30. Drawings have a few hundred shades at the edges of their lines, which
-/// 10 keeps; smaller numbers take longer.
-const PALETTE_SPEED: i32 = 10;
+/// At most 256 colours of an image, and the place of each pixel among them. Of an image with more, each colour keeps as many bits as
+/// leave 256: drawings have flat areas and some hundred shades at the edges of lines, which six or seven bits keep.
+fn palette_of(pixels: &[u8]) -> (Vec<u8>, Vec<u8>) {
+    let exact = (2..=8).rev().find_map(|bits| palette_with_bits(pixels, bits));
+    // Two bits of three channels are 64 colours: there always is a palette.
+    exact.unwrap_or_default()
+}
 
-/// The colours of an image that has at most 256, and the place of each pixel among them.
-fn exact_palette(pixels: &[u8]) -> Option<(Vec<u8>, Vec<u8>)> {
-    let mut known = std::collections::BTreeMap::new();
+/// The palette if each channel keeps this number of bits; `None` for more than 256 colours.
+fn palette_with_bits(pixels: &[u8], bits: u32) -> Option<(Vec<u8>, Vec<u8>)> {
+    // The nearest of 2^bits levels from 0 to 255: black and white stay.
+    let steps = (1u32 << bits) - 1;
+    let level = |byte: u8| {
+        let nearest = (u32::from(byte) * steps + 127) / 255;
+        (nearest * 255 / steps) as u8
+    };
+    let levels: [u8; 256] = std::array::from_fn(|byte| level(byte as u8));
+    let mut known = std::collections::HashMap::new();
     let mut palette = Vec::new();
     let mut places = Vec::with_capacity(pixels.len() / 3);
+    let mut last = ([0; 3], None);
     for &color in pixels.as_chunks::<3>().0 {
-        let next = known.len();
-        let place = *known.entry(color).or_insert(next);
-        places.push(u8::try_from(place).ok()?);
-        if place == next {
-            palette.extend(color);
-        }
+        // Most pixels have the colour of the one before.
+        let place = match last {
+            (own, Some(place)) if own == color => place,
+            _ => {
+                let rounded = color.map(|byte| levels[usize::from(byte)]);
+                let next = known.len();
+                let place = *known.entry(rounded).or_insert(next);
+                if place == next {
+                    palette.extend(rounded);
+                }
+                u8::try_from(place).ok()?
+            }
+        };
+        last = (color, Some(place));
+        places.push(place);
     }
     Some((palette, places))
 }
@@ -153,7 +170,15 @@ mod tests {
     #[test]
     fn a_gif_of_many_colours_keeps_256_of_them() {
         let pixels: Vec<u8> = (0..900u32).flat_map(|k| [k as u8, (k / 3) as u8, 77]).collect();
-        assert!(exact_palette(&pixels).is_none());
+        let (palette, places) = palette_of(&pixels);
+        assert!(palette.len() <= 3 * 256 && palette_with_bits(&pixels, 8).is_none());
+        let off = pixels.iter().zip(places.iter().flat_map(|&place| {
+            let at = 3 * usize::from(place);
+            palette[at..at + 3].to_vec()
+        }));
+        // Five bits are kept: a level is at most half of 255/31 away.
+        assert!(off.clone().all(|(&own, shown)| own.abs_diff(shown) <= 5));
+        assert_eq!(palette_of(&[255, 255, 255, 0, 0, 0]).0, [255, 255, 255, 0, 0, 0]);
         let frame = rgb_png("frame", 30, 30, &pixels).unwrap();
         let bytes = animated_gif("motion", &[frame], 0.1).unwrap();
         let mut reader = gif::DecodeOptions::new().read_info(&bytes[..]).unwrap();

@@ -167,12 +167,33 @@ pub fn ticks((low, high): (f64, f64), count: usize) -> Vec<(f64, String)> {
     // rounding.
     let first = (low / step - 1e-9).ceil() as i64;
     let last = (high / step + 1e-9).floor() as i64;
+    let largest = low.abs().max(high.abs());
+    let plain = (SMALLEST_PLAIN..LARGEST_PLAIN).contains(&largest);
     (first..=last)
         .map(|k| {
             let value = k as f64 * step;
-            (value, format!("{value:.decimals$}").replace('-', "−"))
+            let label = match k {
+                _ if plain => format!("{value:.decimals$}"),
+                0 => "0".to_owned(),
+                _ => with_power(value, power),
+            };
+            (value, label.replace('-', "−"))
         })
         .collect()
+}
+
+/// Axes that end below the first or beyond the second of these have labels such as 2 · 10⁻⁷: written out, labels of nine digits and more
+/// would touch each other.
+const SMALLEST_PLAIN: f64 = 1e-6;
+const LARGEST_PLAIN: f64 = 1e9;
+
+/// A multiple of a power of ten, as markup: all labels of an axis have the same power.
+fn with_power(value: f64, power: i32) -> String {
+    // Two factors: a single one would be 0 below 10⁻³⁰⁸, and infinite above 10³⁰⁸.
+    let half = power / 2;
+    let digits = value / 10f64.powi(half) / 10f64.powi(power - half);
+    // Steps are 1, 2, 5 or 10 times the power, so that the multiples are whole numbers.
+    format!("{digits:.0} · 10^{{{power}}}")
 }
 
 /// The powers of ten on a logarithmic axis whose exponent is a multiple of `every`, with their labels.
@@ -197,6 +218,8 @@ mod tests {
             |range, count| ticks(range, count).into_iter().map(|t| t.1).collect::<Vec<_>>();
         assert_eq!(labels((0.0, 1.0), 5), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
         assert_eq!(labels((-1.0, 1.0), 2), ["−1", "0", "1"]);
+        assert_eq!(labels((0.0, 4e-7), 2), ["0", "2 · 10^{−7}", "4 · 10^{−7}"]);
+        assert_eq!(labels((-1e300, 1e300), 2), ["−1 · 10^{300}", "0", "1 · 10^{300}"]);
         assert_eq!(
             labels((4.49, 4.515), 5),
             ["4.490", "4.495", "4.500", "4.505", "4.510", "4.515"]

@@ -18,7 +18,7 @@ pub(crate) struct Options {
     #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     #[command(flatten)]
-    output: OutputOptions,
+    pub(crate) output: OutputOptions,
 }
 
 /// The help beside the options.

@@ -35,7 +35,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u64).range(2..=1_000_000), allow_hyphen_values = true)]
     samples: u64,
     #[command(flatten)]
-    output: OutputOptions,
+    pub(crate) output: OutputOptions,
 }
 
 /// The most humps of a window. The time grows with their number and with that of the branches of all of them.

@@ -28,7 +28,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "FILE", value_parser = output_file::figure)]
     figure: Option<OutputFile>,
     #[command(flatten)]
-    output: OutputOptions,
+    pub(crate) output: OutputOptions,
 }
 
 /// The fixed point at the end of the default window.

@@ -38,7 +38,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "FILE", value_parser = output_file::animation)]
     animate: Option<OutputFile>,
     #[command(flatten)]
-    output: OutputOptions,
+    pub(crate) output: OutputOptions,
 }
 
 /// The most hops of a call: their table has some 100 MB.

@@ -31,7 +31,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "SPEED", num_args = 1.., value_parser = values::speed, allow_hyphen_values = true)]
     alpha: Vec<f64>,
     #[command(flatten)]
-    output: OutputOptions,
+    pub(crate) output: OutputOptions,
 }
 
 /// The help beside the options.

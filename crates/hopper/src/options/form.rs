@@ -21,7 +21,7 @@ pub(crate) struct OutputOptions {
     /// Print no notes on standard error
     #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
-    /// Print on standard error how the numbers were computed
+    /// Print on standard error how the numbers were computed, and in which time
     #[arg(short, long)]
     verbose: bool,
 }
@@ -51,6 +51,11 @@ impl OutputOptions {
     /// Whether notes are not wanted.
     pub(crate) fn is_quiet(&self) -> bool {
         self.quiet
+    }
+
+    /// Whether notes on the computation are wanted.
+    pub(crate) fn is_verbose(&self) -> bool {
+        self.verbose
     }
 
     /// Prints a note on standard error, unless notes are not wanted.

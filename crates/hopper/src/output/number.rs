@@ -22,8 +22,8 @@ pub(crate) fn append_number(value: f64, text: &mut String) {
         return;
     }
     let digits = buffer.format(value);
-    match digits.split_once("e+") {
-        Some((mantissa, exponent)) => text.extend([mantissa, "e", exponent]),
+    match digits.split_once('+') {
+        Some((mantissa, exponent)) => text.extend([mantissa, exponent]),
         None => *text += digits.strip_suffix(".0").unwrap_or(digits),
     }
 }
