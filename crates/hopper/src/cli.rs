@@ -64,6 +64,7 @@ impl Command {
             Command::Hop(options) => options.output.is_verbose(),
             Command::Orbit(options) => options.output.is_verbose(),
             Command::Fate(options) => options.output.is_verbose(),
+            Command::Basins(options) => options.output.is_verbose(),
             Command::Map(options) => options.output.is_verbose(),
             Command::Intervals(options) => options.output.is_verbose(),
             Command::Units(options) => options.output.is_verbose(),
