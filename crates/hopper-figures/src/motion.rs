@@ -78,6 +78,10 @@ impl Motion {
                 let duration = arc.time + duration;
                 return Err(Error::TooLong { duration, most: MOST_SAMPLES });
             }
+            // The arc before ends at this instant; the sum of its start and its duration may be an ulp off.
+            if let Some(last) = motion.samples.last_mut() {
+                last.time = arc.time;
+            }
             for k in 0..=steps as usize {
                 let elapsed = duration * (k as f64 / steps);
                 let state = arc.state(&hopper, elapsed)?.into();

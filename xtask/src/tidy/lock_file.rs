@@ -42,10 +42,10 @@ pub(super) fn packages(text: &str) -> Vec<Package> {
 
 /// The packages from outside that these names lead to, by the lock file. It has the dependencies of all systems and of all features
 /// that any crate of the workspace uses, so that the number is an upper bound.
-pub(super) fn reached<'a>(
-    packages: &'a [Package],
+pub(super) fn reached(
+    packages: &[Package],
     from: impl IntoIterator<Item = String>,
-) -> BTreeSet<(&'a str, &'a str)> {
+) -> BTreeSet<(&str, &str)> {
     let mut reached = BTreeSet::new();
     let mut open: Vec<String> = from.into_iter().collect();
     while let Some(wanted) = open.pop() {
