@@ -19,9 +19,9 @@ use hopper_basin::{
     ShareRaster, Upwards,
 };
 use hopper_figures::draw_shares;
-use journal_figures::render;
+use journal_figures::{Svg, render};
 use passive_hopper::MassRatio;
-use resumable_job::{Element, Order, npy_header};
+use resumable_job::{Element, Order, Pieces, npy_header};
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -108,24 +108,9 @@ pub(crate) fn run(
             let columns = (0..count).map(|at| column_bytes::column(&finished.kept.finished(at)?));
             let raster =
                 ShareRaster::from_columns(grid, upwards, columns.collect::<Result<_, _>>()?)?;
-            let rendered = render("shares", &draw_shares(n, &raster)?, 2.0)?;
-            job.write(PICTURE_FILE, &rendered.png)?;
-            let (mut legend, mut files) = (Vec::new(), vec![PICTURE_FILE.to_owned()]);
-            for (at, (label, mean)) in raster.means().into_iter().enumerate() {
-                let file = format!("share_{}.npy", label.code());
-                job.write(&file, &npy(&raster, at))?;
-                let (label, name) = (label.code(), HopperFate::label_name(label));
-                legend.push(
-                    json!({ "label": label, "name": name, "mean_share": mean, "file": file }),
-                );
-                files.push(file);
-            }
-            if let Some(edges) = &edges {
-                legend.push(speeds_by_column(n, edges, call));
-            }
-            let legend = Value::Array(legend);
-            let files: Vec<&str> = files.iter().map(String::as_str).collect();
-            job.finish(&RESULTS, &files, &legend, (finished.kept, count))?;
+            let notes = edges.iter().map(|edges| speeds_by_column(n, edges, call)).collect();
+            let drawing = draw_shares(n, &raster)?;
+            let legend = finish(&job, &raster, &drawing, notes, (finished.kept, count))?;
             legend
         }
     };
@@ -133,6 +118,29 @@ pub(crate) fn run(
     tables.push_file(job.place_of(PICTURE_FILE), "the picture, colours mixed by shares");
     tables.push_file(job.place_of(LEGEND), "the labels, their mean shares and arrays");
     Ok(tables)
+}
+
+/// Writes the results of a raster of shares, and removes its pieces. Returns the legend: the labels, and after them the notes.
+fn finish(
+    job: &JobFolder,
+    raster: &ShareRaster,
+    drawing: &Svg,
+    notes: Vec<Value>,
+    pieces: (Pieces, usize),
+) -> Result<Value, Error> {
+    job.write(PICTURE_FILE, &render("shares", drawing, 2.0)?.png)?;
+    let (mut legend, mut files) = (Vec::new(), vec![PICTURE_FILE.to_owned()]);
+    for (at, (label, mean)) in raster.means().into_iter().enumerate() {
+        let file = format!("share_{}.npy", label.code());
+        job.write(&file, &npy(raster, at))?;
+        let (label, name) = (label.code(), HopperFate::label_name(label));
+        legend.push(json!({ "label": label, "name": name, "mean_share": mean, "file": file }));
+        files.push(file);
+    }
+    legend.extend(notes);
+    let (legend, files) = (Value::Array(legend), files.iter().map(String::as_str));
+    job.finish(&RESULTS, &files.collect::<Vec<_>>(), &legend, pieces)?;
+    Ok(legend)
 }
 
 /// The preimage of α*_n near a speed at a mass ratio, followed to the middle of every column; `None` where it does not exist.
