@@ -110,8 +110,7 @@ pub(crate) fn run(
                 ShareRaster::from_columns(grid, upwards, columns.collect::<Result<_, _>>()?)?;
             let notes = edges.iter().map(|edges| speeds_by_column(n, edges, call)).collect();
             let drawing = draw_shares(n, &raster)?;
-            let legend = finish(&job, &raster, &drawing, notes, (finished.kept, count))?;
-            legend
+            finish(&job, &raster, &drawing, notes, (finished.kept, count))?
         }
     };
     tables.shares = tables::shares(&legend);
