@@ -247,18 +247,20 @@ impl AbelSeries {
         // Newton's method for p = 1/(A x): Ψ = p − c ln(A p) + …, whose slope by p is 1 − c A x + …, near 1.
         let smallest = 1.0 / (self.drift * self.whole);
         let mut p = smallest.max(count.hops);
+        let at = |p: f64| {
+            let x = (1.0 / (self.drift * p)).min(self.whole);
+            (x, self.value(x))
+        };
+        let (mut x, mut found) = at(p);
         for _ in 0..NEWTON_STEPS {
-            let x = 1.0 / (self.drift * p);
-            let slope = -self.drift * x * x * self.slope(x);
-            let next = smallest.max(p - (self.value(x).hops - count.hops) / slope);
-            let small = (next - p).abs() <= 2.0 * f64::EPSILON * p;
-            p = next;
-            if small {
+            let residual = found.hops - count.hops;
+            if residual.abs() <= (4.0 * f64::EPSILON * p).max(SMALL_PART * count.error) {
                 break;
             }
+            let slope = -self.drift * x * x * self.slope(x);
+            p = smallest.max(p - residual / slope);
+            (x, found) = at(p);
         }
-        let x = (1.0 / (self.drift * p)).min(self.whole);
-        let found = self.value(x);
         let error = found.error + count.error + (found.hops - count.hops).abs();
         // The slope by p is at least one half (docs/theory.md, Lemma 92.2): p errs by at most twice as much, and x by r/(1 − r).
         let relative = 2.0 * error / p;
@@ -285,6 +287,9 @@ impl AbelSeries {
 pub(crate) fn cube_error(relative: f64) -> f64 {
     3.0 * relative * (1.0 + relative) * (1.0 + relative) + 2.0 * f64::EPSILON
 }
+
+/// A residual of this part of the error of a phase ends the search for its x. A smaller part takes more steps.
+const SMALL_PART: f64 = 1.0 / 16.0;
 
 /// Most Newton steps of [`AbelSeries::root_at`]: five suffice, as the slope is between one half and two.
 const NEWTON_STEPS: usize = 20;
