@@ -129,6 +129,29 @@ impl FractionsAlong {
         &self.unmatched
     }
 
+    /// The same curve over another parameter, given as an increasing function of this one.
+    ///
+    /// ```
+    /// use basin_of_attraction::{CurveLimits, Error, Fractions, Interval, fractions_along};
+    /// // Steps of a constant factor, from 10⁻³ to 1.
+    /// let logarithms = Interval::new(1e-3f64.ln(), 0.0)?;
+    /// let at = |t: f64| Ok::<_, Error>(Fractions { unseen: t.exp(), ..Fractions::default() });
+    /// let found = fractions_along(logarithms, &[], CurveLimits::default(), at)?.with_parameters(f64::exp);
+    /// assert!(found.points().iter().all(|(parameter, fractions)| *parameter == fractions.unseen));
+    /// # Ok::<(), Error>(())
+    /// ```
+    #[must_use]
+    pub fn with_parameters(mut self, parameter: impl Fn(f64) -> f64) -> FractionsAlong {
+        self.points.iter_mut().for_each(|point| point.0 = parameter(point.0));
+        for step in &mut self.unresolved {
+            (step.from, step.to) = (parameter(step.from), parameter(step.to));
+        }
+        for step in &mut self.unmatched {
+            (step.from, step.to) = (parameter(step.from), parameter(step.to));
+        }
+        self
+    }
+
     /// All labels, in increasing order.
     pub fn labels(&self) -> Vec<Label> {
         let all = self.points.iter().flat_map(|(_, fractions)| fractions.found.keys().copied());

@@ -148,7 +148,7 @@ pub use interval::{Interval, IntervalSet};
 pub use interval_basins::{IntervalBasins, LabelledInterval};
 pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
-pub use low_discrepancy::low_discrepancy_fractions;
+pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};

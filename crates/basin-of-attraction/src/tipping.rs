@@ -137,6 +137,12 @@ fn with_gaps(basins: &IntervalBasins) -> Vec<(f64, Option<Label>)> {
 }
 
 impl Tipping {
+    /// The same with other labels, such as one for the union of several basins. A label that is no basin is undecided.
+    #[must_use]
+    pub fn relabelled(self, label: impl Fn(Label) -> Label) -> Self {
+        Tipping { lengths: relabelled(&self.lengths, label), ..self }
+    }
+
     /// The labels that occur before, or after.
     pub fn labels(&self) -> Vec<Label> {
         labels(&self.lengths)
@@ -181,6 +187,19 @@ fn labels<T>(amounts: &Amounts<T>) -> Vec<Label> {
     all.collect::<BTreeSet<Label>>().into_iter().collect()
 }
 
+/// The amounts with other labels; a label that is no basin is undecided.
+fn relabelled<T: Copy + Default + std::ops::AddAssign>(
+    amounts: &Amounts<T>,
+    label: impl Fn(Label) -> Label,
+) -> Amounts<T> {
+    let renamed = |own: Option<Label>| own.map(&label).filter(|label| label.is_basin());
+    let mut all: Amounts<T> = BTreeMap::new();
+    for (&(before, after), &amount) in amounts {
+        *all.entry((renamed(before), renamed(after))).or_default() += amount;
+    }
+    all
+}
+
 /// Random points, counted by their labels before and after.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TippingCounts {
@@ -189,6 +208,12 @@ pub struct TippingCounts {
 }
 
 impl TippingCounts {
+    /// The same with other labels, such as one for the union of several basins. A label that is no basin is undecided.
+    #[must_use]
+    pub fn relabelled(self, label: impl Fn(Label) -> Label) -> Self {
+        TippingCounts { counts: relabelled(&self.counts, label), ..self }
+    }
+
     /// Counts pairs of labels, before and after. A point that is outside before or after is not counted.
     ///
     /// # Errors

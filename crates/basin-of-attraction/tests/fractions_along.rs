@@ -116,7 +116,7 @@ fn attractors_whose_numbers_change_are_matched_by_position() {
     let at = |c: f64| {
         let map = move |x: &[f64]| Some(vec![(1.5 + c) * x[0] - 0.5 * x[0] * x[0] * x[0]]);
         // The number of the positive attractor is 1 or 2, as the first start says.
-        let sign = if (1e3 * c).sin() > 0.0 { 1.0 } else { -1.0 };
+        let sign = if (1e2 * c).sin() > 0.0 { 1.0 } else { -1.0 };
         let starts = [vec![0.3 * sign], vec![-0.4 * sign]];
         let found = Attractors::search(&map, line.clone(), &starts, RecurrenceLimits::default())?;
         positive.push(found.label(&map, &[0.3]));

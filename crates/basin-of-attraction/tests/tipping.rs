@@ -46,7 +46,7 @@ fn undecided_parts_open_the_bounds_of_a_tipping_probability() {
 /// The bounds contain the probability for every way to decide the gaps.
 #[test]
 fn bounds_contain_the_probability_however_the_gaps_are_decided() {
-    let parts = [(0.0, 2.0, 1), (2.5, 3.0, 2), (3.0, 4.0, 1), (5.0, 7.0, 2), (7.5, 10.0, 1)];
+    let parts = [(0.0, 2.0, 1), (2.5, 3.0, 2), (3.5, 4.0, 1), (5.0, 7.0, 2), (7.5, 10.0, 1)];
     let other = [(0.5, 2.7, 2), (3.5, 5.5, 1), (6.0, 8.0, 2), (8.5, 10.0, 1)];
     let tipping = basins(&parts).tipping_to(&basins(&other)).unwrap();
     let [one, two] = [1, 2].map(Label::from);
