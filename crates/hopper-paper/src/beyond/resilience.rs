@@ -1,13 +1,14 @@
 //! Resilience: how far lift-off speeds are from the boundary of their basin.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{FROM, TO, fates, geometric, is_incessant};
+use super::humps_of_window::{TO, fates, geometric};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::{Bounds, IntervalBasins, Label, Refinement};
+use basin_of_attraction::{Bounds, IntervalBasins, Refinement};
 use hopper_basin::{HopperFate, hopper_basins};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
+use passive_hopper::alpha_star;
 
 /// The mass ratios of the paper's measures, and two larger ones at which the branches of the map are proved.
 const RATIOS: [f64; 4] = [0.1, 0.2, 0.5, 0.8];
@@ -46,25 +47,18 @@ pub(super) fn resilience(_: &Job) -> Result<Finding, Error> {
     let mut data = Vec::new();
     let all: Vec<(f64, IntervalBasins)> = RATIOS
         .into_iter()
-        .map(|m| Ok((m, hopper_basins(&fates(m)?, FROM, TO, 400, REFINEMENT)?.basins)))
+        .map(|m| Ok((m, hopper_basins(&fates(m)?, 0, TO, 400, REFINEMENT)?.basins)))
         .collect::<Result<_, Error>>()?;
-    let panels: [(&str, Label, f64); 2] = [
-        ("(a)  basin of $α$^{∗}_{1}", Label::from(1), 66.0),
-        ("(b)  incessant hopping, all fixed points as one", HopperFate::INCESSANT, 496.0),
-    ];
-    for (title, label, left) in panels {
+    for (panel, n) in [1, 2].into_iter().enumerate() {
+        let (left, label) = (66.0 + 430.0 * panel as f64, HopperFate::label_of_fixed_point(n));
+        let name = format!("$α$^{{∗}}_{{{n}}}");
         let frame =
             Frame::linear(left, 34.0, 340.0, 310.0, (DISTANCES.0, DISTANCES.1), (1e-4, 1.3))
                 .log_x()
                 .log_y();
-        svg.text(left, 22.0, Anchor::Start, 13.0, title);
+        let title = ["(a)", "(b)"][panel];
+        svg.text(left, 22.0, Anchor::Start, 13.0, &format!("{title}  basin of {name}"));
         for ((at, (m, basins)), pen) in all.iter().enumerate().zip(PENS) {
-            let basins = match label {
-                HopperFate::INCESSANT => basins.clone().relabelled(|part| {
-                    if is_incessant(part.label) { HopperFate::INCESSANT } else { part.label }
-                }),
-                _ => basins.clone(),
-            };
             let found = basins.distances_to_boundary(label, RESOLUTION);
             let within = |distance: f64| {
                 let part = found.fraction_within(distance);
@@ -84,18 +78,17 @@ pub(super) fn resilience(_: &Job) -> Result<Finding, Error> {
             }));
             let (safest, largest) = found.largest().unwrap_or((f64::NAN, within(0.0)));
             // An ulp above the fixed point the state is in its trap.
-            let upward = (label == Label::from(1))
-                .then(|| basins.distance_to_boundary(basins.window().left.next_up(), RESOLUTION))
-                .flatten();
+            let star = alpha_star(n).next_up();
+            let upward = basins.distance_to_boundary(star, RESOLUTION).map(|at| at.above);
             table.row([
                 format!("{m}"),
-                if label == Label::from(1) { "$α$^{∗}_{1}".into() } else { "incessant".into() },
+                name.clone(),
                 format!("{:.6}", found.length()),
                 percent(within(1e-3)),
                 percent(within(1e-2)),
                 length(largest),
                 format!("{safest:.6}"),
-                upward.map_or("–".into(), |distance| length(distance.above)),
+                upward.map_or("–".into(), length),
             ]);
         }
         frame.axes(
@@ -111,12 +104,11 @@ pub(super) fn resilience(_: &Job) -> Result<Finding, Error> {
             name: "beyond_resilience",
             title: "Resilience: how close the speeds of a basin are to its boundary".into(),
             paper: "Measures of the basins, whatever their shape.".into(),
-            notes: "The part of the basin within $ε$ of its boundary, in [$α$^{∗}_{1}, $α$^{∗}_{6}], from basins as \
-                    intervals (ends to an ulp, branches of the map proved): the probability that some shock of size $ε$ takes a speed \
-                    out of the basin. The bounds differ by less than the line is wide, but for the smallest $ε$; the \
-                    ends of the window count as boundary for the upper one only. A fixed point itself is on the boundary: any \
-                    shock downwards is fatal. Upwards the fatal shock from $α$^{∗}_{1} is the length of the trap, from the \
-                    crisis of hump 1 on, and at $M$ = 0.1 more than the whole hump."
+            notes: "The part of the basin within $ε$ of its boundary, for speeds up to $α$^{∗}_{6}, from basins as \
+                    intervals (ends to an ulp, branches of the map proved): the probability that some shock of size $ε$ takes \
+                    a speed out of the basin. The lines are the middle between bounds, which the table gives. A fixed point itself is on the \
+                    boundary: any shock downwards is fatal. Upwards the fatal shock from $α$^{∗}_{n} is the length of \
+                    its trap above the crisis of hump $n$; at $M$ = 0.1 it reaches to the next fixed point for $n$ = 1."
                 .into(),
             svg,
             data: vec![csv_file("resilience.csv", &["mass_ratio", "label", "distance", "fraction_lower", "fraction_upper"], data)?],

@@ -1,21 +1,35 @@
 //! Tipping: the fate of a hopper whose mass ratio changes, at once or slowly.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{FROM, TO, estimate, fates, geometric, is_incessant, percent};
+use super::humps_of_window::{FROM, TO, estimate, fates, is_incessant, percent};
 use super::measure::ratio_ticks;
 use crate::error::Error;
 use crate::fate_colors;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::{FractionRange, Label, Refinement, TippingCounts};
+use basin_of_attraction::{
+    CurveLimits, FractionRange, Fractions, Interval, IntervalBasins, Label, Matching, Refinement,
+    SplitMix64, Tipping, TippingCounts, fractions_along,
+};
 use hopper_basin::{
-    HopperFate, HopperTipping, first_humps, random_tipping, tipping, tipping_along_drift,
+    BranchGround, Fates, HopperFate, first_humps, hopper_basins, known_kinks, tipping_along_drift,
 };
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::MassRatio;
+use std::collections::BTreeMap;
 
 /// Mass ratios before: up to the largest at which the branches up to α*_6 are proved.
-const RATIOS: (f64, f64, usize) = (0.05, 0.8, 41);
+const RATIOS: (f64, f64) = (0.05, 0.8);
+
+/// Neighbours of these mass ratios differ by 20 % at most. Half of that takes twice as long.
+const CURVE: CurveLimits = CurveLimits {
+    first_steps: 4,
+    difference: 0.01,
+    relative: 0.2,
+    shortest: 1e-3,
+    budget: 150,
+    matching: Matching::ByLabel,
+};
 
 /// Random speeds of a probability: 95 % intervals of ± 0.01 and less where a tenth of them is in the basin.
 const SPEEDS: usize = 40_000;
@@ -38,19 +52,26 @@ fn together(label: Label) -> Label {
     if is_incessant(label) { HopperFate::INCESSANT } else { label }
 }
 
-/// The bounds as a fraction with a range.
-fn proved(found: &HopperTipping, from: Label, to: Label) -> Result<FractionRange, Error> {
-    let known = found.is_proved().then(|| found.tipping.probability(from, to)).flatten();
+fn proved(tipping: &Tipping, from: Label, to: Label) -> Result<FractionRange, Error> {
+    let known = tipping.probability(from, to);
     known
         .map(|p| FractionRange { value: p.middle(), lower: p.lower, upper: p.upper })
-        .ok_or_else(|| Error::CheckFailed(format!("no proved probability from {from} to {to}")))
+        .ok_or_else(|| Error::CheckFailed(format!("no speed is known to go to {from}")))
 }
 
 fn counted(found: &TippingCounts, from: Label, to: Label) -> Result<FractionRange, Error> {
     let known = found.probability(from, to)?;
-    known
-        .map(Into::into)
-        .ok_or_else(|| Error::CheckFailed(format!("no speed goes to {from} before")))
+    known.map(Into::into).ok_or_else(|| Error::CheckFailed(format!("no speed goes to {from}")))
+}
+
+/// The basins at M, of which the branches of the map must be proved.
+fn proved_basins(fates: &Fates) -> Result<IntervalBasins, Error> {
+    let found = hopper_basins(fates, FROM, TO, 400, REFINEMENT)?;
+    let m = fates.map().mass_ratio().value();
+    match found.ground {
+        BranchGround::Proved => Ok(found.basins),
+        _ => Err(Error::CheckFailed(format!("the branches at M = {m} are not proved"))),
+    }
 }
 
 fn three(p: FractionRange) -> [f64; 3] {
@@ -60,17 +81,36 @@ fn three(p: FractionRange) -> [f64; 3] {
 /// Tipping from each M to 0.2 and to 1, and along a drift from 0.1 to 0.2.
 pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
     let all = HopperFate::INCESSANT;
-    let ratios = geometric(RATIOS.0, RATIOS.1, RATIOS.2);
     let (slow, heavy) = (fates(DRIFT.1)?, fates(1.0)?);
     let window = first_humps(TO - FROM);
-    let sudden = job.scan("tipping", ratios.len(), |k| {
-        let before = fates(ratios[k])?;
-        let to_slow = tipping(&before, &slow, FROM, TO, REFINEMENT)?;
-        let grounds = to_slow.grounds;
-        let to_slow = HopperTipping { tipping: to_slow.tipping.relabelled(together), grounds };
-        let to_one = random_tipping(&before, &heavy, window, SPEEDS, SEED)?.relabelled(together);
-        Ok([three(proved(&to_slow, all, all)?), three(counted(&to_one, all, all)?)].concat())
-    })?;
+    // What is common to all mass ratios before.
+    let slow_basins = proved_basins(&slow)?;
+    let random = SplitMix64::from_seed(SEED);
+    let speed = |k: usize| window.left + window.length() * random.uniform(k as u64);
+    let speeds: Vec<f64> = (0..SPEEDS).map(speed).collect();
+    let at_one = heavy.labels(&speeds)?;
+    let mut rows = job.rows("tipping")?;
+    let mut sudden: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
+    let at = |logarithm: f64| {
+        let m = pxfm::f_exp(logarithm);
+        let row = rows.next(|| {
+            let before = fates(m)?;
+            let to_slow = proved_basins(&before)?.tipping_to(&slow_basins)?.relabelled(together);
+            let pairs = before.labels(&speeds)?.into_iter().zip(at_one.iter().copied());
+            let to_one = TippingCounts::new(pairs)?.relabelled(together);
+            Ok([three(proved(&to_slow, all, all)?), three(counted(&to_one, all, all)?)].concat())
+        })?;
+        let found = [(all, estimate(&row[..3]))].into();
+        sudden.insert(m.to_bits(), row);
+        Ok::<_, Error>(Fractions { found, ..Fractions::default() })
+    };
+    let range = Interval::new(pxfm::f_log(RATIOS.0), pxfm::f_log(RATIOS.1))?;
+    let kinks: Vec<f64> =
+        known_kinks(FROM, TO)?.into_iter().chain([DRIFT.1]).map(pxfm::f_log).collect();
+    fractions_along(range, &kinks, CURVE, at)?;
+    // The bits of positive numbers are in their order.
+    let (ratios, sudden): (Vec<f64>, Vec<Vec<f64>>) =
+        sudden.into_iter().map(|(bits, row)| (f64::from_bits(bits), row)).unzip();
     let drifts = job.scan("drifts", DOUBLINGS + 1, |k| {
         let hops = 1usize << k;
         let at = |hop: usize| {
@@ -86,7 +126,7 @@ pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
     })?;
     let mut svg = Svg::new(860.0, 420.0);
     let left =
-        Frame::linear(70.0, 34.0, 350.0, 310.0, (RATIOS.0, RATIOS.1), (1e-3, 1.3)).log_x().log_y();
+        Frame::linear(70.0, 34.0, 350.0, 310.0, (RATIOS.0, RATIOS.1), (5e-4, 1.3)).log_x().log_y();
     svg.text(left.left, 22.0, Anchor::Start, 13.0, "(a)  stays incessant, $M$ changes at once");
     let pens = [Pen::solid("#0072b2", 1.7), Pen::dashed("#d55e00", 1.7, "7 3")];
     for (at, (pen, name)) in
@@ -94,7 +134,7 @@ pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
     {
         let of = |row: &Vec<f64>| estimate(&row[3 * at..3 * at + 3]);
         bars(&mut svg, &left, &ratios, &sudden.iter().map(of).collect::<Vec<_>>(), pen);
-        let y = 300.0 + 18.0 * at as f64;
+        let y = 312.0 + 17.0 * at as f64;
         svg.line((84.0, y), (114.0, y), pen);
         svg.text(120.0, y + 4.0, Anchor::Start, 11.5, name);
     }
@@ -147,14 +187,13 @@ pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
                  the probability that it still hops for ever. To 0.2 by intersecting basins as intervals, with bounds \
                  thinner than the line (the branches of the map are proved at both mass ratios); to 1, where they are not, by {SPEEDS} \
                  speeds of certain fate. (b) $M$ grows from 0.1 to 0.2 in equal parts from hop to hop, and the orbit follows. \
-                 With 1 hop the change is sudden. A slow drift loses the speeds that have not come into the trap of $M$ = 0.2 \
-                 when they are outside: near $α$^{{∗}}_{{n}} an orbit comes closer like 1/$k$^{{3}}, faster than the trap shrinks, \
-                 so that nearly none tips. Orbits of the drift are computed without error bounds."
+                 With 1 hop the change is sudden. The slower the drift, the more speeds come into the trap of $M$ = 0.2 before the \
+                 trap has shrunk. Orbits of the drift are computed without error bounds."
             ),
             svg,
             data: data.into(),
         },
-        table: table(&sudden, &ratios)?,
+        table: table(&sudden, &ratios, &slow_basins)?,
     })
 }
 
@@ -175,7 +214,7 @@ fn bars(svg: &mut Svg, frame: &Frame, xs: &[f64], found: &[FractionRange], pen: 
 }
 
 /// From each basin at 0.1 to each at 0.2, and from some mass ratios to 1.
-fn table(sudden: &[Vec<f64>], ratios: &[f64]) -> Result<Table, Error> {
+fn table(sudden: &[Vec<f64>], ratios: &[f64], slow: &IntervalBasins) -> Result<Table, Error> {
     let mut table = Table::new(&[
         "from",
         "decaying",
@@ -185,7 +224,7 @@ fn table(sudden: &[Vec<f64>], ratios: &[f64]) -> Result<Table, Error> {
         "$α$^{∗}_{4}",
         "$α$^{∗}_{5}",
     ]);
-    let found = tipping(&fates(DRIFT.0)?, &fates(DRIFT.1)?, FROM, TO, REFINEMENT)?;
+    let found = proved_basins(&fates(DRIFT.0)?)?.tipping_to(slow)?;
     for n in FROM..TO {
         let label = HopperFate::label_of_fixed_point;
         let cell = |to: u64| {
@@ -196,7 +235,9 @@ fn table(sudden: &[Vec<f64>], ratios: &[f64]) -> Result<Table, Error> {
         let name = format!("$α$^{{∗}}_{{{n}}}, $M$ = 0.1 to 0.2");
         table.row(std::iter::once(name).chain(cells));
     }
-    for (m, row) in ratios.iter().zip(sudden).step_by(10) {
+    /// Every this many mass ratios one is in the table; the others are in the data.
+    const ROWS: usize = 8;
+    for (m, row) in ratios.iter().zip(sudden).step_by(ROWS) {
         let p = estimate(&row[3..]);
         let name = format!("incessant, $M$ = {m:.3} to 1");
         let cells = ["–".into(), format!("all: {}", percent(&p)), "–".into()];
