@@ -1,6 +1,6 @@
 //! Basin fractions along a curve of parameters.
 //!
-//! The curve is divided at the parameters that the caller knows to be special, and each part into equal steps. A step whose ends have
+//! The curve is divided at the parameters that the caller knows to be special, and each part into equal steps of a largest length. A step whose ends have
 //! too different fractions is halved, the worst one first. Where halving does not help, the reason is reported: at a jump of the
 //! fractions the step becomes as short as allowed, with ranges that exclude each other.
 
@@ -27,8 +27,8 @@ pub enum Matching {
 /// How finely a curve of parameters is divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurveLimits {
-    /// Steps into which every part of the curve is divided at first. A change of the fractions that is gone at the next parameter is
-    /// not seen: the first steps must be shorter than the narrowest peak.
+    /// Equal steps into which the curve would be divided at first without known parameters; with them no first step is longer. A peak
+    /// between two parameters with equal fractions is not seen: the first steps must be shorter than the narrowest peak.
     pub first_steps: usize,
     /// A step is fine enough if every fraction changes by at most this,
     pub difference: f64,
@@ -247,7 +247,12 @@ fn first_parameters(
     ends.sort_by(f64::total_cmp);
     ends.dedup();
     let CurveLimits { first_steps, difference, relative, shortest, budget, .. } = *limits;
-    let fewest = (ends.len() - 1).saturating_mul(first_steps).saturating_add(1);
+    // Up to rounding: a part of k steps does not get a further one.
+    let steps = |pair: &[f64]| {
+        ((pair[1] - pair[0]) / (right - left) * first_steps as f64 - 1e-9).ceil().max(1.0)
+    };
+    let fewest =
+        ends.windows(2).map(|pair| steps(pair) as usize).fold(1usize, usize::saturating_add);
     let positive = difference > 0.0 && relative >= 0.0 && shortest > 0.0;
     if first_steps == 0 || budget < fewest || !positive || !shortest.is_finite() {
         let error =
@@ -256,8 +261,9 @@ fn first_parameters(
     }
     let mut parameters = Vec::with_capacity(fewest);
     for pair in ends.windows(2) {
-        let at = |k: usize| pair[0] + (pair[1] - pair[0]) * (k as f64 / first_steps as f64);
-        parameters.extend((0..first_steps).map(at));
+        let count = steps(pair);
+        let at = |k: usize| pair[0] + (pair[1] - pair[0]) * (k as f64 / count);
+        parameters.extend((0..count as usize).map(at));
     }
     parameters.push(right);
     // A part as short as an ulp has several equal parameters.

@@ -72,10 +72,10 @@ fn the_fractions_over_the_mass_ratio_fall_at_the_crisis() {
     let found = fractions_over_mass_ratio::<Error>(range, 1, 2, curve, at).unwrap();
     let fractions: Vec<_> = found.of(HopperFate::INCESSANT).collect();
     let start = crisis(1).unwrap().mass_ratio;
-    assert!(fractions.iter().any(|(m, _)| (m / start - 1.0).abs() < 1e-15));
+    assert!(fractions.iter().any(|(m, _)| (m / start - 1.0).abs() < 2e-9));
     for (m, fraction) in &fractions {
         // All of hump 1 stays below the crisis; above it the fraction falls like a root.
-        assert_eq!(fraction.lower > 0.999, *m < start * (1.0 + 1e-12), "{m} {fraction:?}");
+        assert_eq!(fraction.lower > 0.999, *m < start, "{m} {fraction:?}");
     }
     assert!(found.unresolved().is_empty(), "{:?}", found.unresolved());
     for pair in fractions.windows(2) {
@@ -86,7 +86,7 @@ fn the_fractions_over_the_mass_ratio_fall_at_the_crisis() {
     let at = |m: f64| Ok(hump_fractions(&fates(m), 1, 2, limits)?.0);
     let found = fractions_over_mass_ratio::<Error>(range, 1, 2, coarse, at).unwrap();
     let jumps: Vec<_> = found.jumps().collect();
-    assert!(jumps.iter().any(|jump| (jump.from / start - 1.0).abs() < 1e-12));
+    assert!(jumps.iter().any(|jump| (jump.from / start - 1.0).abs() < 2e-9));
     assert!(found.unresolved().iter().all(|step| step.reason == UnresolvedReason::Jump));
 }
 

@@ -166,8 +166,14 @@ pub fn known_kinks(from: u64, to: u64) -> Result<Vec<f64>, Error> {
     Ok(all)
 }
 
+/// Distance of a mass ratio from its kink, in ln M. At the kink itself rounding decides whether the trap ends there, and the fates of all
+/// speeds of the hump beyond are slow: at M = 1/M_c(4) they take 12 minutes. From here to the kink fractions change by less
+/// than 10⁻³.
+const ASIDE: f64 = 1e-9;
+
 /// The basin fractions on [α*_`from`, α*_`to`] over a range of mass ratios: [`hump_fractions`] at mass ratios so close together that
-/// neighbours agree as `curve` says. Steps are those of ln M, and [`known_kinks`] are among the mass ratios.
+/// neighbours agree as `curve` says. Steps are those of ln M. Each of [`known_kinks`] has a mass ratio 10⁻⁹ of its value beside it, on
+/// the side on which its hump does not fall through.
 ///
 /// `fractions` is called for every mass ratio: [`hump_fractions`], or stored results of it.
 ///
@@ -198,7 +204,9 @@ pub fn fractions_over_mass_ratio<E: From<Error> + From<basin_of_attraction::Erro
         MassRatio::new(end).map_err(Error::from)?;
     }
     let logarithms = Interval::new(pxfm::f_log(range.left), pxfm::f_log(range.right))?;
-    let kinks: Vec<f64> = known_kinks(from, to)?.into_iter().map(pxfm::f_log).collect();
+    // The side of a kink on which its hump does not fall through: below M_c, and above 1/M_c.
+    let beside = |m: f64| pxfm::f_log(m) + if m < 1.0 { -ASIDE } else { ASIDE };
+    let kinks: Vec<f64> = known_kinks(from, to)?.into_iter().map(beside).collect();
     let found = fractions_along(logarithms, &kinks, curve, |t| fractions(pxfm::f_exp(t)))?;
     Ok(found.with_parameters(pxfm::f_exp))
 }

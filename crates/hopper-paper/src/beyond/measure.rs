@@ -22,9 +22,9 @@ use std::collections::BTreeMap;
 const RATIOS: (f64, f64) = (0.02, 50.0);
 
 /// How finely the mass ratios are divided: neighbours differ by 30 % or by 0.005, a hundredth of the height of the curves, or by less
-/// than can be seen. Half of that takes twice as long.
+/// than can be seen. Half of that takes twice as long. The first steps are 4 % of M: peaks such as that at M = 0.172 are wider.
 const CURVE: CurveLimits = CurveLimits {
-    first_steps: 4,
+    first_steps: 200,
     difference: 0.005,
     relative: 0.3,
     shortest: 1e-4,
@@ -128,8 +128,8 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                 "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  where the branches of the map are proved ($M$ ≤ 0.83 and more) by intervals down to 10^{{−7}}, with bounds up \
                  to rounding; beyond, by one random point in each of {POINTS} equal parts, with 95 % intervals. {} mass ratios: \
-                 steps are halved until neighbours differ by at most 30 % or 0.005; {} steps remain larger, the others of \
-                 these because their ranges overlap, {} of them as steps of 2·10^{{−4}} of $M$. Ticks at the top: the crises of \
+                 steps are halved until neighbours differ by at most 30 % or 0.005. {} steps remain larger: {} of \
+                 2·10^{{−4}} of $M$ at most, the others because their ranges overlap or the budget is used up. Ticks at the top: the crises of \
                  the humps 1 to 5, the onsets of grounding, and their inverses. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
                  there it falls through its fixed point. Between it and its inverse the measure falls and \
                  rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \

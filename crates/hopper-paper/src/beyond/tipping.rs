@@ -21,13 +21,13 @@ use std::collections::BTreeMap;
 /// Mass ratios before: up to the largest at which the branches up to α*_6 are proved.
 const RATIOS: (f64, f64) = (0.05, 0.8);
 
-/// Neighbours of these mass ratios differ by 20 % at most. Half of that takes twice as long.
+/// Neighbours of these mass ratios differ by 25 % at most, and the first steps are 3.5 % of M. Half of that takes twice as long.
 const CURVE: CurveLimits = CurveLimits {
-    first_steps: 4,
+    first_steps: 80,
     difference: 0.01,
-    relative: 0.2,
+    relative: 0.25,
     shortest: 1e-3,
-    budget: 150,
+    budget: 250,
     matching: Matching::ByLabel,
 };
 
@@ -236,7 +236,7 @@ fn table(sudden: &[Vec<f64>], ratios: &[f64], slow: &IntervalBasins) -> Result<T
         table.row(std::iter::once(name).chain(cells));
     }
     /// Every this many mass ratios one is in the table; the others are in the data.
-    const ROWS: usize = 8;
+    const ROWS: usize = 12;
     for (m, row) in ratios.iter().zip(sudden).step_by(ROWS) {
         let p = estimate(&row[3..]);
         let name = format!("incessant, $M$ = {m:.3} to 1");
