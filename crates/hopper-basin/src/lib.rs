@@ -17,6 +17,8 @@
 //! | [`Fates::labels`] | the fates of many speeds, whose orbits hop together |
 //! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
+//! | [`hump_fractions`], [`fractions_over_mass_ratio`] | basin fractions with bounds or 95 % intervals, at one M and over M with [`known_kinks`] |
+//! | [`tipping`], [`random_tipping`], [`tipping_along_drift`] | the fate of a speed after M changes, at once or from hop to hop |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
 //! | [`BranchGround`], [`Probes`] | what these intervals rest on, and how they agree with single fates |
 //! | [`basin_levels`], [`branches`] | one basin level by level, from the branches of the map |
@@ -61,9 +63,13 @@ mod traps;
 
 pub use basins::branches::branches;
 pub use basins::fractions::{BasinFractions, basin_fractions};
+pub use basins::fractions_over_mass_ratio::{
+    FractionGround, FractionLimits, fractions_over_mass_ratio, hump_fractions, known_kinks,
+};
 pub use basins::intervals::{BranchGround, HopperBasins, Probes, hopper_basins};
 pub use basins::levels::basin_levels;
 pub use basins::rasters::{basin_columns, basin_raster};
+pub use basins::tipping::{HopperTipping, random_tipping, tipping, tipping_along_drift};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use circle::circle_limits::{CircleLimits, Ground};
 pub use circle::edge_chart::EdgeChart;
