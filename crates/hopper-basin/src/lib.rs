@@ -16,6 +16,8 @@
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
 //! | [`Fates::labels`] | the fates of many speeds, whose orbits hop together |
 //! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
+//! | [`coverage_raster`], [`CoverageRaster`], [`CoverageColumn`] | the share of every basin in each pixel, with bounds: needles thinner than a pixel are not missed |
+//! | [`CoverageLimits`], [`CoverageGround`] | how far pixels are resolved, and what their shares stand on |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
 //! | [`BranchGround`], [`Probes`] | what these intervals rest on, and how they agree with single fates |
@@ -54,6 +56,7 @@
 
 mod basins;
 mod circle;
+mod coverage;
 mod error;
 mod fates;
 mod raster;
@@ -77,6 +80,9 @@ pub use circle::phase_shares::PhasePart;
 pub use circle::share_column::ShareColumn;
 pub use circle::share_raster::{ShareRaster, share_raster};
 pub use circle::upwards::Upwards;
+pub use coverage::coverage_column::CoverageColumn;
+pub use coverage::coverage_limits::{CoverageGround, CoverageLimits};
+pub use coverage::coverage_raster::{CoverageRaster, coverage_raster};
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;
