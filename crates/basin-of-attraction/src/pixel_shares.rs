@@ -202,7 +202,10 @@ mod tests {
         assert_eq!(shares.of(Label::from(1), 0), Bounds { lower: 0.5, upper: 1.0 });
         assert_eq!(shares.of(Label::from(2), 0), Bounds { lower: 0.0, upper: 0.5 });
         let nothing = PixelShares::of_intervals(&[], window, 2).unwrap();
-        assert_eq!((nothing.pixels(), nothing.certain(1), nothing.most_undecided()), (2, Some(&[][..]), 1.0));
+        assert_eq!(
+            (nothing.pixels(), nothing.certain(1), nothing.most_undecided()),
+            (2, Some(&[][..]), 1.0)
+        );
     }
 
     #[test]

@@ -2,8 +2,8 @@
 
 use crate::circle::share_column::ShareColumn;
 use crate::coverage::coverage_limits::{CoverageGround, CoverageLimits};
-use crate::coverage::line_basins::{by_fates, by_laps};
 use crate::coverage::laps_sweep::laps_are_known;
+use crate::coverage::line_basins::{by_fates, by_laps};
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;

@@ -18,7 +18,7 @@ use crate::raster::rising_windows::trap_with_window;
 use crate::traps::hump::Hump;
 use crate::traps::trap_index::TrapIndex;
 use basin_of_attraction::{Interval, Label};
-use passive_hopper::{HopWithin, LiftOffMap, MassRatio, index_below};
+use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, MassRatio, index_below};
 use std::f64::consts::PI;
 
 /// Most images of a gap that are taken. The first one shows the label as a rule. Where it lies between two known intervals, which the
@@ -82,8 +82,8 @@ impl Reached {
         }
     }
 
-    fn is_grounded(self) -> bool {
-        matches!(self, Reached::Grounded)
+    fn kind(self) -> std::mem::Discriminant<Self> {
+        std::mem::discriminant(&self)
     }
 
     fn middle(self) -> Option<f64> {
@@ -277,21 +277,51 @@ impl<'a> LapsSweep<'a> {
     fn resolve(&mut self, (a, b): (End, End), finest: f64, parts: &mut Vec<Part>) {
         let mut from = a;
         while from.speed < b.speed {
-            // Next to a fixed point the image of the gap may reach into the gap itself: turn by turn, each image is known.
-            let next = match (from.reached, b.reached) {
-                (Reached::Within(low, _), Reached::Within(_, high)) if high > from.speed => {
-                    let step = TURN * (from.speed - low);
-                    if step < finest {
-                        return parts.push(Part::Open(from, b));
-                    }
-                    let next = from.speed + step;
-                    if next < b.speed { self.end(next) } else { b }
-                }
-                _ => b,
+            if let Some((end, label)) = self.one_label_up_to_fixed_point(&from) {
+                let right = end.min(b.speed);
+                self.add(parts, Interval { left: from.speed, right }, label);
+                from = if right < b.speed { self.end(right) } else { b };
+                continue;
+            }
+            // Next to a fixed point the image of the gap may reach into the gap itself: turn by turn, each image is known. An unknown
+            // image is below its speed.
+            let highest = match b.reached {
+                Reached::Within(_, high) => high,
+                Reached::Unknown => b.speed,
+                Reached::Grounded => 0.0,
             };
+            let mut next = b;
+            if let Reached::Within(low, _) = from.reached
+                && highest > from.speed
+            {
+                let step = TURN * (from.speed - low);
+                if step < finest {
+                    return parts.push(Part::Open(from, b));
+                }
+                if from.speed + step < b.speed {
+                    next = self.end(from.speed + step);
+                }
+            }
             self.split((from, next), finest, parts);
             from = next;
         }
+    }
+
+    /// The largest speed below the next fixed point, and the label of all speeds up to there, if a turn below `from` has one label and
+    /// the map rises from there on (docs/theory.md, Theorem 95.3).
+    fn one_label_up_to_fixed_point(&self, from: &End) -> Option<(f64, Label)> {
+        let (Reached::Within(low, _), &(own, label)) = (from.reached, self.known.last()?) else {
+            return None;
+        };
+        let turn = own.left <= low && own.right == from.speed;
+        if !turn {
+            return None;
+        }
+        let star = FixedPointSpeed::new(index_below(from.speed).ok()? + 1);
+        let end = star.largest_below();
+        let first = from.speed * (1.0 - DISTANCE_FROM_CRITICAL);
+        let rises = !self.critical.iter().any(|point| point.speed >= first && point.speed <= end);
+        (rises && from.speed < end).then_some((end, label))
     }
 
     /// Divides a gap where the labels of its image change, and labels the parts.
@@ -302,8 +332,8 @@ impl<'a> LapsSweep<'a> {
         if b.speed - a.speed <= finest || self.budget == 0 {
             return parts.push(Part::Open(a, b));
         }
-        if a.reached.is_grounded() != b.reached.is_grounded() {
-            // The edge of grounding has no known interval as its image: it is bisected.
+        if a.reached.kind() != b.reached.kind() {
+            // The edge of grounding has no known interval as its image: it is bisected. So is the place of an undecided hop.
             let middle = self.end(a.speed.midpoint(b.speed));
             self.budget -= 1;
             self.split((a, middle), finest, parts);
@@ -332,7 +362,9 @@ impl<'a> LapsSweep<'a> {
     /// preimages are guessed; the labels do not depend on the guess.
     fn cuts(&self, a: &End, b: &End, finest: f64) -> (Vec<End>, usize) {
         let first = self.critical.partition_point(|end| end.speed <= a.speed + 0.5 * finest);
-        if let Some(turn) = self.critical.get(first).filter(|end| end.speed < b.speed - 0.5 * finest) {
+        if let Some(turn) =
+            self.critical.get(first).filter(|end| end.speed < b.speed - 0.5 * finest)
+        {
             return (vec![self.end(turn.speed)], 1);
         }
         let (mut at_a, mut at_b) = (a.reached, b.reached);

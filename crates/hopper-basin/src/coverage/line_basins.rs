@@ -5,6 +5,7 @@ use crate::coverage::laps_sweep::{LapsSweep, Resolution};
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use basin_of_attraction::{Interval, Label, PixelShares};
+use passive_hopper::{alpha_star, index_below};
 
 /// The pixels of the range below the window, and the open part of each. Images of the window's gaps fall there. With more and finer
 /// ones fewer gaps of the window need a second image or stay open. It affects the time, and what is left open.
@@ -17,6 +18,11 @@ const PIXELS_OF_IMAGE: usize = 128;
 
 /// An image that is wider than so many pixels below the window needs no finer pixels of its own.
 const WIDE: f64 = 16.0;
+
+/// Below each fixed point infinitely many basins meet. So many more pixels lie there, each so much narrower than the one before. Speeds
+/// beyond the trap of a fixed point have their images there, and would stay open else.
+const PIXELS_BESIDE: i32 = 2;
+const NEARER: f64 = 0.125;
 
 /// The labelled intervals up to the last of the `edges` of pixels, where all laps are known.
 pub(crate) fn by_laps(
@@ -36,6 +42,10 @@ pub(crate) fn by_laps(
         for image in sweep.narrow_images(window, WIDE * height) {
             let part = image.length() / PIXELS_OF_IMAGE as f64;
             lower.extend((0..=PIXELS_OF_IMAGE).map(|k| image.left + part * k as f64));
+        }
+        for n in 1..=index_below(bottom)? + 1 {
+            let part = |k: i32| alpha_star(n) - height * NEARER.powi(k);
+            lower.extend((1..=PIXELS_BESIDE).map(part));
         }
         lower.retain(|&edge| edge < bottom);
         lower.sort_by(f64::total_cmp);
