@@ -80,6 +80,29 @@ pub enum Error {
         /// Number of rows.
         rows: usize,
     },
+    /// Pixels of a line that have no length in `f64`, or too many of them.
+    #[error(
+        "{pixels} pixels from {left} to {right}: there must be between 1 and 2²⁶, and different `f64` at their ends; take fewer \
+         pixels, or a wider window"
+    )]
+    BadPixels {
+        /// Number of pixels.
+        pixels: usize,
+        /// Left end of the window.
+        left: f64,
+        /// Right end of the window.
+        right: f64,
+    },
+    /// Intervals that overlap, or are not in increasing order.
+    #[error(
+        "an interval ends at {first_right}, and the next one begins at {second_left}: give disjoint intervals from left to right"
+    )]
+    UnsortedIntervals {
+        /// Right end of the first.
+        first_right: f64,
+        /// Left end of the second.
+        second_left: f64,
+    },
     /// A strip whose labels are not one for each of its pixels.
     #[error(
         "a strip of {columns} columns and {rows} rows has {found} labels: it must have {rows} labels for every column"

@@ -38,6 +38,7 @@
 //! | [`value_raster`], [`ValueImage`] | numbers over a window of the plane, such as the steps to a trap |
 //! | [`LabelImage::wada`], [`IntervalBasins::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
+//! | [`PixelShares`], [`IntervalBasins::pixel_shares`] | the share of every basin in the pixels of a line, with bounds |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
 //!
 //! ```
@@ -102,6 +103,7 @@ mod label;
 mod least_squares;
 mod ln_2_criterion;
 mod low_discrepancy;
+mod pixel_shares;
 mod power_law;
 mod preimage;
 mod preimage_tree;
@@ -149,6 +151,7 @@ pub use interval_basins::{IntervalBasins, LabelledInterval};
 pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
+pub use pixel_shares::PixelShares;
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};

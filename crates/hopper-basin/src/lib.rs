@@ -16,6 +16,8 @@
 //! | [`Fates`], [`HopperFate`] | incessant(n), decaying, grounded, or undecided and why |
 //! | [`Fates::labels`] | the fates of many speeds, whose orbits hop together |
 //! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
+//! | [`coverage_raster`], [`CoverageRaster`], [`CoverageColumn`] | the share of every basin in each pixel, with bounds: needles thinner than a pixel are not missed |
+//! | [`CoverageLimits`], [`CoverageGround`] | how far pixels are resolved, and what their shares stand on |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
 //! | [`hump_fractions`], [`fractions_over_mass_ratio`] | basin fractions with bounds or 95 % intervals, at one M and over M with [`known_kinks`] |
 //! | [`tipping`], [`random_tipping`], [`tipping_along_drift`] | the fate of a speed after M changes, at once or from hop to hop |
@@ -56,6 +58,7 @@
 
 mod basins;
 mod circle;
+mod coverage;
 mod error;
 mod fates;
 mod raster;
@@ -83,6 +86,9 @@ pub use circle::phase_shares::PhasePart;
 pub use circle::share_column::ShareColumn;
 pub use circle::share_raster::{ShareRaster, share_raster};
 pub use circle::upwards::Upwards;
+pub use coverage::coverage_column::CoverageColumn;
+pub use coverage::coverage_limits::{CoverageGround, CoverageLimits};
+pub use coverage::coverage_raster::{CoverageRaster, coverage_raster};
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;

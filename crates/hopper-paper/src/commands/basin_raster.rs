@@ -3,6 +3,7 @@
 //! A run that is killed leaves its finished tiles, and the next run computes the others. The array is written from the
 //! tiles and compared with them. The tiles are removed only after this comparison.
 
+use super::coverage_files;
 use super::share_files::{self, Shares};
 use super::zoom_files::{self, Zoom};
 use crate::error::Error;
@@ -54,6 +55,10 @@ pub struct Options {
         allow_negative_numbers = true
     )]
     turns: Option<f64>,
+    /// Give each pixel the shares of the basins in it at the mass ratio of its column. At most this part of a pixel stays undecided,
+    /// unless too many basins meet there
+    #[arg(long, value_name = "TOLERANCE", num_args = 0..=1, default_missing_value = "0.05", conflicts_with_all = ["about", "zoom"], allow_negative_numbers = true)]
+    coverage: Option<f64>,
     /// Make a sequence of frames into the edge of a basin next to this speed, at this mass ratio
     #[arg(long, num_args = 2, value_names = ["M", "SPEED"], conflicts_with_all = ["about", "speed"], allow_negative_numbers = true)]
     zoom: Option<Vec<f64>>,
@@ -109,6 +114,9 @@ pub fn run(options: &Options) -> Result<(), Error> {
         return zoom_files::run(&Zoom { out, mass_ratio, speed, frames, step, columns, rows });
     }
     let grid = grid(options)?;
+    if let Some(tolerance) = options.coverage {
+        return coverage_files::run(&options.out, grid, tolerance);
+    }
     let folder = Folder::open(&options.out)?;
     let description = format!(
         "basins, M {:?} to {:?}, α {:?} to {:?}, {} × {} pixels",
@@ -289,6 +297,7 @@ mod tests {
             offset: None,
             turns: None,
             preimage: None,
+            coverage: None,
             zoom: None,
             frames: 1,
             step: 1.0,

@@ -5,6 +5,7 @@ pub mod basin_raster;
 pub mod beyond_paper;
 mod claim_lines;
 mod column_bytes;
+mod coverage_files;
 mod figure_files;
 mod kept;
 pub mod model_figures;

@@ -5,24 +5,24 @@
 
 use super::{column_bytes, kept};
 use crate::error::Error;
-use crate::figures::share_plot::draw_shares;
+use crate::figures::share_plot::{draw_shares, share_array};
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Offset;
 use hopper_basin::{
     CircleLimits, EdgeChart, Fates, FollowedEdge, HopperFate, ShareColumn, ShareRaster, Upwards,
 };
-use journal_figures::render;
+use journal_figures::{Svg, render};
 use passive_hopper::MassRatio;
 use repository_tools::{Folder, say};
-use resumable_job::{AtomicFile, Lock, Order, npy_header};
+use resumable_job::{AtomicFile, Lock};
 use std::path::PathBuf;
 
 /// The names of the results; every label has its own array.
-const PICTURE_FILE: &str = "shares.png";
-const LEGEND: &str = "shares.json";
+pub(super) const PICTURE_FILE: &str = "shares.png";
+pub(super) const LEGEND: &str = "shares.json";
 
 /// The largest number of pixels: with five fates, the shares of so many take 340 MB.
-const MOST_PIXELS: usize = 1 << 24;
+pub(super) const MOST_PIXELS: usize = 1 << 24;
 
 /// Most turns of a picture: a thousand repetitions are narrower than pixels.
 const MOST_TURNS: f64 = 1e3;
@@ -83,30 +83,44 @@ pub(super) fn run(options: &Shares) -> Result<(), Error> {
         kept::pieces(&folder, &lock, ("columns", &description), grid.columns, column)?;
     let all = all.iter().map(|bytes| column_bytes::column(bytes));
     let raster = ShareRaster::from_columns(grid, upwards, all.collect::<Result<_, _>>()?)?;
-    let rendered = render("shares", &draw_shares(n, &raster)?, 2.0)?;
+    let mut notes = Vec::new();
+    if let Some(edges) = &edges {
+        notes.push(speeds_by_column(n, edges)?);
+    }
+    write_results(&folder, &lock, &raster, &draw_shares(n, &raster)?, notes)?;
+    kept.remove(grid.columns)?;
+    folder.remove_leftovers();
+    drop(lock);
+    say(folder.path().join(PICTURE_FILE).display())?;
+    Ok(())
+}
+
+/// Writes the picture, the array of every label, and the legend, which ends with the `notes`.
+pub(super) fn write_results(
+    folder: &Folder,
+    lock: &Lock,
+    raster: &ShareRaster,
+    picture: &Svg,
+    notes: Vec<serde_json::Value>,
+) -> Result<(), Error> {
+    let rendered = render("shares", picture, 2.0)?;
     lock.confirm()?;
     folder.write(PICTURE_FILE, &rendered.png)?;
     let mut legend = Vec::new();
     for (at, (label, mean)) in raster.means().into_iter().enumerate() {
         let (file, name) = (format!("share_{}.npy", label.code()), HopperFate::label_name(label));
         let label = label.code();
-        folder.write(&file, &npy(&raster, at))?;
+        folder.write(&file, &share_array(raster, at))?;
         say(format_args!("label {label:5}  {name:40} {:9.5} %  {file}", 100.0 * mean))?;
         legend.push(
             serde_json::json!({ "label": label, "name": name, "mean_share": mean, "file": file }),
         );
     }
-    if let Some(edges) = &edges {
-        legend.push(speeds_by_column(n, edges)?);
-    }
+    legend.extend(notes);
     let text = serde_json::to_string_pretty(&legend)
         .map_err(|e| Error::Render { what: LEGEND.into(), reason: e.to_string() })?;
     lock.confirm()?;
     folder.write(LEGEND, text.as_bytes())?;
-    kept.remove(grid.columns)?;
-    folder.remove_leftovers();
-    drop(lock);
-    say(folder.path().join(PICTURE_FILE).display())?;
     Ok(())
 }
 
@@ -228,19 +242,6 @@ fn depths(offsets: &[Offset]) -> Result<Interval, Error> {
             )))
         }
     }
-}
-
-/// The shares of one label as 16-bit integers, 65535 for 1; rows start from the lowest.
-fn npy(raster: &ShareRaster, at: usize) -> Vec<u8> {
-    let grid = raster.grid();
-    let mut bytes = npy_header(Order::C, grid.rows, grid.columns);
-    for row in 0..grid.rows {
-        for column in 0..grid.columns {
-            let share = raster.at(column, row).and_then(|all| all.get(at)).copied().unwrap_or(0.0);
-            bytes.extend(((65535.0 * share).round() as u16).to_le_bytes());
-        }
-    }
-    bytes
 }
 
 #[cfg(test)]

@@ -1,12 +1,14 @@
 //! The figures of the paper, one file each, from first principles.
 
 pub(crate) mod basin_plot;
+pub(crate) mod coverage_plot;
 mod fig_01_model;
 mod fig_02_map;
 mod fig_03_segments;
 mod fig_04_local_map;
 pub(crate) mod fig_05_construction;
 mod fig_06_to_09_basins;
+mod fig_08_09_coverage;
 mod graph;
 mod invariance;
 mod printed_against_stable;
@@ -31,6 +33,8 @@ pub const ALL: &[(&str, Build)] = &[
     ("fig7", fig_06_to_09_basins::figure_7),
     ("fig8", fig_06_to_09_basins::figure_8),
     ("fig9", fig_06_to_09_basins::figure_9),
+    ("fig8coverage", fig_08_09_coverage::figure_8),
+    ("fig9coverage", fig_08_09_coverage::figure_9),
     ("invariance", invariance::build),
     ("printed", printed_against_stable::build),
 ];

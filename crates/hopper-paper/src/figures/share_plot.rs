@@ -6,6 +6,7 @@ use crate::fate_colors::mixed;
 use hopper_basin::{HopperFate, ShareRaster, Upwards};
 use journal_figures::palette::Color;
 use journal_figures::{Anchor, Frame, Pen, Svg, rgb_png, ticks};
+use resumable_job::{Order, npy_header};
 
 /// The drawing of a raster left of α*_n, or about a preimage of it, with axes and legend. Every pixel has the colours of its fates,
 /// mixed by their shares.
@@ -23,6 +24,7 @@ pub(crate) fn draw_shares(n: u64, raster: &ShareRaster) -> Result<Svg, Error> {
             let label = format!("speed $α$ − $p$, with $p$ a preimage of {star}");
             ((-1.0, 1.0), ticks_of_both_sides(depths), label)
         }
+        Upwards::LiftOffSpeed => (depths, ticks(depths, 8), "lift-off speed $α$".into()),
         Upwards::Speed => (depths, ticks(depths, 4), "speed $α$ − $p$ in half heights".into()),
     };
     let frame = Frame::linear(86.0, 44.0, 490.0, 460.0, x, y);
@@ -94,4 +96,17 @@ pub(crate) fn pixels(raster: &ShareRaster) -> Vec<u8> {
         }
     }
     pixels
+}
+
+/// The shares of the label at a place as 16-bit integers, 65535 for 1, as a NumPy file; rows start from the lowest.
+pub(crate) fn share_array(raster: &ShareRaster, at: usize) -> Vec<u8> {
+    let grid = raster.grid();
+    let mut bytes = npy_header(Order::C, grid.rows, grid.columns);
+    for row in 0..grid.rows {
+        for column in 0..grid.columns {
+            let share = raster.at(column, row).and_then(|all| all.get(at)).copied().unwrap_or(0.0);
+            bytes.extend(((65535.0 * share).round() as u16).to_le_bytes());
+        }
+    }
+    bytes
 }
