@@ -36,7 +36,7 @@ impl<T> ValueImage<T> {
 /// };
 /// let grid = Grid { x: Interval::new(0.0, 2.0)?, y: Interval::new(0.0, 1.0)?, columns: 4, rows: 2 };
 /// let image = value_raster(grid, |c| c, steps, |_| Continue(()))?;
-/// assert_eq!(image.values, [Some(1), Some(4), None, None, Some(1), Some(8), None, None]);
+/// assert_eq!(image.values, [Some(1), Some(4), None, None, Some(2), Some(8), None, None]);
 /// # Ok::<(), basin_of_attraction::Error>(())
 /// ```
 ///

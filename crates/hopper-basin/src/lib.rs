@@ -49,8 +49,7 @@
 //! (canards) narrower than any spacing of `f64`. A scan there finds only needles wider than its spacing.
 //!
 //! # Not here
-//! Dimensions, entropies and fractions with confidence intervals are in the generic crate `basin_of_attraction`,
-//! and work on these basins.
+//! Dimensions, entropies and distances to the boundary are in the generic crate `basin_of_attraction`, and work on these basins.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,

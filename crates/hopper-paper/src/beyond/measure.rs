@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 const RATIOS: (f64, f64) = (0.02, 50.0);
 
 /// How finely the mass ratios are divided: neighbours differ by 30 % or by 0.005, a hundredth of the height of the curves, or by less
-/// than can be seen. Half of that takes twice as long. The first steps are 4 % of M: peaks such as that at M = 0.172 are wider.
+/// than can be seen. Half of that takes twice as long. The first steps are 4 % of M: peaks such as that at M = 0.1705 are wider.
 const CURVE: CurveLimits = CurveLimits {
     first_steps: 200,
     difference: 0.005,
@@ -127,15 +127,16 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
             notes: format!(
                 "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  where the branches of the map are proved ($M$ ≤ 0.83 and more) by intervals down to 10^{{−7}}, with bounds up \
-                 to rounding; beyond, by one random point in each of {POINTS} equal parts, with 95 % intervals. {} mass ratios: \
+                 to rounding; beyond, by one random point in each of {} equal parts, with 95 % intervals. {} mass ratios: \
                  steps are halved until neighbours differ by at most 30 % or 0.005. {} steps remain larger: {} of \
                  2·10^{{−4}} of $M$ at most, the others because their ranges overlap or the budget is used up. Ticks at the top: the crises of \
                  the humps 1 to 5, the onsets of grounding, and their inverses. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
                  there it falls through its fixed point. Between it and its inverse the measure falls and \
                  rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
-                 $α$^{{∗}}_{{1}} at once (near $M$ = 0.172, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
+                 $α$^{{∗}}_{{1}} at once (at $M$ = 0.1705, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
                  of it is back; what is missing beyond, a thousandth and less, falls through needles in the \
                  sudden windows.",
+                FractionLimits::default().points,
                 all.points().len(),
                 all.unresolved().len(),
                 all.jumps().count(),
