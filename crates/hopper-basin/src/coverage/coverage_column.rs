@@ -22,13 +22,13 @@ use passive_hopper::{MassRatio, alpha_star};
 /// use basin_of_attraction::Interval;
 /// use hopper_basin::{CoverageColumn, CoverageGround, CoverageLimits, Fates, HopperFate};
 /// use passive_hopper::MassRatio;
-/// // A band to α*_1 crosses the second of two pixels.
+/// // The share of the basin of α*_1 in the lower one of two pixels.
 /// let fates = Fates::new(MassRatio::new(0.2)?)?;
 /// let window = Interval::new(8.0, 9.0)?;
 /// let column = CoverageColumn::new(&fates, window, 2, CoverageLimits::default())?;
 /// let share = column.shares().of(HopperFate::label_of_fixed_point(1), 0);
 /// assert_eq!(column.ground(), CoverageGround::Laps);
-/// assert!(share.upper - share.lower < 1.0 / 256.0);
+/// assert!(share.upper - share.lower <= 0.05);
 /// # Ok::<(), hopper_basin::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]

@@ -11,6 +11,8 @@
 //! where the labels are known already, and one hop suffices. A gap without a label is halved, and left open once it is small.
 
 use crate::basins::branches::branches_are_proved;
+use crate::coverage::images::{End, Reached};
+use crate::coverage::preimage_guess::PreimageGuess;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
@@ -18,7 +20,7 @@ use crate::raster::rising_windows::trap_with_window;
 use crate::traps::hump::Hump;
 use crate::traps::trap_index::TrapIndex;
 use basin_of_attraction::{Interval, Label};
-use passive_hopper::{FixedPointSpeed, HopWithin, LiftOffMap, MassRatio, index_below};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, index_below};
 use std::f64::consts::PI;
 
 /// Most images of a gap that are taken. The first one shows the label as a rule. Where it lies between two known intervals, which the
@@ -46,10 +48,6 @@ const MANY: usize = 3;
 /// thousand ulps, far more than their error.
 const DISTANCE_FROM_CRITICAL: f64 = 1e-12;
 
-/// The relative width that is added to an image, beyond its bound: for the rounding of sums, and for a hump whose maximum and minimum
-/// coincide within rounding, where the map deviates from a monotone one by some ulps.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
-
 /// Most images of a narrow window that are resolved apart. Next to a fixed point there are more, which the sweep below leaves open.
 const MOST_NARROW_IMAGES: usize = 64;
 
@@ -57,90 +55,6 @@ const MOST_NARROW_IMAGES: usize = 64;
 pub(crate) fn laps_are_known(mass_ratio: MassRatio, top: f64) -> bool {
     // The windows (nπ, α*_n) that begin below `top`.
     branches_are_proved(mass_ratio, (top / PI).floor() as u64)
-}
-
-/// The image of a speed or of an interval.
-#[derive(Debug, Clone, Copy)]
-enum Reached {
-    /// All images are in this interval.
-    Within(f64, f64),
-    /// The hopper is grounded from all speeds.
-    Grounded,
-    /// `f64` does not decide the hop, or some speeds are grounded and others are not.
-    Unknown,
-}
-
-impl Reached {
-    /// The images of an interval from those of two parts of its ends and extrema.
-    fn with(self, other: Self) -> Self {
-        match (self, other) {
-            (Reached::Within(low, high), Reached::Within(other_low, other_high)) => {
-                Reached::Within(low.min(other_low), high.max(other_high))
-            }
-            (Reached::Grounded, Reached::Grounded) => Reached::Grounded,
-            _ => Reached::Unknown,
-        }
-    }
-
-    fn kind(self) -> std::mem::Discriminant<Self> {
-        std::mem::discriminant(&self)
-    }
-
-    fn middle(self) -> Option<f64> {
-        match self {
-            Reached::Within(low, high) => Some(low.midpoint(high)),
-            _ => None,
-        }
-    }
-
-    fn of(hop: HopWithin) -> Self {
-        match hop {
-            HopWithin::Next { speed, error } => {
-                let error = error + ROUNDING * speed;
-                Reached::Within(speed - error, speed + error)
-            }
-            HopWithin::Grounded => Reached::Grounded,
-            HopWithin::Inconclusive => Reached::Unknown,
-        }
-    }
-}
-
-/// A speed with its image.
-#[derive(Debug, Clone, Copy)]
-struct End {
-    speed: f64,
-    reached: Reached,
-}
-
-/// Guesses which speed has a given image, by a line or a parabola through known ones.
-struct Guess {
-    first: (f64, f64),
-    /// The slope of the line, and the factor of (y − y₁)(y − y₂).
-    slope: f64,
-    last: (f64, f64),
-    bend: f64,
-}
-
-impl Guess {
-    /// The line through two points (image, speed).
-    fn line(first: (f64, f64), last: (f64, f64)) -> Self {
-        Guess { first, last, slope: (last.1 - first.1) / (last.0 - first.0), bend: 0.0 }
-    }
-
-    /// The parabola through a third point, if it increases or decreases all the way; else the line.
-    fn with(mut self, (y, x): (f64, f64)) -> Self {
-        let bend = (x - self.at(y)) / ((y - self.first.0) * (y - self.last.0));
-        // At the ends the slope is slope ± bend (last − first).
-        if (bend * (self.last.0 - self.first.0)).abs() < self.slope.abs() {
-            self.bend = bend;
-        }
-        self
-    }
-
-    fn at(&self, y: f64) -> f64 {
-        let Guess { first, last, slope, bend } = self;
-        first.1 + slope * (y - first.0) + bend * (y - first.0) * (y - last.0)
-    }
 }
 
 /// A part of a pixel.
@@ -334,7 +248,11 @@ impl<'a> LapsSweep<'a> {
         }
         if a.reached.kind() != b.reached.kind() {
             // The edge of grounding has no known interval as its image: it is bisected. So is the place of an undecided hop.
-            let middle = self.end(a.speed.midpoint(b.speed));
+            let middle = a.speed.midpoint(b.speed);
+            if !(a.speed < middle && middle < b.speed) {
+                return parts.push(Part::Open(a, b));
+            }
+            let middle = self.end(middle);
             self.budget -= 1;
             self.split((a, middle), finest, parts);
             return self.split((middle, b), finest, parts);
@@ -383,7 +301,7 @@ impl<'a> LapsSweep<'a> {
                 (at_a, at_b) = (self.end(from).reached, self.end(to).reached);
                 continue;
             }
-            let mut guess = Guess::line((from, a.speed), (to, b.speed));
+            let mut guess = PreimageGuess::line((from, a.speed), (to, b.speed));
             let mut cuts = Vec::with_capacity(2 * inside.len() + 1);
             // A third point costs a hop, and pays if several intervals are looked for.
             if inside.len() > MANY && image == 1 {

@@ -5,6 +5,8 @@
 //!
 //! ```text
 //!   coverage_limits.rs    how small the undecided part of a pixel becomes; what the shares stand on
+//!   images.rs             images of speeds and of intervals of speeds
+//!   preimage_guess.rs     which speed may have a given image
 //!   laps_sweep.rs         intervals of known label, from 0 up, by images of gaps
 //!   line_basins.rs        the intervals of a column: by the sweep, or by the fates of samples
 //!   coverage_column.rs    one column: intervals with certain ends, and shares of pixels
@@ -16,5 +18,7 @@
 pub(crate) mod coverage_column;
 pub(crate) mod coverage_limits;
 pub(crate) mod coverage_raster;
+pub(crate) mod images;
 pub(crate) mod laps_sweep;
 pub(crate) mod line_basins;
+pub(crate) mod preimage_guess;
