@@ -1,5 +1,6 @@
 //! Input that the crate refuses.
 
+use crate::label::Label;
 use thiserror::Error;
 
 /// Why a basin could not be computed.
@@ -78,6 +79,29 @@ pub enum Error {
         columns: usize,
         /// Number of rows.
         rows: usize,
+    },
+    /// Pixels of a line that have no length in `f64`, or too many of them.
+    #[error(
+        "{pixels} pixels from {left} to {right}: there must be between 1 and 2²⁶, and different `f64` at their ends; take fewer \
+         pixels, or a wider window"
+    )]
+    BadPixels {
+        /// Number of pixels.
+        pixels: usize,
+        /// Left end of the window.
+        left: f64,
+        /// Right end of the window.
+        right: f64,
+    },
+    /// Intervals that overlap, or are not in increasing order.
+    #[error(
+        "an interval ends at {first_right}, and the next one begins at {second_left}: give disjoint intervals from left to right"
+    )]
+    UnsortedIntervals {
+        /// Right end of the first.
+        first_right: f64,
+        /// Left end of the second.
+        second_left: f64,
     },
     /// A strip whose labels are not one for each of its pixels.
     #[error(
@@ -288,5 +312,78 @@ pub enum Error {
     NothingInside {
         /// Number of points.
         points: usize,
+    },
+    /// A coordinate of a point, or a parameter, that is not finite.
+    #[error(
+        "number {coordinate} of a point or a list, counted from 0, is {value}: it must be finite"
+    )]
+    BadPoint {
+        /// Its place.
+        coordinate: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// Limits with which a curve of parameters cannot be divided.
+    #[error(
+        "{first_steps} first steps, halved until fractions differ by {difference} or by {relative} of their value, down to steps of \
+         {shortest}, with {budget} parameters: there must be a first step, the differences and the shortest step must be positive \
+         (the relative one may be 0), and the budget at least {fewest}"
+    )]
+    BadCurveLimits {
+        /// First steps of every part.
+        first_steps: usize,
+        /// The difference.
+        difference: f64,
+        /// The relative difference.
+        relative: f64,
+        /// The shortest step.
+        shortest: f64,
+        /// The budget.
+        budget: usize,
+        /// Parameters at which every curve is computed.
+        fewest: usize,
+    },
+    /// Basins in different windows, or in windows of length 0.
+    #[error(
+        "basins in [{left}, {right}] and in [{other_left}, {other_right}]: both must have the same window, of a positive length; cut \
+         them with `within`"
+    )]
+    OtherWindow {
+        /// Left end of the first window.
+        left: f64,
+        /// Right end of the first window.
+        right: f64,
+        /// Left end of the second window.
+        other_left: f64,
+        /// Right end of the second window.
+        other_right: f64,
+    },
+    /// A boundary is searched between two points that are not in two basins.
+    #[error(
+        "the points have the labels '{first}' and '{second}': give two points of different basins"
+    )]
+    NotTwoBasins {
+        /// Label of the first point.
+        first: Label,
+        /// Label of the second point.
+        second: Label,
+    },
+    /// A state whose basin is not known, where it must be.
+    #[error(
+        "the state has the label '{label}': give a state of a basin, or raise the budget of the labelling"
+    )]
+    NoBasin {
+        /// The label.
+        label: Label,
+    },
+    /// A length or a number of a search that must be positive.
+    #[error("{name} of {value}: it must be positive and finite{remedy}")]
+    BadSearch {
+        /// Its name, with its article.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+        /// More about it.
+        remedy: &'static str,
     },
 }

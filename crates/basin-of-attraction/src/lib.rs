@@ -28,8 +28,17 @@
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
+//! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
+//! | [`match_attractors`], [`Matching`] | which attractors at two parameters are the same |
+//! | [`IntervalBasins::tipping_to`], [`Tipping`] | the probability that a state of basin a is in basin b after a change of parameters, with bounds |
+//! | [`random_tipping`], [`label_after_drift`] | the same from random points, also for a slow change that the orbit follows |
+//! | [`IntervalBasins::distance_to_boundary`], [`BoundaryDistances`] | the distance to the boundary on the line, with bounds: of a state, and its distribution over a basin |
+//! | [`minimal_fatal_shock`] | the smallest shock to another basin, in any dimension: an upper bound with a witness |
+//! | [`boundary_between`], [`track_edge`] | a point of the boundary between two states, and the saddle that attracts the boundary |
+//! | [`value_raster`], [`ValueImage`] | numbers over a window of the plane, such as the steps to a trap |
 //! | [`LabelImage::wada`], [`IntervalBasins::wada`] | whether all basins share one boundary |
 //! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
+//! | [`PixelShares`], [`IntervalBasins::pixel_shares`] | the share of every basin in the pixels of a line, with bounds |
 //! | [`columns_in_parallel`] | any values of the columns of a raster |
 //!
 //! ```
@@ -55,6 +64,7 @@
 //! # Not here
 //! - Basins as certain sets for maps of more than one variable: regions of any dimension are sampled.
 //! - Integrators of flows: a step of a flow is a closure.
+//! - Lower bounds on distances from a boundary in more than one dimension.
 //!
 //! # References
 //! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent;
@@ -63,16 +73,27 @@
 //! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
 //! proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities; T. Gasser,
 //! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood,
-//! OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by recurrences.
+//! OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by recurrences; G. Datseris, K. Luiz
+//! Rossi, A. Wagemakers, Chaos 33, 073151 (2023), fractions along a parameter; B. Kaszás, U. Feudel, T. Tél, Sci. Rep. 9, 8654
+//! (2019), tipping; L. Halekotte, U. Feudel, Sci. Rep. 10, 11783 (2020), minimal fatal shocks; J. D. Skufca, J. A. Yorke,
+//! B. Eckhardt, Phys. Rev. Lett. 96, 174101 (2006), edge tracking; P. J. Menck, J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89
+//! (2013), basin stability.
 
+mod attractor_match;
 mod basin_search;
+mod boundary_between;
+mod boundary_distance;
 mod bounds;
 mod boxes;
 mod branches;
 mod confidence_interval;
+mod edge_tracking;
 mod entropy;
 mod error;
+mod fatal_shock;
 mod fate;
+mod fractions;
+mod fractions_along;
 mod golden_section;
 mod hyperrectangle;
 mod image_fractions;
@@ -82,6 +103,7 @@ mod label;
 mod least_squares;
 mod ln_2_criterion;
 mod low_discrepancy;
+mod pixel_shares;
 mod power_law;
 mod preimage;
 mod preimage_tree;
@@ -97,26 +119,39 @@ mod scalar_map;
 mod smooth_boundary;
 mod split_mix;
 mod state_grid;
+mod tipping;
 mod uncertainty;
 mod undecided_reason;
+mod value_image;
 mod wada;
 
+pub use attractor_match::{AttractorMatch, match_attractors};
 pub use basin_search::{interval_basins, interval_basins_from_known};
+pub use boundary_between::{BoundaryBracket, boundary_between};
+pub use boundary_distance::{BoundaryDistance, BoundaryDistances};
 pub use bounds::Bounds;
 pub use boxes::{BoxCount, occupied_boxes};
 pub use branches::{Branch, monotone_branches};
 pub use confidence_interval::{
     ConfidenceInterval, proportion_interval, student_interval, wilson_interval,
 };
+pub use edge_tracking::{EdgeEnd, EdgeLimits, EdgeTrack, track_edge};
 pub use entropy::entropy;
 pub use error::Error;
+pub use fatal_shock::{FatalShock, ShockSearch, minimal_fatal_shock};
 pub use fate::{Fate, TrapSet, Traps, classify};
+pub use fractions::{FractionRange, Fractions};
+pub use fractions_along::{
+    CurveLimits, FractionsAlong, Matching, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
+    fractions_along,
+};
 pub use hyperrectangle::Hyperrectangle;
 pub use interval::{Interval, IntervalSet};
 pub use interval_basins::{IntervalBasins, LabelledInterval};
 pub use label::Label;
 pub use ln_2_criterion::Ln2Criterion;
-pub use low_discrepancy::low_discrepancy_fractions;
+pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
+pub use pixel_shares::PixelShares;
 pub use power_law::{NoInterval, PowerLaw, power_law};
 pub use preimage::preimage_levels;
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
@@ -137,6 +172,8 @@ pub use smooth_boundary::{
     BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
 };
 pub use split_mix::SplitMix64;
+pub use tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
 pub use uncertainty::uncertain_fraction;
 pub use undecided_reason::UndecidedReason;
+pub use value_image::{ValueImage, value_raster};
 pub use wada::{LineWadaTest, WadaTest};

@@ -10,7 +10,7 @@ use crate::label::Label;
 use crate::split_mix::SplitMix64;
 use crate::state_grid::StateGrid;
 use rayon::prelude::*;
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 /// How attractors are searched.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -167,6 +167,12 @@ impl Attractors {
     /// The attractors, in the order in which they were found.
     pub fn attractors(&self) -> &[Attractor] {
         &self.attractors
+    }
+
+    /// The points of each attractor, by its label, as [`match_attractors`](crate::match_attractors) takes them.
+    pub fn positions(&self) -> BTreeMap<Label, Vec<Vec<f64>>> {
+        let own = |attractor: &Attractor| (attractor.label, attractor.points.clone());
+        self.attractors.iter().map(own).collect()
     }
 
     /// The starts whose orbits belong to no attractor.

@@ -81,6 +81,9 @@ impl LabelCounts {
 /// The points are uniform in the region. The same seed gives the same points, with any number of threads. Points with the label
 /// [`Label::OUTSIDE`] are not counted: so fractions of a disc, or of any other part of the region, are found.
 ///
+/// If the region is that of the shocks of interest, the fraction of an attractor's basin is its *basin stability* (P. J. Menck,
+/// J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89, 2013).
+///
 /// ```
 /// use basin_of_attraction::{Hyperrectangle, Interval, Label, region_fractions};
 /// let cube = Hyperrectangle::new(vec![Interval::new(-1.0, 1.0)?; 3])?;

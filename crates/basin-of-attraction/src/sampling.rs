@@ -23,6 +23,12 @@ pub(crate) fn check_count(samples: usize) -> Result<(), Error> {
     Err(Error::TooManySamples { samples, most: MOST_POINTS, remedy })
 }
 
+/// An error for a window that is reversed, or whose length is not finite.
+pub(crate) fn check_window(Interval { left, right }: Interval) -> Result<(), Error> {
+    Interval::new(left, right)?;
+    if (right - left).is_finite() { Ok(()) } else { Err(Error::BadInterval { left, right }) }
+}
+
 /// How many of `count` equally spaced points of `window` have each label. The points are the middles of `count`
 /// equal parts of the window.
 ///
@@ -35,12 +41,13 @@ pub(crate) fn check_count(samples: usize) -> Result<(), Error> {
 /// ```
 ///
 /// # Errors
-/// [`Error::TooManySamples`] for more than a billion points.
+/// [`Error::TooManySamples`] for more than a billion points; [`Error::BadInterval`] for a window that is reversed or not finite.
 pub fn equally_spaced_counts(
     window: Interval,
     count: usize,
     label: impl Fn(f64) -> Label + Sync,
 ) -> Result<BTreeMap<Label, usize>, Error> {
+    check_window(window)?;
     check_count(count)?;
     Ok(tally(&labels(count, |k| middle(window, count, k), label)))
 }
@@ -58,10 +65,12 @@ pub struct EquallySpacedFraction {
 /// The basin fractions among `count` equally spaced points, with the bounds that the spacing leaves.
 ///
 /// The label is assumed to be constant between neighbouring points with equal labels. Between points with
-/// different labels the boundary may lie anywhere.
+/// different labels the boundary may lie anywhere. Undecided points may belong to any basin: they raise the upper bound of
+/// each.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points, [`Error::BadInterval`] for a window
+/// that is reversed or not finite.
 pub fn equally_spaced_fractions(
     window: Interval,
     count: usize,
@@ -70,6 +79,7 @@ pub fn equally_spaced_fractions(
     if count == 0 {
         return Err(Error::BadTrials { successes: 0, trials: 0 });
     }
+    check_window(window)?;
     check_count(count)?;
     let labels = labels(count, |k| middle(window, count, k), label);
     // The number of ends of runs of each label.
@@ -81,38 +91,57 @@ pub fn equally_spaced_fractions(
     for label in [labels.first(), labels.last()].into_iter().flatten() {
         *ends.entry(*label).or_insert(0) += 1;
     }
-    let fraction = |(label, found): (Label, usize)| {
-        let value = found as f64 / count as f64;
+    let points = |condition: &dyn Fn(Label) -> bool, of: &BTreeMap<Label, usize>| -> f64 {
+        let own = of.iter().filter(|(label, _)| condition(**label));
+        own.map(|(_, count)| *count).sum::<usize>() as f64 / count as f64
+    };
+    let counts = tally(&labels);
+    let fraction = |(&label, _): (&Label, &usize)| {
+        let own = |other: Label| other == label;
+        let possible = |other: Label| own(other) || label.is_basin() && other.is_undecided();
+        let value = points(&own, &counts);
         // Each end of a run is known to half a spacing on either side.
-        let open = 0.5 * ends.get(&label).copied().unwrap_or(0) as f64 / count as f64;
-        let bounds = Bounds { lower: (value - open).max(0.0), upper: (value + open).min(1.0) };
+        let bounds = Bounds {
+            lower: (value - 0.5 * points(&own, &ends)).max(0.0),
+            upper: (points(&possible, &counts) + 0.5 * points(&possible, &ends)).min(1.0),
+        };
         (label, EquallySpacedFraction { value, bounds })
     };
-    Ok(tally(&labels).into_iter().map(fraction).collect())
+    Ok(counts.iter().map(fraction).collect())
 }
 
 /// The basin fractions among `count` independent uniform points, with 95 % intervals.
 ///
 /// The same seed gives the same points, with any number of threads. The intervals are those of [`proportion_interval`]: they
-/// contain the fraction in at least 93 % of the samples. A label without points is not in the result: its
-/// fraction is [`proportion_interval`]`(0, count)`.
+/// contain the fraction in at least 93 % of the samples. Undecided points may belong to any basin: they raise the upper end of
+/// each. A label without points is not in the result: its fraction is [`proportion_interval`]`(0, count)`.
 ///
 /// # Errors
-/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points.
+/// [`Error::BadTrials`] for a `count` of 0, [`Error::TooManySamples`] for more than a billion points, [`Error::BadInterval`] for a window
+/// that is reversed or not finite.
 pub fn random_fractions(
     window: Interval,
     count: usize,
     seed: u64,
     label: impl Fn(f64) -> Label + Sync,
 ) -> Result<BTreeMap<Label, ConfidenceInterval>, Error> {
+    check_window(window)?;
     check_count(count)?;
     let random = SplitMix64::from_seed(seed);
     let at = |k| window.left + window.length() * random.uniform(k as u64);
     let counts = tally(&labels(count, at, label));
-    counts
-        .into_iter()
-        .map(|(label, found)| Ok((label, proportion_interval(found, count)?)))
-        .collect()
+    if counts.is_empty() {
+        return Err(Error::BadTrials { successes: 0, trials: 0 });
+    }
+    let undecided: usize =
+        counts.iter().filter(|(label, _)| label.is_undecided()).map(|(_, points)| points).sum();
+    let fraction = |(&label, &found): (&Label, &usize)| {
+        let open = if label.is_basin() { undecided } else { 0 };
+        let ConfidenceInterval { value, lower, .. } = proportion_interval(found, count)?;
+        let upper = proportion_interval(found + open, count)?.upper;
+        Ok((label, ConfidenceInterval { value, lower, upper }))
+    };
+    counts.iter().map(fraction).collect()
 }
 
 /// The middle of part k of `count` equal parts of the window.

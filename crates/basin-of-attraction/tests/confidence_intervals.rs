@@ -158,6 +158,41 @@ fn the_interval_of_an_uncertainty_exponent_contains_it_as_often_as_stated() {
     assert!(covered >= 56, "{covered} of {TRIALS}");
 }
 
+/// Undecided points may belong to any basin, and a window that is reversed has no points.
+#[test]
+fn samplers_open_their_intervals_for_undecided_points_and_refuse_bad_windows() {
+    let label = |x: f64| match x {
+        ..0.3 => Label::from(0),
+        ..0.4 => Label::UNDECIDED,
+        ..0.5 => Label::UNDECIDED_MAP,
+        _ => ONE,
+    };
+    let unit = interval(0.0, 1.0);
+    let spaced = equally_spaced_fractions(unit, 1000, label).unwrap()[&ONE];
+    assert!((spaced.bounds.lower - 0.499).abs() < 1e-12 && spaced.value == 0.5);
+    assert!((0.7..0.71).contains(&spaced.bounds.upper), "{spaced:?}");
+    for found in [
+        random_fractions(unit, 1000, 1, label).unwrap()[&ONE],
+        low_discrepancy_fractions(unit, 1000, 1, label).unwrap()[&ONE],
+    ] {
+        assert!((found.value - 0.5).abs() < 0.05, "{found:?}");
+        assert!(found.lower > 0.45 && (0.68..0.76).contains(&found.upper), "{found:?}");
+    }
+    for (left, right) in [(1.0, 0.0), (0.0, f64::NAN), (f64::MIN, f64::MAX)] {
+        let window = Interval { left, right };
+        let errors = [
+            equally_spaced_counts(window, 1000, label).unwrap_err(),
+            equally_spaced_fractions(window, 1000, label).unwrap_err(),
+            random_fractions(window, 1000, 1, label).unwrap_err(),
+            low_discrepancy_fractions(window, 1000, 1, label).unwrap_err(),
+        ];
+        assert!(
+            errors.iter().all(|error| matches!(error, Error::BadInterval { .. })),
+            "{errors:?}"
+        );
+    }
+}
+
 /// A count that overflowed, or that no memory holds, is an error with the largest count, and no call of the label.
 #[test]
 fn counts_beyond_all_memory_are_errors() {

@@ -3,8 +3,8 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::{
-    Attractors, Hyperrectangle, Interval, LabelCounts, RecurrenceLimits, SplitMix64,
-    UnmatchedReason, region_fractions,
+    Attractors, EdgeLimits, Hyperrectangle, Interval, Label, LabelCounts, RecurrenceLimits,
+    SplitMix64, UnmatchedReason, region_fractions, track_edge,
 };
 
 /// The state after `steps` steps of Runge and Kutta's method, each of length `h`.
@@ -118,5 +118,76 @@ fn the_magnetic_pendulum_comes_to_each_magnet_equally_often() {
     assert_eq!((found.attractors().len(), found.unmatched().len(), counts.undecided()), (3, 0, 0));
     for share in fractions(&counts) {
         assert!((share - 1.0 / 3.0).abs() < 0.06, "{share}");
+    }
+}
+
+/// Thomas' system at b = 0.16: between each two of its three attractors the boundary has saddles of the same distance from the origin
+/// (the value is that of Attractors.jl). On attractor k coordinate k has the amplitude 4.48, and the others have 3.72 and 3.05.
+#[test]
+fn the_edge_states_of_thomas_have_the_norm_4_06585() {
+    let field = |[x, y, z]: [f64; 3]| [y.sin() - 0.16 * x, z.sin() - 0.16 * y, x.sin() - 0.16 * z];
+    let step = move |z: &[f64]| after(field, z, 0.05, 10);
+    // The coordinate with the amplitude of an attractor in three stretches of time, one after the other.
+    let label = |start: &[f64]| {
+        let (mut at, mut seen) = (start.to_vec(), (usize::MAX, 0));
+        for _ in 0..40 {
+            let mut amplitude = [0.0f64; 3];
+            for _ in 0..200 {
+                let Some(next) = step(&at) else { return Label::UNDECIDED_MAP };
+                at = next;
+                (0..3).for_each(|k| amplitude[k] = amplitude[k].max(at[k].abs()));
+            }
+            let own = (0..3)
+                .find(|&k| (4.4..4.6).contains(&amplitude[k]) && amplitude[(k + 1) % 3] < 3.1);
+            seen = own.map_or((usize::MAX, 0), |k| (k, if k == seen.0 { seen.1 + 1 } else { 1 }));
+            if seen.1 == 3 {
+                return Label::from(seen.0 as u8);
+            }
+        }
+        Label::UNDECIDED
+    };
+    let (mut known, random): (Vec<Option<Vec<f64>>>, _) =
+        (vec![None; 3], SplitMix64::from_seed(11));
+    let space = region(&[(-6.0, 6.0); 3]);
+    for number in 0..20 {
+        let start = space.random_point(&random, number);
+        if let Some(own) = label(&start).basin_number() {
+            known[usize::from(own)].get_or_insert(start);
+        }
+    }
+    let known: Vec<Vec<f64>> = known.into_iter().map(Option::unwrap).collect();
+    for (i, k) in [(0, 1), (1, 2), (0, 2)] {
+        let track = track_edge(&known[i], &known[k], step, label, EdgeLimits::default()).unwrap();
+        let norm = track.bracket.middle().iter().map(|x| x * x).sum::<f64>().sqrt();
+        assert!((norm - 4.06585).abs() < 1e-3, "{norm} {:?}", track.end);
+    }
+}
+
+/// φ̈ = −0.1 φ̇ + 0.5 − sin φ: the fixed point sin φ = 1/2, or rotation, from φ within π of the fixed point and |φ̇| < 10 (M. Stender,
+/// N. Hoffmann, Nonlinear Dyn. 107, 2022: 0.152 and 0.848 of 10⁴ points).
+#[test]
+fn the_driven_pendulum_stands_or_rotates() {
+    let rest = 0.5f64.asin();
+    let field = |[x, v]: [f64; 2]| [v, -0.1 * v + 0.5 - x.sin()];
+    // The angle is taken modulo 2π, so that a rotation comes back.
+    let wrapped = |x: f64| {
+        (x - rest + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU) + rest
+            - std::f64::consts::PI
+    };
+    let step = move |z: &[f64]| after(field, z, 0.05, 20).map(|z| vec![wrapped(z[0]), z[1]]);
+    let angles = (rest - std::f64::consts::PI, rest + std::f64::consts::PI);
+    let window = region(&[angles, (-10.0, 10.0)]);
+    let (found, counts) = basins(
+        &step,
+        window.clone(),
+        &window,
+        <[f64]>::to_vec,
+        RecurrenceLimits::default(),
+        (20, 5000),
+    );
+    assert_eq!((found.attractors().len(), found.unmatched().len(), counts.undecided()), (2, 0, 0));
+    for (share, known) in fractions(&counts).into_iter().zip([0.844, 0.156]) {
+        // Three standard deviations.
+        assert!((share - known).abs() < 0.016, "{share} {known}");
     }
 }

@@ -175,6 +175,17 @@ pub enum Error {
         /// The largest number of pixels each way.
         most: usize,
     },
+    /// Limits with which no pixel can be covered.
+    #[error(
+        "a coverage to a tolerance of {tolerance} from {samples} samples in a pixel: give a tolerance above 0 and below 1, such as \
+         0.004, and at least one sample"
+    )]
+    CoverageLimits {
+        /// The share of a pixel that may stay undecided.
+        tolerance: f64,
+        /// The number of samples in a pixel.
+        samples: usize,
+    },
     /// A vertical axis that counts from an edge, for a raster left of a fixed point.
     #[error("left of a fixed point the axis upwards is Upwards::Depth or Upwards::Phase")]
     Upwards,

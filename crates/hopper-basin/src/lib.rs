@@ -19,7 +19,11 @@
 //! | [`basin_raster`], [`basin_columns`] | basins over the (M, α) plane, whole or some columns at a time |
 //! | [`hop_columns`] | the number of hops until each of these fates is known |
 //! | [`RASTER_VERSION`], [`SHARE_VERSION`] | raised when a raster gets other bits, for work that is continued later |
+//! | [`coverage_raster`], [`CoverageRaster`], [`CoverageColumn`] | the share of every basin in each pixel, with bounds: needles thinner than a pixel are not missed |
+//! | [`CoverageLimits`], [`CoverageGround`] | how far pixels are resolved, and what their shares stand on |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
+//! | [`hump_fractions`], [`fractions_over_mass_ratio`] | basin fractions with bounds or 95 % intervals, at one M and over M with [`known_kinks`] |
+//! | [`tipping`], [`random_tipping`], [`tipping_along_drift`] | the fate of a speed after M changes, at once or from hop to hop |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
 //! | [`BranchGround`], [`Probes`] | what these intervals rest on, and how they agree with single fates |
 //! | [`basin_levels`], [`branches`] | one basin level by level, from the branches of the map |
@@ -48,8 +52,7 @@
 //! (canards) narrower than any spacing of `f64`. A scan there finds only needles wider than its spacing.
 //!
 //! # Not here
-//! Dimensions, entropies and fractions with confidence intervals are in the generic crate `basin_of_attraction`,
-//! and work on these basins.
+//! Dimensions, entropies and distances to the boundary are in the generic crate `basin_of_attraction`, and work on these basins.
 //!
 //! # References
 //! C. K. Reddy, R. Pratap, *Multimodal map and complex basin of attraction of a simple hopper*,
@@ -57,6 +60,7 @@
 
 mod basins;
 mod circle;
+mod coverage;
 mod error;
 mod fates;
 mod raster;
@@ -64,10 +68,14 @@ mod traps;
 
 pub use basins::branches::branches;
 pub use basins::fractions::{BasinFractions, basin_fractions};
+pub use basins::fractions_over_mass_ratio::{
+    FractionGround, FractionLimits, fractions_over_mass_ratio, hump_fractions, known_kinks,
+};
 pub use basins::hop_counts::hop_columns;
 pub use basins::intervals::{BranchGround, HopperBasins, Probes, hopper_basins};
 pub use basins::levels::basin_levels;
 pub use basins::rasters::{RASTER_VERSION, basin_columns, basin_raster};
+pub use basins::tipping::{HopperTipping, random_tipping, tipping, tipping_along_drift};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use circle::circle_limits::{CircleLimits, Ground};
 pub use circle::edge_chart::EdgeChart;
@@ -81,6 +89,9 @@ pub use circle::phase_shares::PhasePart;
 pub use circle::share_column::{SHARE_VERSION, ShareColumn};
 pub use circle::share_raster::{ShareRaster, share_raster};
 pub use circle::upwards::Upwards;
+pub use coverage::coverage_column::CoverageColumn;
+pub use coverage::coverage_limits::{CoverageGround, CoverageLimits};
+pub use coverage::coverage_raster::{CoverageRaster, coverage_raster};
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;

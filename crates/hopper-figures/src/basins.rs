@@ -32,11 +32,20 @@ pub const PIXELS: usize = 1200;
 /// # Errors
 /// As [`label_png`].
 pub fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Error> {
-    let (x, y) = (window.mass_ratio, window.alpha);
     let pixels = label_png(window.name, image)?;
+    Ok(draw_pixels(window, &pixels, image.counts().into_iter().map(|(label, _)| label)))
+}
+
+/// The drawing of the pixels of a window with axes and a legend.
+pub(crate) fn draw_pixels(
+    window: &Window,
+    pixels: &[u8],
+    labels: impl Iterator<Item = Label>,
+) -> Svg {
+    let (x, y) = (window.mass_ratio, window.alpha);
     let mut svg = Svg::new(580.0, 560.0);
     let frame = Frame::linear(66.0, 44.0, 490.0, 460.0, x, y);
-    svg.image(frame.left, frame.top, frame.width, frame.height, &pixels);
+    svg.image(frame.left, frame.top, frame.width, frame.height, pixels);
     frame.axes(
         &mut svg,
         &ticks(x, window.tick_counts.0),
@@ -52,8 +61,8 @@ pub fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Error> {
         svg.fill_rect(x1 + 3.0, y1 - 16.0, 37.0, 15.0, "#ffffff");
         svg.text(x1 + 5.0, y1 - 5.0, Anchor::Start, 11.5, name);
     }
-    legend(&mut svg, frame.left, image.counts().into_iter().map(|(label, _)| label));
-    Ok(svg)
+    legend(&mut svg, frame.left, labels);
+    svg
 }
 
 /// The legend, with one entry for each colour: fixed points beyond the last colour share it. Returns where the next entry begins.

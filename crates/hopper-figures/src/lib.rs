@@ -4,7 +4,8 @@
 //! |---|---|
 //! | [`draw_basins`], [`Window`] | a raster of fates with axes, legend and the frame of an inset |
 //! | [`label_png`], [`legend`] | its pixels alone; its legend alone |
-//! | [`draw_shares`], [`share_png`], [`share_pixels`] | a raster whose pixels cover several fates |
+//! | [`draw_shares`], [`share_png`], [`share_pixels`], [`share_words`] | a raster whose pixels cover several fates |
+//! | [`draw_coverage`], [`coverage_png`], [`undecided_share`] | the same over (M, α), with undecided parts |
 //! | [`draw_hops`] | a raster of numbers of hops, with axes and scale |
 //! | [`fate_colors`] | the colour and the name of every fate |
 //! | [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
@@ -26,6 +27,7 @@
 //! Files (`journal_figures::render` gives the bytes of a drawing), and the figures of one paper (`hopper-paper`).
 
 mod basins;
+mod coverage;
 mod error;
 pub mod fate_colors;
 mod graph;
@@ -38,6 +40,7 @@ mod motion_plot;
 mod shares;
 
 pub use basins::{Inset, PIXELS, Window, draw_basins, label_png, legend};
+pub use coverage::{coverage_png, draw_coverage, undecided_share};
 pub use error::Error;
 pub use graph::{cuts, cuts_between, graph_pieces};
 pub use hops::draw_hops;
@@ -46,4 +49,4 @@ pub use map_plot::MapPlot;
 pub use motion::{Motion, Sample};
 pub use motion_frames::{SECONDS_A_FRAME, draw_frame, frame_times};
 pub use motion_plot::draw_motion;
-pub use shares::{draw_shares, share_pixels, share_png};
+pub use shares::{draw_shares, share_pixels, share_png, share_words};

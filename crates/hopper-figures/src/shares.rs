@@ -26,6 +26,7 @@ pub fn draw_shares(n: u64, raster: &ShareRaster) -> Result<Svg, Error> {
             let label = format!("speed $α$ − $p$, with $p$ a preimage of {star}");
             ((-1.0, 1.0), ticks_of_both_sides(depths), label)
         }
+        Upwards::LiftOffSpeed => (depths, ticks(depths, 8), "lift-off speed $α$".into()),
         Upwards::Speed => (depths, ticks(depths, 4), "speed $α$ − $p$ in half heights".into()),
     };
     let frame = Frame::linear(86.0, 44.0, 490.0, 460.0, x, y);
@@ -100,4 +101,17 @@ pub fn share_pixels(raster: &ShareRaster) -> Vec<u8> {
         }
     }
     pixels
+}
+
+/// The shares of the label at a place as 16-bit integers, 65535 for 1, row by row from the lowest, in bytes from the lowest.
+pub fn share_words(raster: &ShareRaster, at: usize) -> Vec<u8> {
+    let grid = raster.grid();
+    let mut bytes = Vec::with_capacity(2 * grid.rows * grid.columns);
+    for row in 0..grid.rows {
+        for column in 0..grid.columns {
+            let share = raster.at(column, row).and_then(|all| all.get(at)).copied().unwrap_or(0.0);
+            bytes.extend(((65535.0 * share).round() as u16).to_le_bytes());
+        }
+    }
+    bytes
 }

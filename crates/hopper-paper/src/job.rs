@@ -32,22 +32,38 @@ impl Job {
         let bar = Progress.bar(name, count as u64);
         let mut rows = Vec::with_capacity(count);
         for k in 0..count {
-            let bytes = match kept.find(k)? {
-                Found::Finished(bytes) => bytes,
-                Found::Missing | Found::Unusable(_) => {
-                    let bytes: Vec<u8> = row(k)?.iter().flat_map(|x| x.to_le_bytes()).collect();
-                    // Without its lock this run would write among the rows of another run.
-                    self.lock.confirm()?;
-                    kept.write(k, &bytes)?;
-                    bytes
-                }
-            };
-            let number = |word: &[u8]| word.try_into().map_or(f64::NAN, f64::from_le_bytes);
-            rows.push(bytes.chunks(8).map(number).collect());
+            rows.push(self.kept_row(&kept, k, || row(k))?);
             bar.set(k as u64 + 1);
         }
         bar.finish();
         Ok(rows)
+    }
+
+    /// Rows that are computed one after the other, each depending on those before it. Rows that an earlier run finished are read: it
+    /// asked for the same ones in the same order.
+    pub(crate) fn rows(&self, name: &'static str) -> Result<Rows<'_>, Error> {
+        Ok(Rows { job: self, kept: Pieces::open(&self.scans.join(name), name)?, finished: 0 })
+    }
+
+    /// Row k, read or computed.
+    fn kept_row(
+        &self,
+        kept: &Pieces,
+        k: usize,
+        row: impl FnOnce() -> Result<Vec<f64>, Error>,
+    ) -> Result<Vec<f64>, Error> {
+        let bytes = match kept.find(k)? {
+            Found::Finished(bytes) => bytes,
+            Found::Missing | Found::Unusable(_) => {
+                let bytes: Vec<u8> = row()?.iter().flat_map(|x| x.to_le_bytes()).collect();
+                // Without its lock this run would write among the rows of another run.
+                self.lock.confirm()?;
+                kept.write(k, &bytes)?;
+                bytes
+            }
+        };
+        let number = |word: &[u8]| word.try_into().map_or(f64::NAN, f64::from_le_bytes);
+        Ok(bytes.chunks(8).map(number).collect())
     }
 
     /// Removes the finished rows. Call it when all results are written.
@@ -62,6 +78,25 @@ impl Job {
         // The folder of another build may be there too. Then the parent folder is not empty and stays.
         let _ = self.scans.parent().map(std::fs::remove_dir);
         Ok(())
+    }
+}
+
+/// Rows of a scan whose number is not known before.
+pub(crate) struct Rows<'a> {
+    job: &'a Job,
+    kept: Pieces,
+    finished: usize,
+}
+
+impl Rows<'_> {
+    /// The next row, read or computed.
+    pub(crate) fn next(
+        &mut self,
+        row: impl FnOnce() -> Result<Vec<f64>, Error>,
+    ) -> Result<Vec<f64>, Error> {
+        let found = self.job.kept_row(&self.kept, self.finished, row)?;
+        self.finished += 1;
+        Ok(found)
     }
 }
 
@@ -88,6 +123,14 @@ mod tests {
         });
         assert_eq!(again.unwrap(), (0..8).map(row).collect::<Vec<_>>());
         assert_eq!(computed.into_inner(), [5, 6, 7]);
+        // The same with rows that are asked for one by one.
+        let mut first = job.rows("one by one").unwrap();
+        assert_eq!(first.next(|| Ok(row(3))).unwrap(), row(3));
+        assert!(first.next(|| breaks(5)).is_err());
+        let mut second = job.rows("one by one").unwrap();
+        let never = || -> Result<Vec<f64>, Error> { panic!("this row is stored") };
+        assert_eq!(second.next(never).unwrap(), row(3));
+        assert_eq!(second.next(|| Ok(row(7))).unwrap(), row(7));
         job.done().unwrap();
         std::fs::remove_dir_all(&folder).unwrap();
     }

@@ -69,22 +69,34 @@ pub(crate) struct AbelSeries {
     tail: f64,
 }
 
+/// A, c, and the largest |t| of the series.
+fn leading(local: &Coefficients, side: Side) -> (f64, f64, f64) {
+    let (a, beta, lambda) = (local.alpha_star, local.beta, local.lambda);
+    let share = beta / (lambda * a);
+    let [left, right] = LARGEST_WIDTHS;
+    let (drift, logarithm, largest) = match side {
+        Side::Left => (10.0 * lambda / 3.0, -2.0 - 0.3 * share, left),
+        Side::Right => (lambda / 3.0, 2.0 + 3.0 * share, right),
+    };
+    (drift, logarithm, (beta * NEAREST_TURN / drift).min(largest))
+}
+
 impl AbelSeries {
-    pub(crate) fn new(
-        local: &Coefficients,
-        mass_ratio: MassRatio,
-        side: Side,
-    ) -> Result<Self, Error> {
-        let (a, beta, lambda) = (local.alpha_star, local.beta, local.lambda);
-        let share = beta / (lambda * a);
-        let [left, right] = LARGEST_WIDTHS;
+    pub(crate) fn on_the_right(local: &Coefficients, mass_ratio: MassRatio) -> Result<Self, Error> {
+        let (.., width) = leading(local, Side::Right);
+        Self::new(local, &LocalHopModel::new(local, mass_ratio, Side::Right, width), Side::Right)
+    }
+
+    /// On the left, from a hop up to the |t| of the series or farther.
+    pub(crate) fn on_the_left(local: &Coefficients, hop: &LocalHopModel) -> Result<Self, Error> {
+        let (.., width) = leading(local, Side::Left);
+        Self::new(local, &hop.narrowed(width), Side::Left)
+    }
+
+    fn new(local: &Coefficients, hop: &LocalHopModel, side: Side) -> Result<Self, Error> {
+        let (drift, logarithm, width) = leading(local, side);
         let [left_error, right_error] = PHASE_ERRORS;
-        let (drift, logarithm, largest, phase_error) = match side {
-            Side::Left => (10.0 * lambda / 3.0, -2.0 - 0.3 * share, left, left_error),
-            Side::Right => (lambda / 3.0, 2.0 + 3.0 * share, right, right_error),
-        };
-        let width = (beta * NEAREST_TURN / drift).min(largest);
-        let hop = LocalHopModel::new(local, mass_ratio, side, width);
+        let phase_error = if side == Side::Left { left_error } else { right_error };
         let mut series = AbelSeries {
             drift,
             logarithm,
@@ -96,7 +108,7 @@ impl AbelSeries {
             errors: [0.0; ORDER + 1],
             tail: 0.0,
         };
-        series.solve(&hop, side);
+        series.solve(hop, side);
         let [range, jump] = [phase_error, JUMP_ERROR].map(|largest| {
             // The bound on the error grows with x.
             let fits = |part: f64| series.series_error(part * series.whole) <= largest;
@@ -247,18 +259,20 @@ impl AbelSeries {
         // Newton's method for p = 1/(A x): Ψ = p − c ln(A p) + …, whose slope by p is 1 − c A x + …, near 1.
         let smallest = 1.0 / (self.drift * self.whole);
         let mut p = smallest.max(count.hops);
+        let at = |p: f64| {
+            let x = (1.0 / (self.drift * p)).min(self.whole);
+            (x, self.value(x))
+        };
+        let (mut x, mut found) = at(p);
         for _ in 0..NEWTON_STEPS {
-            let x = 1.0 / (self.drift * p);
-            let slope = -self.drift * x * x * self.slope(x);
-            let next = smallest.max(p - (self.value(x).hops - count.hops) / slope);
-            let small = (next - p).abs() <= 2.0 * f64::EPSILON * p;
-            p = next;
-            if small {
+            let residual = found.hops - count.hops;
+            if residual.abs() <= (4.0 * f64::EPSILON * p).max(SMALL_PART * count.error) {
                 break;
             }
+            let slope = -self.drift * x * x * self.slope(x);
+            p = smallest.max(p - residual / slope);
+            (x, found) = at(p);
         }
-        let x = (1.0 / (self.drift * p)).min(self.whole);
-        let found = self.value(x);
         let error = found.error + count.error + (found.hops - count.hops).abs();
         // The slope by p is at least one half (docs/theory.md, Lemma 92.2): p errs by at most twice as much, and x by r/(1 − r).
         let relative = 2.0 * error / p;
@@ -286,6 +300,9 @@ pub(crate) fn cube_error(relative: f64) -> f64 {
     3.0 * relative * (1.0 + relative) * (1.0 + relative) + 2.0 * f64::EPSILON
 }
 
+/// A residual of this part of the error of a phase ends the search for its x. A smaller part takes more steps.
+const SMALL_PART: f64 = 1.0 / 16.0;
+
 /// Most Newton steps of [`AbelSeries::root_at`]: five suffice, as the slope is between one half and two.
 const NEWTON_STEPS: usize = 20;
 
@@ -294,31 +311,3 @@ const LARGEST_ERROR: f64 = 0.5;
 
 /// The largest x of the series is itself an inverse, up to this part of it for the roundings.
 const SHORTEST: f64 = 1.0 - 1e-6;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::coefficients::Form;
-
-    /// On the right Ψ is negative at the end of the series for large n, and vanishes inside.
-    #[test]
-    fn roots_are_inverses_where_the_phase_vanishes() {
-        for (n, m) in [(216, 0.3), (1_000_000, 1.0), (1, 0.02), (3, 50.0)] {
-            for side in [Side::Left, Side::Right] {
-                let ratio = MassRatio::new(m).unwrap();
-                let local = Coefficients::new(n, ratio, Form::Corrected).unwrap();
-                let series = AbelSeries::new(&local, ratio, side).unwrap();
-                for part in [0.9, 0.5, 0.1, 1e-3, 1e-9, 1e-60] {
-                    let x = part * series.whole();
-                    let (found, error) = series.root_at(series.value(x));
-                    assert!((found / x - 1.0).abs() <= error, "{n} {m} {part}: {found:e} {x:e}");
-                    assert!(error < 1e-5, "{n} {m} {part}: {error:e}");
-                }
-                let first = series.value(series.whole()).hops;
-                for (hops, error) in [(first - 5.0, 0.0), (first + 20.0, 15.0), (f64::NAN, 0.0)] {
-                    assert!(series.root_at(HopCount { hops, error }).1.is_infinite());
-                }
-            }
-        }
-    }
-}

@@ -9,6 +9,7 @@ use crate::fatou::hop_count::HopCount;
 use crate::fatou::leading_term::exact_terms;
 use crate::fatou::local_hop_model::Side;
 use crate::fatou::offset::Offset;
+use crate::fatou::outward_walk::OutwardWalk;
 use crate::fatou::phase::Phase;
 use crate::fatou::slow_hops::{MOST_HOPS, inward, outward};
 use passive_hopper::{LiftOffMap, MassRatio};
@@ -69,9 +70,24 @@ impl FatouCoordinate {
     /// [`Error::Index`] for n = 0; [`Error::Drift`] where the mass ratio is so extreme, or n so large, that the series has no
     /// bound.
     pub fn new(n: u64, mass_ratio: MassRatio, side: Side) -> Result<Self, Error> {
+        if side == Side::Left {
+            return Self::along(&OutwardWalk::new(n, mass_ratio)?);
+        }
         let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
-        let series = AbelSeries::new(&local, mass_ratio, side)?;
+        let series = AbelSeries::on_the_right(&local, mass_ratio)?;
         Ok(FatouCoordinate { n, side, map: LiftOffMap::new(mass_ratio), local, series })
+    }
+
+    /// The coordinate on the left of the fixed point that the walk leaves, from the same Taylor models of a hop. It equals that of
+    /// [`new`](Self::new), which makes these models again.
+    ///
+    /// # Errors
+    /// [`Error::Drift`] as for [`new`](Self::new).
+    pub fn along(walk: &OutwardWalk) -> Result<Self, Error> {
+        let OutwardWalk { local, mass_ratio, ref hop, .. } = *walk;
+        let series = AbelSeries::on_the_left(&local, hop)?;
+        let map = LiftOffMap::new(mass_ratio);
+        Ok(FatouCoordinate { n: local.n, side: Side::Left, map, local, series })
     }
 
     /// The side of the fixed point.
@@ -248,6 +264,27 @@ mod tests {
         all.flat_map(|(n, m)| {
             [Side::Left, Side::Right].map(|side| FatouCoordinate::new(n, m, side).unwrap())
         })
+    }
+
+    /// On the right Ψ is negative at the end of the series for large n, and vanishes inside.
+    #[test]
+    fn roots_are_inverses_where_the_phase_vanishes() {
+        for (n, m) in [(216, 0.3), (1_000_000, 1.0), (1, 0.02), (3, 50.0)] {
+            for side in [Side::Left, Side::Right] {
+                let psi = FatouCoordinate::new(n, MassRatio::new(m).unwrap(), side).unwrap();
+                let series = &psi.series;
+                for part in [0.9, 0.5, 0.1, 1e-3, 1e-9, 1e-60] {
+                    let x = part * series.whole();
+                    let (found, error) = series.root_at(series.value(x));
+                    assert!((found / x - 1.0).abs() <= error, "{n} {m} {part}: {found:e} {x:e}");
+                    assert!(error < 1e-5, "{n} {m} {part}: {error:e}");
+                }
+                let first = series.value(series.whole()).hops;
+                for (hops, error) in [(first - 5.0, 0.0), (first + 20.0, 15.0), (f64::NAN, 0.0)] {
+                    assert!(series.root_at(HopCount { hops, error }).1.is_infinite());
+                }
+            }
+        }
     }
 
     #[test]

@@ -16,6 +16,7 @@ use crate::fatou::polynomial::ORDER;
 use crate::fatou::second_flight::SecondFlight;
 use crate::fatou::taylor_model::Model;
 use passive_hopper::MassRatio;
+use std::sync::OnceLock;
 
 /// A side of a fixed point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -41,7 +42,9 @@ impl Side {
 const COEFFICIENT: f64 = 4.0 * f64::EPSILON;
 
 /// The hop from |t| = `width` · u, 0 ≤ u ≤ 1.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct LocalHopModel {
+    pub(crate) width: f64,
     /// |δ|^{1/3}/|t|.
     pub(crate) root: Model,
     /// g = (x′/x)³ − 1 for x = |δ|^{1/3}, x′ = |δ′|^{1/3}.
@@ -73,13 +76,23 @@ fn sine_like(width: f64, shift: u32, largest: f64, factor: impl Fn(usize) -> f64
 impl LocalHopModel {
     /// The hop on one side of a fixed point. For the left side |δ| must not exceed 0.0109 up to `width` (docs/theory.md, Theorem 81).
     pub(crate) fn new(local: &Coefficients, mass_ratio: MassRatio, side: Side, width: f64) -> Self {
-        let first = FirstFlight::new(local, side, width);
-        let mut squares = &first.closing * &first.closing;
-        if side == Side::Left {
+        let stored = usize::try_from(local.n).ok().and_then(|n| FIRST_FLIGHTS.get(n));
+        match (side, stored) {
+            (Side::Left, Some(first)) if width <= LARGEST_LEFT_WIDTH => {
+                let make = || Box::new(FirstFlight::new(local, side, LARGEST_LEFT_WIDTH));
+                Self::after(&first.get_or_init(make).narrowed(width), mass_ratio, local)
+            }
+            _ => Self::after(&FirstFlight::new(local, side, width), mass_ratio, local),
+        }
+    }
+
+    fn after(first: &FirstFlight, mass_ratio: MassRatio, local: &Coefficients) -> Self {
+        let mut squares = first.closing_squared;
+        if first.side == Side::Left {
             let second = first.next(mass_ratio.kappa());
             squares = &squares + &(&second.closing * &second.closing);
         }
-        Self::from_losses(&first, &squares, mass_ratio, local.lambda)
+        Self::from_losses(first, &squares, mass_ratio, local)
     }
 
     /// From Σ Γ²/t⁴.
@@ -87,14 +100,13 @@ impl LocalHopModel {
         first: &FirstFlight,
         squares: &Model,
         mass_ratio: MassRatio,
-        lambda: f64,
+        local: &Coefficients,
     ) -> Self {
         let width = first.width;
         // T = μ Σ Γ²/t⁴ and ℓ = α (1 − √(1 − z)) with z = t⁴ T/α², so that ℓ/t⁴ = (T/α) (½ + z/8 + z²/16 + …).
         let taken = squares.scaled(mass_ratio.mu(), COEFFICIENT);
-        let inverse = first.speed.reciprocal();
-        let over = &taken * &inverse;
-        let z = &over * &inverse;
+        let over = &taken * &first.inverse_speed;
+        let z = &over * &first.inverse_speed;
         let z = (0..4).fold(z, |product, _| product.shifted().scaled(width, 0.0));
         // z is O(u⁴), and each power of it has four more terms that vanish.
         let (mut sum, mut power, mut coefficient) = (Model::constant(0.5, 0.0), z, 0.5);
@@ -109,18 +121,34 @@ impl LocalHopModel {
         let size = z.size();
         let later = if size < 1.0 { size / (1.0 - size) } else { f64::INFINITY };
         sum.rest += power.rest * later;
-        let ratio = &(&(&over * &sum) * &first.q) * &first.inverse_numerator;
+        let ratio = &(&over * &sum) * &first.inverse_cube;
         let rate = ratio.scaled(-first.side.sign() * width, f64::EPSILON);
         // x is |t|/β, and g is −λx on the right and 10λx on the left, to leading order.
         let leading = match first.side {
-            Side::Left => 10.0 * lambda,
-            Side::Right => -lambda,
+            Side::Left => 10.0 * local.lambda,
+            Side::Right => -local.lambda,
         } * width
-            / first.beta;
+            / local.beta;
         let rate = rate.with_constant(leading, GROWTH_ULPS * f64::EPSILON * leading.abs());
-        LocalHopModel { root: first.root(), growth: rate.shifted(), rate }
+        LocalHopModel { width, root: first.root, growth: rate.shifted(), rate }
+    }
+
+    /// The same hop from the points up to |t| = `width`, at most that of self.
+    pub(crate) fn narrowed(&self, width: f64) -> Self {
+        let part = width / self.width;
+        // g/u = part · (g/(part u)).
+        let rate = self.rate.narrowed(part).scaled(part, f64::EPSILON);
+        LocalHopModel { width, root: self.root.narrowed(part), growth: rate.shifted(), rate }
     }
 }
+
+/// The largest |t| on the left. At 0.3 |δ| is below 2.5·10⁻³: one sudden lift-off follows up to 0.0109 (docs/theory.md, Theorem 81).
+/// The polynomials of a hop err by some 10⁻⁶ there. A larger value would need more terms.
+pub(crate) const LARGEST_LEFT_WIDTH: f64 = 0.3;
+
+/// The first flights on the left of α*_n, n < 64, up to this |t|: they do not depend on the mass ratio. At larger n each hop computes
+/// its own.
+static FIRST_FLIGHTS: [OnceLock<Box<FirstFlight>>; 64] = [const { OnceLock::new() }; 64];
 
 /// Bound on the relative error of λ/β with three more operations, in units of ε (docs/theory.md, Lemma 72).
 const GROWTH_ULPS: f64 = 10.0;
@@ -128,23 +156,24 @@ const GROWTH_ULPS: f64 = 10.0;
 /// Terms of the series of a loss: z^k is O(u^{4k}).
 const LOSS_TERMS: usize = ORDER / 4;
 
-/// The first flight.
+/// The first flight. It does not depend on the mass ratio.
 struct FirstFlight {
     side: Side,
     a: f64,
-    beta: f64,
     width: f64,
-    /// N/Q.
-    cube: Model,
-    q: Model,
-    /// 1/N.
-    inverse_numerator: Model,
-    /// α.
-    speed: Model,
-    /// Γ₁/t².
+    /// |δ|^{1/3}/|t| = (N/Q)^{1/3}.
+    root: Model,
+    /// Q/N.
+    inverse_cube: Model,
+    /// 1/α.
+    inverse_speed: Model,
+    /// Γ₁/t², and its square.
     closing: Model,
-    /// (α − h)/|t|.
-    beyond: Model,
+    closing_squared: Model,
+    /// X̂ = x/|t| after the flight.
+    excess: Model,
+    /// The velocity after it without the part κΓ₁.
+    velocity: Model,
 }
 
 impl FirstFlight {
@@ -175,33 +204,62 @@ impl FirstFlight {
         let cube = &numerator * &over.scaled(r2, COEFFICIENT); // N/Q = |δ|/|t|³
         let offset = (0..3).fold(cube, |m, _| m.shifted().scaled(width, f64::EPSILON));
         let speed = &Model::constant(a, f64::EPSILON * a) + &offset.scaled(sign, 0.0);
-        let (beta, inverse_numerator) = (local.beta, numerator.reciprocal());
-        FirstFlight { side, a, beta, width, cube, q, inverse_numerator, speed, closing, beyond }
+        let mut half_time = Model::constant(a, error); // h = a + t/2
+        half_time.terms[1] = 0.5 * sign * width;
+        // X̂ = 2h (α − h)/|t|, which is a at t = 0.
+        let excess = (&half_time * &beyond).scaled(2.0, 0.0).with_constant(a, error);
+        FirstFlight {
+            side,
+            a,
+            width,
+            root: cube_root(&cube, local),
+            inverse_cube: &q * &numerator.reciprocal(),
+            inverse_speed: speed.reciprocal(),
+            closing,
+            closing_squared: &closing * &closing,
+            excess,
+            velocity: &by_time(&beyond, width) - &half_time,
+        }
+    }
+
+    /// The same flight from the points up to |t| = `width`, at most that of self.
+    fn narrowed(&self, width: f64) -> Self {
+        let narrowed = |model: &Model| model.narrowed(width / self.width);
+        FirstFlight {
+            width,
+            side: self.side,
+            a: self.a,
+            root: narrowed(&self.root),
+            inverse_cube: narrowed(&self.inverse_cube),
+            inverse_speed: narrowed(&self.inverse_speed),
+            closing: narrowed(&self.closing),
+            closing_squared: narrowed(&self.closing_squared),
+            excess: narrowed(&self.excess),
+            velocity: narrowed(&self.velocity),
+        }
     }
 
     /// The second flight, on the left.
     fn next(&self, kappa: f64) -> SecondFlight {
-        let (a, width) = (self.a, self.width);
-        let by_time = |model: &Model| model.shifted().scaled(width, 0.0); // |t| · model
-        let error = 0.5 * f64::EPSILON * a;
-        let mut half_time = Model::constant(a, error); // h = a + t/2
-        half_time.terms[1] = 0.5 * self.side.sign() * width;
-        // X̂ = 2h (α − h)/|t|, which is a at t = 0.
-        let excess = (&half_time * &self.beyond).scaled(2.0, 0.0).with_constant(a, error);
-        let rebound = by_time(&by_time(&self.closing)).scaled(kappa, COEFFICIENT);
-        let velocity = &(&by_time(&self.beyond) - &half_time) + &rebound;
-        SecondFlight::new(a, excess, velocity, width)
+        let width = self.width;
+        let rebound = by_time(&by_time(&self.closing, width), width).scaled(kappa, COEFFICIENT);
+        SecondFlight::new(self.a, self.excess, &self.velocity + &rebound, width)
     }
+}
 
-    /// (N/Q)^{1/3}.
-    fn root(&self) -> Model {
-        let square = self.a * self.a;
-        let cube = 12.0 * (square / (1.0 + square)); // β³
-        let mut ratio = self.cube.scaled(cube, COEFFICIENT);
-        // The constant term is exactly 1, because β³ = 12a²/R².
-        (ratio.terms[0], ratio.radii[0]) = (0.0, 0.0);
-        let size = ratio.size();
-        let root = Model::binomial(&ratio.powers(), 1.0 / 3.0, size);
-        root.scaled(1.0 / self.beta, COEFFICIENT)
-    }
+/// |t| · model.
+fn by_time(model: &Model, width: f64) -> Model {
+    model.shifted().scaled(width, 0.0)
+}
+
+/// (N/Q)^{1/3} from N/Q.
+fn cube_root(of: &Model, local: &Coefficients) -> Model {
+    let square = local.alpha_star * local.alpha_star;
+    let cube = 12.0 * (square / (1.0 + square)); // β³
+    let mut ratio = of.scaled(cube, COEFFICIENT);
+    // The constant term is exactly 1, because β³ = 12a²/R².
+    (ratio.terms[0], ratio.radii[0]) = (0.0, 0.0);
+    let size = ratio.size();
+    let root = Model::binomial(&ratio.powers(), 1.0 / 3.0, size);
+    root.scaled(1.0 / local.beta, COEFFICIENT)
 }

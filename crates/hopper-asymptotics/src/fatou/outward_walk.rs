@@ -5,14 +5,10 @@
 
 use crate::coefficients::{Coefficients, Form};
 use crate::error::Error;
-use crate::fatou::local_hop_model::{LocalHopModel, Side};
+use crate::fatou::local_hop_model::{LARGEST_LEFT_WIDTH, LocalHopModel, Side};
 use crate::fatou::polynomial::ORDER;
 use crate::fatou::taylor_model::Model;
 use passive_hopper::MassRatio;
-
-/// The largest |t|. At 0.3 |δ| is below 2.5·10⁻³: one sudden lift-off follows up to 0.0109 (docs/theory.md, Theorem 81). The
-/// polynomials err by some 10⁻⁶ there. A larger value would need more terms.
-const LARGEST_WIDTH: f64 = 0.3;
 
 /// The largest A x. Beyond it an orbit leaves within some hops.
 const LARGEST_TURN: f64 = 1.2;
@@ -27,10 +23,10 @@ const HOP_ULPS: f64 = 16.0;
 /// Hops left of a fixed point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutwardWalk {
-    width: f64,
+    pub(crate) mass_ratio: MassRatio,
+    pub(crate) local: Coefficients,
     /// x/|t| and (x′/x)³ − 1 as polynomials in u = |t|/`width`.
-    root: [f64; ORDER],
-    growth: [f64; ORDER],
+    pub(crate) hop: LocalHopModel,
     /// Bounds on the errors of both: the sums of the radii, and the rests, the first relative to x/|t|.
     radii: [f64; 2],
     rests: [f64; 2],
@@ -46,17 +42,17 @@ impl OutwardWalk {
     pub fn new(n: u64, mass_ratio: MassRatio) -> Result<Self, Error> {
         let local = Coefficients::new(n, mass_ratio, Form::Corrected)?;
         let drift = 10.0 * local.lambda / 3.0;
-        let width = (local.beta * LARGEST_TURN / drift).min(LARGEST_WIDTH);
+        let width = (local.beta * LARGEST_TURN / drift).min(LARGEST_LEFT_WIDTH);
         let hop = LocalHopModel::new(&local, mass_ratio, Side::Left, width);
         let radii = |model: &Model| model.radii.iter().sum::<f64>();
         let least = hop.root.least();
         Ok(OutwardWalk {
-            width,
-            root: hop.root.terms,
-            growth: hop.growth.terms,
+            mass_ratio,
+            local,
             radii: [radii(&hop.root) / least, radii(&hop.growth)],
             rests: [hop.root.rest / least, hop.growth.rest],
             range: width * least,
+            hop,
         })
     }
 
@@ -74,15 +70,16 @@ impl OutwardWalk {
             return None;
         }
         // u with width · u · root(u) = x.
-        let target = x / self.width;
-        let first = target / self.root[0];
-        let mut u = first * (1.0 - first * self.root[1] / self.root[0]);
+        let LocalHopModel { width, root: roots, growth, .. } = &self.hop;
+        let target = x / width;
+        let first = target / roots.terms[0];
+        let mut u = first * (1.0 - first * roots.terms[1] / roots.terms[0]);
         for _ in 0..NEWTON_STEPS {
-            let (root, slope) = value_and_slope(&self.root, u);
+            let (root, slope) = value_and_slope(&roots.terms, u);
             u -= (u * root - target) / (root + u * slope);
         }
-        let (root, root_slope) = value_and_slope(&self.root, u);
-        let (growth, growth_slope) = value_and_slope(&self.growth, u);
+        let (root, root_slope) = value_and_slope(&roots.terms, u);
+        let (growth, growth_slope) = value_and_slope(&growth.terms, u);
         // d ln u/d ln x, and f′ = 1 + g + (x/3) dg/dx.
         let stretch = root / (root + u * root_slope);
         let rise = growth_slope * u * stretch / 3.0;

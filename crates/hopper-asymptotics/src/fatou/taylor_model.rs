@@ -72,6 +72,21 @@ impl Model {
         model
     }
 
+    /// g(`part` · u), for 0 < `part` ≤ 1 with a relative error of ε.
+    pub(crate) fn narrowed(&self, part: f64) -> Self {
+        let mut model = Model::ZERO;
+        let mut power = 1.0;
+        for k in 0..ORDER {
+            // The error of `part`, and one rounding of each factor.
+            let relative = (2 * k) as f64 * f64::EPSILON;
+            model.terms[k] = power * self.terms[k];
+            model.radii[k] = (power * self.radii[k] + relative * model.terms[k].abs()) * UP;
+            power *= part;
+        }
+        model.rest = power * self.rest * UP;
+        model
+    }
+
     /// `factor` · self, for a factor with the relative error `relative`.
     pub(crate) fn scaled(&self, factor: f64, relative: f64) -> Self {
         let mut model =

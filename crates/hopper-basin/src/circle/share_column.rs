@@ -77,7 +77,9 @@ impl ShareColumn {
                 };
                 ends.windows(2).map(share).collect()
             }
-            Upwards::BothSides | Upwards::Speed => return Err(Error::Upwards),
+            Upwards::BothSides | Upwards::Speed | Upwards::LiftOffSpeed => {
+                return Err(Error::Upwards);
+            }
         };
         Ok(Self::new(&pixels))
     }

@@ -10,6 +10,8 @@ pub enum Upwards {
     /// −log₁₀ of the distance from an edge p, on both sides: the lower half of the rows are the speeds p − 10^{−y}, y upwards; the
     /// upper half are the speeds p + 10^{−y}, y downwards. So speeds increase upwards, and p is in the middle.
     BothSides,
+    /// The lift-off speed α, as in a [`coverage_raster`](crate::coverage_raster).
+    LiftOffSpeed,
     /// The speed, in half heights from the edge in the middle.
     Speed,
 }

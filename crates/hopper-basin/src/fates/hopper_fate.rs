@@ -35,6 +35,8 @@ impl HopperFate {
     pub const UNDECIDED_HOP: Label = Label::UNDECIDED_MAP;
     /// The label of all fixed points whose index exceeds [`LARGEST_LABEL`](Self::LARGEST_LABEL).
     pub const BEYOND_LABELS: Label = Label::numbered::<65_531>();
+    /// The label of all fixed points n ≥ 1 together, in fractions. It is the label of no single fate.
+    pub const INCESSANT: Label = Label::numbered::<65_525>();
     /// The largest index of a fixed point that has its own label.
     ///
     /// Labels have 16 bits. The round number leaves some 500 labels above it for other fates.

@@ -3,9 +3,7 @@
 //! Left of α*_n an orbit at distance |δ| takes some |δ|^{−1/3} hops to leave. The Fatou coordinate gives the point that it
 //! reaches, with an error (docs/theory.md, Section 16).
 
-use hopper_asymptotics::{
-    Coefficients, FatouCoordinate, Form, HopCount, OutwardWalk, Side, SlowJump,
-};
+use hopper_asymptotics::{Coefficients, FatouCoordinate, Form, HopCount, OutwardWalk, SlowJump};
 use passive_hopper::{FixedPointSpeed, MassRatio, alpha_star};
 use std::f64::consts::FRAC_1_PI;
 use std::sync::OnceLock;
@@ -107,7 +105,7 @@ impl SlowSides {
 
     /// The result of `use_it` with the coordinate of α*_n.
     fn with<T>(&self, n: u64, use_it: impl FnOnce(&FatouCoordinate) -> Option<T>) -> Option<T> {
-        let make = || Some(Box::new(FatouCoordinate::new(n, self.mass_ratio, Side::Left).ok()?));
+        let make = || self.with_walk(n, |walk| FatouCoordinate::along(walk).ok()).map(Box::new);
         match self.side(n) {
             Some(side) => use_it(side.psi.get_or_init(make).as_ref()?),
             None => use_it(&*make()?),

@@ -1,12 +1,13 @@
 //! The boundary of the basins: a countable set of box dimension one quarter.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{FractionWithBar, estimate, fates, hump, label};
+use super::humps_of_window::{estimate, fates, hump, label};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    IntervalBasins, PowerLaw, Refinement, SplitMix64, occupied_boxes, power_law, uncertain_fraction,
+    FractionRange, IntervalBasins, PowerLaw, Refinement, SplitMix64, occupied_boxes, power_law,
+    uncertain_fraction,
 };
 use hopper_asymptotics::{Coefficients, Form, LEFT_FACTOR};
 use hopper_basin::hopper_basins;
@@ -248,7 +249,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
             uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
         Ok(vec![epsilon, fraction.value, fraction.lower, fraction.upper])
     })?;
-    let sampled: Vec<(f64, FractionWithBar)> =
+    let sampled: Vec<(f64, FractionRange)> =
         rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
     let mut widest: f64 = 0.0;
     let exact: Vec<(f64, f64)> = (0..=16)

@@ -1,7 +1,7 @@
 //! Starts on the humps of the paper's window, their fates, and fractions as text.
 
 use crate::error::Error;
-use basin_of_attraction::{ConfidenceInterval, EquallySpacedFraction, Interval, Label};
+use basin_of_attraction::{FractionRange, Interval, Label};
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{MassRatio, alpha_star};
 
@@ -35,45 +35,19 @@ pub(super) fn by_humps(place: f64) -> f64 {
     left + (right - left) * (place - whole as f64)
 }
 
-/// A fraction for drawing and printing: a value with a bar. The bar is a 95 % confidence interval or certain bounds.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct FractionWithBar {
-    pub(super) value: f64,
-    pub(super) lower: f64,
-    pub(super) upper: f64,
-}
-
-impl FractionWithBar {
-    pub(super) fn half_width(&self) -> f64 {
-        0.5 * (self.upper - self.lower)
-    }
-}
-
-impl From<ConfidenceInterval> for FractionWithBar {
-    fn from(ConfidenceInterval { value, lower, upper }: ConfidenceInterval) -> Self {
-        FractionWithBar { value, lower, upper }
-    }
-}
-
-impl From<EquallySpacedFraction> for FractionWithBar {
-    fn from(EquallySpacedFraction { value, bounds }: EquallySpacedFraction) -> Self {
-        FractionWithBar { value, lower: bounds.lower, upper: bounds.upper }
-    }
-}
-
 /// The estimate in three numbers of a scan: value, lower and upper end.
-pub(super) fn estimate(three: &[f64]) -> FractionWithBar {
-    FractionWithBar { value: three[0], lower: three[1], upper: three[2] }
+pub(super) fn estimate(three: &[f64]) -> FractionRange {
+    FractionRange { value: three[0], lower: three[1], upper: three[2] }
 }
 
 /// A fraction with the half width of its interval, in per cent. Small intervals get two digits more.
-pub(super) fn percent(fraction: &FractionWithBar) -> String {
+pub(super) fn percent(fraction: &FractionRange) -> String {
     let digits = if fraction.half_width() > 5e-4 { 2 } else { 4 };
     format!("{:.digits$} ± {:.digits$} %", 100.0 * fraction.value, 100.0 * fraction.half_width())
 }
 
 /// A fraction between bounds, in per cent.
-pub(super) fn bounds(fraction: &FractionWithBar) -> String {
+pub(super) fn bounds(fraction: &FractionRange) -> String {
     format!("{:.5} … {:.5} %", 100.0 * fraction.lower, 100.0 * fraction.upper)
 }
 

@@ -1,13 +1,11 @@
 //! Final-state uncertainty at large speeds, and whether the basins are riddled.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{
-    FractionWithBar, estimate, fates, hump, is_incessant, label, percent,
-};
+use super::humps_of_window::{estimate, fates, hump, is_incessant, label, percent};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use basin_of_attraction::{Label, random_fractions, uncertain_fraction};
+use basin_of_attraction::{FractionRange, Label, random_fractions, uncertain_fraction};
 use hopper_basin::HopperFate;
 use hopper_figures::fate_colors;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
@@ -54,7 +52,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
     for (k, n) in HUMPS.into_iter().enumerate() {
         let window = hump(n)?;
         let rows = &scan[k * DECADES..(k + 1) * DECADES];
-        let points: Vec<(f64, FractionWithBar)> =
+        let points: Vec<(f64, FractionRange)> =
             rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
         data.extend(rows.iter().map(|row| {
             std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()

@@ -2,38 +2,42 @@
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{
-    FROM, FractionWithBar, TO, bounds, by_humps, estimate, fates, geometric, hump, is_incessant,
-    label, percent,
+    FROM, TO, bounds, by_humps, estimate, fates, geometric, is_incessant, label, percent,
 };
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    Bounds, Interval, Label, Refinement, equally_spaced_fractions, low_discrepancy_fractions,
-    proportion_interval, random_fractions,
+    CurveLimits, FractionRange, Fractions, FractionsAlong, Interval, Label,
+    equally_spaced_fractions, low_discrepancy_fractions, random_fractions,
 };
-use hopper_basin::{Fates, HopperFate, crisis, hopper_basins};
+use hopper_basin::{
+    FractionLimits, HopperFate, crisis, fractions_over_mass_ratio, hump_fractions, known_kinks,
+};
 use hopper_figures::fate_colors;
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
 use std::collections::BTreeMap;
 
-/// Smallest and largest mass ratio and their number, equally spaced on a logarithmic scale: 1/50 to 50, so that each
-/// mass ratio has its inverse.
-const RATIOS: (f64, f64, usize) = (0.02, 50.0, 121);
+/// Smallest and largest mass ratio, 1/50 to 50, so that each mass ratio has its inverse.
+const RATIOS: (f64, f64) = (0.02, 50.0);
 
-/// Largest mass ratio at which basins are computed as intervals. Up to it a hop has at most one sudden lift-off, so
-/// that its branches are known. For larger mass ratios fractions are estimated from points.
-const BY_INTERVALS: f64 = 0.905;
-/// Shortest interval whose preimages are computed. Shorter intervals widen the bounds of the measure.
-const SHORTEST: f64 = 1e-7;
-/// Points, one at random in each of as many parts of the window: about the 50 000 of the paper.
+/// How finely the mass ratios are divided: neighbours differ by 30 % or by 0.005, a hundredth of the height of the curves, or by less
+/// than can be seen. Half of that takes twice as long. The first steps are 4 % of M: peaks such as that at M = 0.1705 are wider.
+const CURVE: CurveLimits = CurveLimits {
+    first_steps: 200,
+    difference: 0.005,
+    relative: 0.3,
+    shortest: 1e-4,
+    budget: 400,
+    matching: basin_of_attraction::Matching::ByLabel,
+};
+
+/// Points and seed of the comparison with the paper's way of counting.
 const POINTS: usize = 64_000;
-/// Seed of the random points. Another seed changes the data within their intervals.
 const SEED: u64 = 2002;
 
-/// The label of all incessant fates together. Fates have labels up to `LARGEST_LABEL` = 65 000, or above 65 530. This label
-/// lies between them and belongs to no fate.
-const ALL: Label = Label::numbered::<65_525>();
+/// The label of all incessant fates together.
+const ALL: Label = HopperFate::INCESSANT;
 
 /// Labels in the order of the columns of the data.
 const LABELS: [Label; 8] = [
@@ -47,87 +51,54 @@ const LABELS: [Label; 8] = [
     HopperFate::GROUNDED,
 ];
 
-type FractionsWithBars = BTreeMap<Label, FractionWithBar>;
-
 /// The window as an interval in which each hump has length one.
 fn window() -> Result<Interval, Error> {
     Ok(Interval::new(0.0, (TO - FROM) as f64)?)
 }
 
-/// Basin fractions of all labels, and of all incessant fates together.
-fn fractions_with_bars(mass_ratio: f64) -> Result<FractionsWithBars, Error> {
-    let fates = fates(mass_ratio)?;
-    if mass_ratio <= BY_INTERVALS {
-        return fractions_by_intervals(&fates, SHORTEST);
-    }
-    let at = |place: f64| label(&fates, by_humps(place));
-    let mut fractions = low_discrepancy_fractions(window()?, POINTS, SEED, at)?;
-    let together = |place: f64| if is_incessant(at(place)) { ALL } else { Label::from(0) };
-    let all = low_discrepancy_fractions(window()?, POINTS, SEED, together)?;
-    fractions.extend(all.get(&ALL).map(|&fraction| (ALL, fraction)));
-    let mut fractions: FractionsWithBars =
-        fractions.into_iter().map(|(label, fraction)| (label, fraction.into())).collect();
-    // A label that no point has may still have a fraction: its interval is that of 0 hits.
-    let unseen = proportion_interval(0, POINTS)?;
-    LABELS.into_iter().for_each(|label| {
-        fractions.entry(label).or_insert(unseen.into());
-    });
-    Ok(fractions)
+/// The fractions as numbers, and back.
+fn numbers(fractions: &Fractions) -> Vec<f64> {
+    let three = |label: Label| {
+        let FractionRange { value, lower, upper } = fractions.of(label);
+        [value, lower, upper]
+    };
+    LABELS.into_iter().flat_map(three).collect()
 }
 
-/// The same fractions with bounds, from basins as intervals: means over the humps.
-fn fractions_by_intervals(fates: &Fates, shortest: f64) -> Result<FractionsWithBars, Error> {
-    let refinement = Refinement { shortest, ..Refinement::default() };
-    let found = hopper_basins(fates, FROM, TO, 400, refinement)?.basins;
-    let mut fractions = FractionsWithBars::new();
-    for n in FROM..TO {
-        let part = found.within(hump(n)?)?;
-        let scale = 1.0 / (part.window().length() * (TO - FROM) as f64);
-        let mut add = |label: Label, resolved: f64, length: Bounds| {
-            let none = FractionWithBar { value: 0.0, lower: 0.0, upper: 0.0 };
-            let fraction = fractions.entry(label).or_insert(none);
-            fraction.value += scale * resolved;
-            fraction.lower += scale * length.lower;
-            fraction.upper += scale * length.upper;
-        };
-        for label in LABELS.into_iter().filter(|&label| label != ALL) {
-            add(label, part.resolved_length(label), part.basin_length(label));
-        }
-        let all = (part.resolved_length_of(is_incessant), part.basin_length_of(is_incessant));
-        add(ALL, all.0, all.1);
-    }
-    Ok(fractions)
+fn from_numbers(row: &[f64]) -> Fractions {
+    let found = LABELS.into_iter().zip(row.chunks(3).map(estimate)).collect();
+    Fractions { found, ..Fractions::default() }
 }
 
 /// Measures from M = 0.02 to 50.
 pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
-    let ratios = geometric(RATIOS.0, RATIOS.1, RATIOS.2);
-    let scan = job.scan("measures", ratios.len(), |k| {
-        let fractions = fractions_with_bars(ratios[k])?;
-        let numbers =
-            |label: Label| fractions.get(&label).map_or([0.0; 3], |s| [s.value, s.lower, s.upper]);
-        Ok(LABELS.into_iter().flat_map(numbers).collect())
-    })?;
-    let fractions_of =
-        |row: &Vec<f64>| LABELS.into_iter().zip(row.chunks(3).map(estimate)).collect();
-    let all: Vec<(f64, FractionsWithBars)> =
-        ratios.iter().zip(&scan).map(|(&m, row)| (m, fractions_of(row))).collect();
-    let mut svg = Svg::new(700.0, 470.0);
-    let frame =
-        Frame::linear(70.0, 20.0, 600.0, 380.0, (RATIOS.0, RATIOS.1), (1e-5, 1.5)).log_x().log_y();
-    let touch = crisis(1)?.mass_ratio;
-    for m in [touch, 1.0 / touch] {
+    let mut rows = job.rows("measures")?;
+    let at = |m: f64| {
+        let compute =
+            || Ok(numbers(&hump_fractions(&fates(m)?, FROM, TO, FractionLimits::default())?.0));
+        Ok::<_, Error>(from_numbers(&rows.next(compute)?))
+    };
+    let ratios = Interval::new(RATIOS.0, RATIOS.1)?;
+    let all = fractions_over_mass_ratio(ratios, FROM, TO, CURVE, at)?;
+    let mut svg = Svg::new(700.0, 480.0);
+    let frame = Frame::linear(70.0, 20.0, 600.0, 380.0, RATIOS, (1e-5, 1.5)).log_x().log_y();
+    for m in known_kinks(FROM, TO)?.into_iter().filter(|m| (RATIOS.0..RATIOS.1).contains(m)) {
         let x = frame.at((m, 1.0)).0;
-        svg.line((x, frame.top), (x, frame.top + frame.height), Pen::dashed("#888", 0.8, "4 3"));
+        svg.line((x, frame.top), (x, frame.top + 6.0), Pen::solid("#000", 0.8));
     }
-    let x = frame.at((touch, 1.0)).0;
-    svg.text(x - 4.0, frame.top + frame.height - 8.0, Anchor::End, 11.0, "$M$_{c}(1)");
-    let x = frame.at((1.0 / touch, 1.0)).0;
-    svg.text(x + 4.0, frame.top + frame.height - 8.0, Anchor::Start, 11.0, "1/$M$_{c}(1)");
+    let touch = crisis(1)?.mass_ratio;
+    for (m, anchor, text) in
+        [(touch, Anchor::End, "$M$_{c}(1)"), (1.0 / touch, Anchor::Start, "1/$M$_{c}(1)")]
+    {
+        let (x, bottom) = (frame.at((m, 1.0)).0, frame.top + frame.height);
+        svg.line((x, frame.top), (x, bottom), Pen::dashed("#888", 0.8, "4 3"));
+        let aside = if anchor == Anchor::End { -4.0 } else { 4.0 };
+        svg.text(x + aside, bottom - 8.0, anchor, 11.0, text);
+    }
     for label in (FROM..TO).rev().map(HopperFate::label_of_fixed_point) {
         curve(&mut svg, &frame, &all, label, fate_colors::css(label), 1.1);
     }
-    curve(&mut svg, &frame, &all, ALL, "#000000", 2.0);
+    curve(&mut svg, &frame, &all, ALL, "#000000", 1.8);
     frame.axes(
         &mut svg,
         &ratio_ticks(),
@@ -136,13 +107,10 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
         "fraction of the window",
     );
     legend(&mut svg);
-    let rows = all.iter().map(|(m, fractions)| {
-        let cells = |label: Label| {
-            let fraction = fractions.get(&label);
-            [fraction.map(|s| s.value), fraction.map(|s| s.lower), fraction.map(|s| s.upper)]
-        };
-        std::iter::once(Some(*m)).chain(LABELS.into_iter().flat_map(cells)).collect()
-    });
+    let rows = all
+        .points()
+        .iter()
+        .map(|(m, fractions)| std::iter::once(*m).chain(numbers(fractions)).map(Some).collect());
     let names = ["1", "2", "3", "4", "5", "all", "decaying", "grounded"];
     let header: Vec<String> = std::iter::once("mass_ratio".to_owned())
         .chain(names.iter().flat_map(|n| ["", "_lower", "_upper"].map(|end| format!("{n}{end}"))))
@@ -158,13 +126,20 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                 .into(),
             notes: format!(
                 "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
-                 for $M$ ≤ 0.905 by intervals down to 10^{{−7}}, with bounds that hold for the branches found \
-                 and up to rounding; beyond, by one random point in each of {POINTS} equal parts, with 95 % intervals. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
+                 where the branches of the map are proved ($M$ ≤ 0.83 and more) by intervals down to 10^{{−7}}, with bounds up \
+                 to rounding; beyond, by one random point in each of {} equal parts, with 95 % intervals. {} mass ratios: \
+                 steps are halved until neighbours differ by at most 30 % or 0.005. {} steps remain larger: {} of \
+                 2·10^{{−4}} of $M$ at most, the others because their ranges overlap or the budget is used up. Ticks at the top: the crises of \
+                 the humps 1 to 5, the onsets of grounding, and their inverses. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
                  there it falls through its fixed point. Between it and its inverse the measure falls and \
                  rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
-                 $α$^{{∗}}_{{1}} at once (near $M$ = 0.172, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
+                 $α$^{{∗}}_{{1}} at once (at $M$ = 0.1705, three times its neighbours). At 1/$M$_{{c}}(1) nearly all \
                  of it is back; what is missing beyond, a thousandth and less, falls through needles in the \
-                 sudden windows."
+                 sudden windows.",
+                FractionLimits::default().points,
+                all.points().len(),
+                all.unresolved().len(),
+                all.jumps().count(),
             ),
             svg,
             data: vec![data],
@@ -176,16 +151,13 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
 fn curve(
     svg: &mut Svg,
     frame: &Frame,
-    all: &[(f64, FractionsWithBars)],
+    all: &FractionsAlong,
     label: Label,
     color: &'static str,
     width: f64,
 ) {
-    let found: Vec<(f64, FractionWithBar)> = all
-        .iter()
-        .filter_map(|(m, fractions)| Some((*m, *fractions.get(&label)?)))
-        .filter(|(_, fraction)| fraction.value > frame.y.0)
-        .collect();
+    let found: Vec<(f64, FractionRange)> =
+        all.of(label).filter(|(_, fraction)| fraction.value > frame.y.0).collect();
     frame.clipped(svg, |svg| {
         let line: Vec<_> = found.iter().map(|(m, fraction)| (*m, fraction.value)).collect();
         frame.polyline(svg, &line, Pen::solid(color, width));
@@ -206,12 +178,12 @@ pub(super) fn ratio_ticks() -> Vec<(f64, String)> {
 
 fn legend(svg: &mut Svg) {
     let mut x = 78.0;
-    svg.line((x, 455.0), (x + 20.0, 455.0), Pen::solid("#000000", 2.0));
-    svg.text(x + 25.0, 459.0, Anchor::Start, 11.5, "all together");
+    svg.line((x, 465.0), (x + 20.0, 465.0), Pen::solid("#000000", 2.0));
+    svg.text(x + 25.0, 469.0, Anchor::Start, 11.5, "all together");
     x += 110.0;
     for n in (FROM..TO).map(HopperFate::label_of_fixed_point) {
-        svg.line((x, 455.0), (x + 20.0, 455.0), Pen::solid(fate_colors::css(n), 1.4));
-        svg.text(x + 25.0, 459.0, Anchor::Start, 11.5, &fate_colors::name(n));
+        svg.line((x, 465.0), (x + 20.0, 465.0), Pen::solid(fate_colors::css(n), 1.4));
+        svg.text(x + 25.0, 469.0, Anchor::Start, 11.5, &fate_colors::name(n));
         x += 82.0;
     }
 }
@@ -225,7 +197,7 @@ fn three_ways() -> Result<Table, Error> {
         "random, 50 000",
         "low discrepancy, 50 000",
     ]);
-    fn percent_of_all<F: Copy + Into<FractionWithBar>>(fractions: &BTreeMap<Label, F>) -> String {
+    fn percent_of_all<F: Copy + Into<FractionRange>>(fractions: &BTreeMap<Label, F>) -> String {
         fractions.get(&ALL).map_or("0".into(), |&fraction| percent(&fraction.into()))
     }
     for m in [0.1, 0.15, 0.2, 0.3, 0.5, 0.8] {
@@ -233,10 +205,10 @@ fn three_ways() -> Result<Table, Error> {
         let together = |place: f64| {
             if is_incessant(label(&fates, by_humps(place))) { ALL } else { Label::from(0) }
         };
-        let certain = fractions_by_intervals(&fates, 1e-7)?;
+        let (certain, _) = hump_fractions(&fates, FROM, TO, FractionLimits::default())?;
         table.row([
             format!("{m}"),
-            certain.get(&ALL).map_or("0".into(), bounds),
+            bounds(&certain.of(ALL)),
             percent_of_all(&equally_spaced_fractions(window()?, 50_000, together)?),
             percent_of_all(&random_fractions(window()?, 50_000, SEED, together)?),
             percent_of_all(&low_discrepancy_fractions(window()?, 50_000, SEED, together)?),

@@ -10,6 +10,8 @@ mod humps_of_window;
 mod large_speeds;
 mod measure;
 mod needles;
+mod resilience;
+mod tipping;
 mod tree;
 
 pub use finding::{Finding, Table};
@@ -25,6 +27,8 @@ pub type Find = fn(&Job) -> Result<Finding, Error>;
 pub const ALL: &[(&str, Find)] = &[
     ("measure", measure::measure),
     ("asymmetry", measure::asymmetry),
+    ("tipping", tipping::tipping_of_basins),
+    ("resilience", resilience::resilience),
     ("boundary", boundary::boundary),
     ("uncertainty", boundary::uncertainty),
     ("circle", circle::circle),

@@ -55,15 +55,25 @@ pub(super) fn figure_7(progress: &Progress) -> Result<Figure, Error> {
     )
 }
 
-/// Fig. 8: the inset of Fig. 6.
-pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
-    let window = Window {
-        name: "fig_08_basin_inset",
+/// The window of Fig. 8.
+pub(super) fn window_8(name: &'static str) -> Window {
+    Window {
+        name,
         mass_ratio: FIG_8.0,
         alpha: FIG_8.1,
         inset: Some((FIG_9.0, FIG_9.1, "Fig. 9")),
         tick_counts: (5, 7),
-    };
+    }
+}
+
+/// The window of Fig. 9.
+pub(super) fn window_9(name: &'static str) -> Window {
+    Window { name, mass_ratio: FIG_9.0, alpha: FIG_9.1, inset: None, tick_counts: (10, 8) }
+}
+
+/// Fig. 8: the inset of Fig. 6.
+pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
+    let window = window_8("fig_08_basin_inset");
     basin_figure(
         &window,
         progress,
@@ -77,13 +87,7 @@ pub(super) fn figure_8(progress: &Progress) -> Result<Figure, Error> {
 
 /// Fig. 9: the inset of Fig. 8.
 pub(super) fn figure_9(progress: &Progress) -> Result<Figure, Error> {
-    let window = Window {
-        name: "fig_09_basin_inset",
-        mass_ratio: FIG_9.0,
-        alpha: FIG_9.1,
-        inset: None,
-        tick_counts: (10, 8),
-    };
+    let window = window_9("fig_09_basin_inset");
     basin_figure(
         &window,
         progress,

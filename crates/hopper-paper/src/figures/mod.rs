@@ -7,6 +7,7 @@ mod fig_03_segments;
 mod fig_04_local_map;
 pub(crate) mod fig_05_construction;
 mod fig_06_to_09_basins;
+mod fig_08_09_coverage;
 mod invariance;
 mod printed_against_stable;
 
@@ -29,6 +30,8 @@ pub const ALL: &[(&str, Build)] = &[
     ("fig7", fig_06_to_09_basins::figure_7),
     ("fig8", fig_06_to_09_basins::figure_8),
     ("fig9", fig_06_to_09_basins::figure_9),
+    ("fig8coverage", fig_08_09_coverage::figure_8),
+    ("fig9coverage", fig_08_09_coverage::figure_9),
     ("invariance", invariance::build),
     ("printed", printed_against_stable::build),
 ];

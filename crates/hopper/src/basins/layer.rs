@@ -145,7 +145,7 @@ fn png(name: &str, drawing: &Svg) -> Result<Vec<u8>, Error> {
     Ok(render(name, drawing, SHARPNESS)?.png)
 }
 
-fn window(grid: &Grid, name: &'static str) -> Window {
+pub(crate) fn window(grid: &Grid, name: &'static str) -> Window {
     Window {
         name,
         mass_ratio: (grid.x.left, grid.x.right),

@@ -6,12 +6,13 @@
 //!                          job.txt       progress, signals
 //! ```
 //!
-//! A job is cut into pieces: tiles of a raster ([`rasters`], [`layer`]), columns of shares ([`shares`]) or frames of a zoom ([`zoom`]).
+//! A job is cut into pieces: tiles of a raster ([`rasters`], [`layer`]), columns of shares ([`shares`], [`coverage`]) or frames of a zoom ([`zoom`]).
 //! A folder has one job ([`job_folder`]). Its pieces are found or computed ([`pieces`]) with the [`progress`] shown and signals
 //! obeyed ([`interrupt`]); [`call`] has what they need. [`picture`] and [`column_bytes`] are forms of data.
 
 mod call;
 mod column_bytes;
+mod coverage;
 mod interrupt;
 mod job_folder;
 mod layer;
@@ -64,7 +65,12 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
     } else {
         let pixels = pixels(PIXELS_OF_RASTER);
         let grid = window::grid(&options.mass_ratio, options.speed.as_deref(), &pixels)?;
-        rasters::run(place, &grid, &options.layer, &mut call)?
+        match options.coverage {
+            Some(tolerance) => {
+                coverage::run(place, &coverage::Coverage::new(grid, tolerance)?, &mut call)?
+            }
+            None => rasters::run(place, &grid, &options.layer, &mut call)?,
+        }
     };
     form.print(&tables.into_all(), streams.output)
 }

@@ -28,6 +28,11 @@ pub(crate) struct Options {
     #[arg(long, num_args = 1.., value_name = "LAYER", value_enum, default_values_t = [Layer::Label], conflicts_with_all = ["about", "zoom"])]
     pub(crate) layer: Vec<Layer>,
 
+    /// Give each pixel the shares of the basins in it at the mass ratio of its column: a needle thinner than a pixel is a faint line. At
+    /// most this part of a pixel stays undecided, unless too many basins meet there
+    #[arg(long, value_name = "TOLERANCE", num_args = 0..=1, default_missing_value = "0.05", conflicts_with_all = ["about", "zoom", "layer"], value_parser = values::finite, allow_negative_numbers = true)]
+    pub(crate) coverage: Option<f64>,
+
     /// Compute part K of N only, beside other parts; then --join
     #[arg(long, value_name = "K/N", help_heading = "Long jobs", conflicts_with_all = ["join", "force"])]
     pub(crate) part: Option<Part>,
@@ -78,7 +83,7 @@ fn mass_ratio(text: &str) -> Result<f64, String> {
 /// The help beside the options.
 pub(crate) const PAGE: Page = Page {
     units: "Speeds and distances in m₂gω/k.",
-    limits: "1 to 1048576 columns and rows, at most 2³⁴ pixels in all; with --about 2²⁴ pixels, with --zoom 2 to 2048 a side.\n\
+    limits: "1 to 1048576 columns and rows, at most 2³⁴ pixels in all; with --about and --coverage 2²⁴ pixels, with --zoom 2 to 2048 a side.\n\
              Speeds from 0 to α*₆₅₀₀₀; mass ratios from 2⁻¹⁰²² to 2¹⁰²². 1000000 parts at most.\n\
              A call that is interrupted or killed keeps its finished pieces: the same call, given again, goes on.\n\
              A folder has the results of one job, which job.txt in it names.\n\
@@ -94,6 +99,10 @@ pub(crate) const PAGE: Page = Page {
             line: "hopper basins --pixels 48 32 --layer label hops --out parts --part 1/2 && \
                    hopper basins --pixels 48 32 --layer label hops --out parts --part 2/2 && \
                    hopper basins --pixels 48 32 --layer label hops --out parts --join",
+        },
+        Example {
+            about: "The share of every basin in each pixel: needles thinner than a pixel are not missed.",
+            line: "hopper basins --coverage --mass-ratio 0.17 0.18 --speed 17 17.8 --pixels 8 32 --out coverage",
         },
         Example {
             about: "Every scale from 10⁻² to 10⁻³⁰⁰ below the second fixed point.",

@@ -18,7 +18,7 @@ use hopper_basin::{
     CircleLimits, EdgeChart, Fates, FollowedEdge, HopperFate, SHARE_VERSION, ShareColumn,
     ShareRaster, Upwards,
 };
-use hopper_figures::draw_shares;
+use hopper_figures::{draw_shares, share_words};
 use journal_figures::{Svg, render};
 use passive_hopper::MassRatio;
 use resumable_job::{Element, Order, Pieces, npy_header};
@@ -26,15 +26,16 @@ use serde_json::{Value, json};
 use std::path::Path;
 
 /// The names of the results; every label has its own array.
-const PICTURE_FILE: &str = "shares.png";
-const LEGEND: &str = "shares.json";
-const RESULTS: Results = Results { main: PICTURE_FILE, summary: LEGEND, digests: "shares.digests" };
+pub(crate) const PICTURE_FILE: &str = "shares.png";
+pub(crate) const LEGEND: &str = "shares.json";
+pub(crate) const RESULTS: Results =
+    Results { main: PICTURE_FILE, summary: LEGEND, digests: "shares.digests" };
 
 /// The folder of finished columns.
-const COLUMNS: &str = "columns";
+pub(crate) const COLUMNS: &str = "columns";
 
 /// The largest number of pixels: with five fates, the shares of so many take 340 MB.
-const MOST_PIXELS: usize = 1 << 24;
+pub(crate) const MOST_PIXELS: usize = 1 << 24;
 
 /// Most turns of a picture: a thousand repetitions are narrower than pixels.
 const MOST_TURNS: f64 = 1e3;
@@ -120,7 +121,7 @@ pub(crate) fn run(
 }
 
 /// Writes the results of a raster of shares, and removes its pieces. Returns the legend: the labels, and after them the notes.
-fn finish(
+pub(crate) fn finish(
     job: &JobFolder,
     raster: &ShareRaster,
     drawing: &Svg,
@@ -131,7 +132,10 @@ fn finish(
     let (mut legend, mut files) = (Vec::new(), vec![PICTURE_FILE.to_owned()]);
     for (at, (label, mean)) in raster.means().into_iter().enumerate() {
         let file = format!("share_{}.npy", label.code());
-        job.write(&file, &npy(raster, at))?;
+        let grid = raster.grid();
+        let mut array = npy_header(Order::C, Element::U16, grid.rows, grid.columns);
+        array.extend(share_words(raster, at));
+        job.write(&file, &array)?;
         let (label, name) = (label.code(), HopperFate::label_name(label));
         legend.push(json!({ "label": label, "name": name, "mean_share": mean, "file": file }));
         files.push(file);
@@ -258,19 +262,6 @@ fn depths(offsets: &[Offset]) -> Result<Interval, Error> {
             "give two distances other than 0, the larger one first, such as 1e-2 1e-300",
         )),
     }
-}
-
-/// The shares of one label as 16-bit integers, 65535 for 1; rows start from the lowest.
-fn npy(raster: &ShareRaster, at: usize) -> Vec<u8> {
-    let grid = raster.grid();
-    let mut bytes = npy_header(Order::C, Element::U16, grid.rows, grid.columns);
-    for row in 0..grid.rows {
-        for column in 0..grid.columns {
-            let share = raster.at(column, row).and_then(|all| all.get(at)).copied().unwrap_or(0.0);
-            bytes.extend(((65535.0 * share).round() as u16).to_le_bytes());
-        }
-    }
-    bytes
 }
 
 #[cfg(test)]

@@ -41,7 +41,7 @@ pub(crate) static HOPS: TableKind = TableKind {
 
 pub(crate) static SHARES: TableKind = TableKind {
     name: "shares",
-    about: "one row for each fate that occurs, with --about",
+    about: "one row for each fate that occurs, with --about or --coverage",
     long: false,
     columns: &[
         Column { name: "label", unit: "", meaning: "number of the fate" },

@@ -14,7 +14,7 @@
 use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::flight_ends::{Landing, TakeOff};
 use crate::landing::half_time_root::LARGE_DIFFERENCE;
-use crate::landing::next_landing::maximum_test;
+use crate::landing::next_landing::{MaximumTest, maximum_test};
 use std::f64::consts::PI;
 
 /// Bound on the direct rounding errors of x′, V′ and Γ at a landing, in ulps of the sum of all quantities in it,
@@ -85,15 +85,6 @@ pub(crate) struct ErrorBound {
     last_test: Option<MaximumTest>,
 }
 
-/// The number whose sign decides on which of two branches a flight lands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MaximumTest {
-    /// (−1)^m (V cos V − Y sin V), m = ⌊V/π⌋, at the start (Y, V) of the flight.
-    pub value: f64,
-    /// Bound on its error.
-    pub error: f64,
-}
-
 impl ErrorBound {
     /// For a hop from `alpha` in `f64`.
     pub(crate) fn of_f64(alpha: f64) -> Self {
@@ -143,14 +134,23 @@ impl ErrorBound {
 
     /// Propagates the bound through a flight to its landing. The maximum test of the branch is computed in `f64`.
     pub(crate) fn add_flight(&mut self, landing: &Landing, kappa: f64) {
+        self.add_differentiated(landing, &FlightDerivative::new(self.start, landing, kappa), kappa);
+    }
+
+    /// As [`add_flight`](Self::add_flight), with the derivative of this flight.
+    pub(crate) fn add_differentiated(&mut self, end: &Landing, by: &FlightDerivative, kappa: f64) {
         let TakeOff { excess, velocity } = self.start;
         let test = if velocity >= PI { maximum_test(excess, velocity) } else { f64::INFINITY };
-        self.add_flight_on_branch(landing, kappa, test);
+        self.add(end, kappa, test, by);
     }
 
     /// As [`add_flight`](Self::add_flight), with the maximum test that decided the branch, or infinity if only one
     /// branch was possible.
     pub(crate) fn add_flight_on_branch(&mut self, landing: &Landing, kappa: f64, test: f64) {
+        self.add(landing, kappa, test, &FlightDerivative::new(self.start, landing, kappa));
+    }
+
+    fn add(&mut self, landing: &Landing, kappa: f64, test: f64, derivative: &FlightDerivative) {
         let first = self.flights == 0.0;
         self.flights += 1.0;
         let TakeOff { excess, velocity } = self.start;
@@ -180,9 +180,9 @@ impl ErrorBound {
             velocity: self.error.velocity + backward + stop,
         };
         if first && !landing.sudden {
-            self.loss += self.only_loss(landing, kappa, change.velocity);
+            self.loss += self.only_loss(landing, derivative, change.velocity);
         } else {
-            let (after, closing) = self.propagate(landing, kappa, change, size);
+            let (after, closing) = self.propagate((landing, derivative), kappa, change, size);
             let closing = rounding + closing;
             self.loss += (2.0 * landing.closing_speed + closing) * closing;
             self.error = Variation {
@@ -200,8 +200,8 @@ impl ErrorBound {
     ///
     /// The state after it does not matter, and Γ² is smooth where the time of flight is not, next to α*_n
     /// (docs/theory.md, Lemma 62).
-    fn only_loss(&self, landing: &Landing, kappa: f64, change: f64) -> f64 {
-        let slope = FlightDerivative::new(self.start, landing, kappa).largest_loss_slope();
+    fn only_loss(&self, landing: &Landing, derivative: &FlightDerivative, change: f64) -> f64 {
+        let slope = derivative.largest_loss_slope();
         let half = 0.5 * landing.time;
         let bend = LOSS_BEND * (1.0 + half) * largest_shift(half, change);
         change * (slope + bend * self.start.velocity)
@@ -212,14 +212,13 @@ impl ErrorBound {
     /// (docs/theory.md, Theorem 60). A flight that is too far from linear is inconclusive.
     fn propagate(
         &mut self,
-        landing: &Landing,
+        (landing, derivative): (&Landing, &FlightDerivative),
         kappa: f64,
         change: Variation,
         size: f64,
     ) -> (Variation, f64) {
         let by_excess = Variation { velocity: 0.0, ..change };
         let by_velocity = Variation { excess: 0.0, ..change };
-        let derivative = FlightDerivative::new(self.start, landing, kappa);
         let (a, a_closing) = derivative.carry(by_excess);
         let (b, b_closing) = derivative.carry(by_velocity);
         let (most, most_closing) = derivative.bound(change);
@@ -384,7 +383,9 @@ mod tests {
                     if e > 1e-3 || delta > 1.0 {
                         continue;
                     }
-                    let most = bound.only_loss(&landing.rounded(false), 0.5, e);
+                    let landing = landing.rounded(false);
+                    let derivative = FlightDerivative::new(bound.start, &landing, 0.5);
+                    let most = bound.only_loss(&landing, &derivative, e);
                     assert!(change.abs() <= most, "{n} {delta:e} {e:e}: {change:e} {most:e}");
                     largest = largest.max(change.abs() / most);
                 }

@@ -9,13 +9,15 @@ use crate::kernel::scalar::hop::{MassFactors, watched_kernel_hop};
 use crate::kernel::scalar::hop_from_interval::kernel_hop_within;
 use crate::landing::error_bound::ErrorBound;
 use crate::landing::fixed_point_interval::FixedPointInterval;
-use crate::landing::flight_ends::Landing;
+use crate::landing::flight_derivative::FlightDerivative;
+use crate::landing::flight_ends::{Landing, TakeOff};
 use crate::map::lift_off_map::{LiftOffMap, check_speed};
 use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::map::plain_landings::PlainLandings;
-use crate::map::speed_error::{Changes, change_of_square};
+use crate::map::speed_error::{Changes, tangent_of_flights};
 use crate::model::fixed_points::n_pi;
 use crate::model::mass_ratio::MassRatio;
+use smallvec::SmallVec;
 
 /// The hop of every speed within an error of a given speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,53 +120,63 @@ impl LiftOffMap {
             return None;
         }
         let kappa = self.factors.kappa;
-        let Landings { all, state_errors, square } =
+        let Landings { all, square } =
             self.kernel_landings(alpha).or_else(|| self.plain_landings(alpha))?;
         let mut with_start = ErrorBound::of_f64(alpha).with_speed_error(error);
-        for (landing, &state_error) in all.iter().zip(&state_errors) {
-            with_start.add_flight(landing, kappa);
+        for WithError { landing, derivative, error } in &all {
+            with_start.add_differentiated(landing, derivative, kappa);
             with_start.add_kappa_error(changes.kappa, landing.closing_speed);
-            with_start.add_state_error(state_error);
+            with_start.add_state_error(*error);
             if with_start.landing_inconclusive() {
                 return None;
             }
         }
-        let propagated = change_of_square(alpha, changes, &all, self.factors)?;
-        Some(BoundedSquare { error: square.error + propagated, ..square })
+        if changes == Changes::of_speed(0.0) {
+            return Some(square);
+        }
+        let flights = all.iter().map(|flight| (&flight.landing, flight.derivative));
+        let tangent = tangent_of_flights(alpha, changes, flights, self.factors)?;
+        Some(BoundedSquare { error: square.error + tangent.change(), ..square })
     }
 
     /// The landings by the kernel; `None` if it leaves the hop undecided.
     fn kernel_landings(&self, alpha: f64) -> Option<Landings> {
-        let (mut all, mut state_errors) = (Vec::with_capacity(USUAL), Vec::with_capacity(USUAL));
+        let mut all = SmallVec::<[WithError; USUAL]>::new();
+        let mut start = TakeOff { excess: 0.0, velocity: alpha };
         let decided = watched_kernel_hop(alpha, self.factors, |end| {
             let GroundState { excess, velocity, error } = end.state;
             let (time, closing_speed) = (2.0 * end.half_time, end.closing_speed_squared.sqrt());
-            all.push(Landing { time, closing_speed, excess, velocity, sudden: true });
-            state_errors.push(error);
+            let landing = Landing { time, closing_speed, excess, velocity, sudden: true };
+            let derivative = FlightDerivative::new(start, &landing, self.factors.kappa);
+            start = landing.take_off();
+            all.push(WithError { landing, derivative, error });
         })?;
-        all.last_mut()?.sudden = false;
+        all.last_mut()?.landing.sudden = false;
         let error = decided.sums.error_of_square(alpha, self.factors.mu);
         let square = BoundedSquare { square: decided.next_speed_squared, error };
-        Some(Landings { all, state_errors, square })
+        Some(Landings { all, square })
     }
 
     /// The landings by the general solver; `None` if there are too many.
     fn plain_landings(&self, alpha: f64) -> Option<Landings> {
         let MassFactors { mu, kappa } = self.factors;
         let mut rounding = ErrorBound::of_f64(alpha);
-        let (mut all, mut ratios_squared) = (Vec::new(), 0.0);
+        let (mut all, mut ratios_squared) = (SmallVec::new(), 0.0);
+        let mut start = TakeOff { excess: 0.0, velocity: alpha };
         for landing in PlainLandings::new(alpha, kappa) {
             let landing = landing.ok()?;
             let ratio = landing.closing_speed / alpha;
             ratios_squared += ratio * ratio;
-            rounding.add_flight(&landing, kappa);
-            all.push(landing);
+            let derivative = FlightDerivative::new(start, &landing, kappa);
+            start = landing.take_off();
+            rounding.add_differentiated(&landing, &derivative, kappa);
+            // The bound of a landing contains the roundings of this solver.
+            all.push(WithError { landing, derivative, error: 0.0 });
         }
         let square = alpha * alpha;
         let error = square * rounding.ratio_error(mu, alpha);
         let square = BoundedSquare { square: square * (1.0 - mu * ratios_squared), error };
-        // The bound of a landing contains the roundings of this solver.
-        Some(Landings { state_errors: vec![0.0; all.len()], all, square })
+        Some(Landings { all, square })
     }
 }
 
@@ -173,10 +185,16 @@ const USUAL: usize = 4;
 
 /// The landings of a hop, and α′² with the rounding error alone.
 struct Landings {
-    all: Vec<Landing>,
-    /// Bounds on the rounding errors of x′ and V′ beyond those that an [`ErrorBound`] contains.
-    state_errors: Vec<f64>,
+    all: SmallVec<[WithError; USUAL]>,
     square: BoundedSquare,
+}
+
+/// A landing, and the derivative of the flight before it.
+struct WithError {
+    landing: Landing,
+    derivative: FlightDerivative,
+    /// Bound on the rounding errors of x′ and V′ beyond those that an [`ErrorBound`] contains.
+    error: f64,
 }
 
 /// Whether all speeds within `error` of `alpha` lie on one side of every α*_n, n ≥ 1, and of every nπ. The kind of the

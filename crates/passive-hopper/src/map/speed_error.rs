@@ -95,6 +95,22 @@ pub(crate) fn tangent_of_square(
     alpha: f64,
     changes: Changes,
     landings: &[Landing],
+    factors: MassFactors,
+) -> Option<SquareTangent> {
+    let mut start = TakeOff { excess: 0.0, velocity: alpha };
+    let flights = landings.iter().map(|landing| {
+        let derivative = FlightDerivative::new(start, landing, factors.kappa);
+        start = landing.take_off();
+        (landing, derivative)
+    });
+    tangent_of_flights(alpha, changes, flights, factors)
+}
+
+/// As [`tangent_of_square`], from the derivatives of all flights.
+pub(crate) fn tangent_of_flights<'a>(
+    alpha: f64,
+    changes: Changes,
+    flights: impl Iterator<Item = (&'a Landing, FlightDerivative)>,
     MassFactors { mu, kappa }: MassFactors,
 ) -> Option<SquareTangent> {
     let mut start = TakeOff { excess: 0.0, velocity: alpha };
@@ -105,12 +121,13 @@ pub(crate) fn tangent_of_square(
     // For the largest changes: the terms of ΓdΓ by absolute value, and the part of the second order from a change of x′.
     let (mut sizes, mut bend) = (0.0, 0.0);
     let mut largest_change = 0.0_f64;
-    for landing in landings {
+    let mut count = 0.0;
+    for (landing, flight) in flights {
+        count += 1.0;
         let gamma = landing.closing_speed;
         if !(gamma > 0.0) {
             return None;
         }
-        let flight = FlightDerivative::new(start, landing, kappa);
         let size = Variation {
             excess: changes.speed * by_speed.excess.abs() + changes.kappa * by_kappa.excess.abs(),
             velocity: changes.speed * by_speed.velocity.abs()
@@ -141,12 +158,11 @@ pub(crate) fn tangent_of_square(
     if !(largest_change <= LARGEST_CHANGE) {
         return None;
     }
-    let flights = landings.len() as f64;
     // dμ = (1 − 2κ) dκ − dκ²
     let slope_of_mu = 1.0 - 2.0 * kappa;
     let change_of_mu = (slope_of_mu.abs() + changes.kappa) * changes.kappa;
     let second = changes.speed * changes.speed
-        + 2.0 * mu * (SECOND_ORDER * flights * largest_change * sizes + bend)
+        + 2.0 * mu * (SECOND_ORDER * count * largest_change * sizes + bend)
         + changes.kappa * changes.kappa * squares
         + CHANGES_OF_BOTH * change_of_mu * sizes;
     let terms = alpha * changes.speed + mu * sizes + change_of_mu * squares;
@@ -154,7 +170,7 @@ pub(crate) fn tangent_of_square(
         changes,
         by_speed: 2.0 * (alpha - mu * speed_sum),
         by_kappa: -(slope_of_mu * squares + 2.0 * mu * kappa_sum),
-        rounding: SLOPE_ULPS * flights * f64::EPSILON * terms,
+        rounding: SLOPE_ULPS * count * f64::EPSILON * terms,
         second,
     };
     tangent.change().is_finite().then_some(tangent)

@@ -1,0 +1,101 @@
+//! The fractions of all basins at one parameter, each with the range in which it lies.
+
+use crate::bounds::Bounds;
+use crate::confidence_interval::{ConfidenceInterval, proportion_interval};
+use crate::error::Error;
+use crate::interval_basins::IntervalBasins;
+use crate::label::Label;
+use crate::region_fractions::LabelCounts;
+use crate::sampling::EquallySpacedFraction;
+use std::collections::BTreeMap;
+
+/// A basin fraction with its range: bounds, or a 95 % interval. The source of the fraction says which.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FractionRange {
+    /// The fraction that was found. It need not be the middle of the range.
+    pub value: f64,
+    /// Lower end.
+    pub lower: f64,
+    /// Upper end.
+    pub upper: f64,
+}
+
+impl FractionRange {
+    /// Half the length of the range.
+    pub fn half_width(&self) -> f64 {
+        0.5 * (self.upper - self.lower)
+    }
+
+    /// The distance between two ranges; 0 if they have a number in common.
+    pub fn gap(&self, other: &FractionRange) -> f64 {
+        (self.lower - other.upper).max(other.lower - self.upper).max(0.0)
+    }
+}
+
+impl From<ConfidenceInterval> for FractionRange {
+    fn from(ConfidenceInterval { value, lower, upper }: ConfidenceInterval) -> Self {
+        FractionRange { value, lower, upper }
+    }
+}
+
+impl From<EquallySpacedFraction> for FractionRange {
+    fn from(EquallySpacedFraction { value, bounds }: EquallySpacedFraction) -> Self {
+        FractionRange { value, lower: bounds.lower, upper: bounds.upper }
+    }
+}
+
+/// The fractions of all basins at one parameter.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Fractions {
+    /// The fraction of each basin that was found.
+    pub found: BTreeMap<Label, FractionRange>,
+    /// The largest fraction that any other basin can have: what is undecided, or what so many points may have missed.
+    pub unseen: f64,
+    /// Some points of the attractor of each basin. They are needed if attractors are matched by their positions
+    /// ([`Matching::Nearest`](crate::Matching)); else leave this empty.
+    pub attractors: BTreeMap<Label, Vec<Vec<f64>>>,
+}
+
+impl Fractions {
+    /// The fraction of a basin. One that was not found has the value 0, and a range up to [`unseen`](Self::unseen).
+    pub fn of(&self, label: Label) -> FractionRange {
+        let none = FractionRange { value: 0.0, lower: 0.0, upper: self.unseen };
+        self.found.get(&label).copied().unwrap_or(none)
+    }
+
+    /// The fractions of random points, with 95 % intervals.
+    ///
+    /// # Errors
+    /// As [`LabelCounts::fraction`].
+    pub fn from_counts(counts: &LabelCounts) -> Result<Fractions, Error> {
+        let fraction = |label| Ok((label, counts.fraction(label)?.into()));
+        let found = counts.basins().map(fraction).collect::<Result<_, Error>>()?;
+        let unseen = proportion_interval(counts.undecided(), counts.inside())?.upper;
+        Ok(Fractions { found, unseen, attractors: BTreeMap::new() })
+    }
+
+    /// The fractions of a window, with the bounds of [`IntervalBasins::basin_length`].
+    ///
+    /// # Errors
+    /// [`Error::BadInterval`] for a window of length 0.
+    pub fn from_intervals(basins: &IntervalBasins) -> Result<Fractions, Error> {
+        let (window, length) = (basins.window(), basins.window().length());
+        if length <= 0.0 {
+            return Err(Error::BadInterval { left: window.left, right: window.right });
+        }
+        let fraction = |label| {
+            let Bounds { lower, upper } = basins.basin_length(label);
+            let value = basins.resolved_length(label) / length;
+            (label, FractionRange { value, lower: lower / length, upper: upper / length })
+        };
+        let found = basins.labels().into_iter().map(fraction).collect();
+        let unseen = basins.undecided() / length;
+        Ok(Fractions { found, unseen, attractors: BTreeMap::new() })
+    }
+
+    /// The same fractions with the points of the attractors, for [`Matching::Nearest`](crate::Matching).
+    #[must_use]
+    pub fn with_attractors(self, attractors: BTreeMap<Label, Vec<Vec<f64>>>) -> Fractions {
+        Fractions { attractors, ..self }
+    }
+}

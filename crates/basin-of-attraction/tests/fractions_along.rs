@@ -1,0 +1,208 @@
+//! Fractions along a parameter with known answers: a fraction that changes smoothly, a jump, a narrow peak, attractors whose numbers
+//! change.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+use basin_of_attraction::{
+    Attractors, CurveLimits, Error, FractionRange, Fractions, FractionsAlong, Hyperrectangle,
+    Interval, Label, Matching, RecurrenceLimits, UnresolvedReason, fractions_along,
+    region_fractions,
+};
+
+const ONE: fn() -> Label = || Label::from(1);
+
+fn unit() -> Interval {
+    Interval::new(0.0, 1.0).unwrap()
+}
+
+/// The fraction p of basin 1, exact but for ± `error`.
+fn of_one(p: f64, error: f64) -> Fractions {
+    let range = FractionRange { value: p, lower: p - error, upper: p + error };
+    Fractions { found: [(ONE(), range)].into(), ..Fractions::default() }
+}
+
+fn along(known: &[f64], limits: CurveLimits, p: impl Fn(f64) -> f64) -> FractionsAlong {
+    fractions_along::<Error>(unit(), known, limits, |t| Ok(of_one(p(t), 0.0))).unwrap()
+}
+
+#[test]
+fn neighbours_differ_by_less_than_is_asked_for() {
+    // A square root with its infinite slope at 0.3.
+    let root = |t: f64| (t - 0.3f64).max(0.0).sqrt();
+    for (difference, known) in [(0.05, vec![]), (0.01, vec![0.3])] {
+        let limits = CurveLimits { difference, shortest: 1e-7, ..CurveLimits::default() };
+        let found = along(&known, limits, root);
+        assert!(found.unresolved().is_empty(), "{:?}", found.unresolved());
+        let points: Vec<(f64, FractionRange)> = found.of(ONE()).collect();
+        assert_eq!((points[0].0, points[points.len() - 1].0), (0.0, 1.0));
+        for pair in points.windows(2) {
+            assert!(
+                (pair[1].1.value - pair[0].1.value).abs() <= difference && pair[0].0 < pair[1].0
+            );
+        }
+        // Not many more than a curve of this height needs.
+        assert!((points.len() as f64) < 3.0 / difference, "{}", points.len());
+        assert_eq!(points.iter().any(|point| point.0 == 0.3), !known.is_empty());
+    }
+}
+
+#[test]
+fn a_jump_is_located_to_the_shortest_step() {
+    let jumps = |t: f64| if t < 1.0 / 3.0 { 0.2 } else { 0.7 + 0.1 * t };
+    let limits = CurveLimits { shortest: 1e-9, ..CurveLimits::default() };
+    let found = along(&[], limits, jumps);
+    let [jump] = found.unresolved() else { panic!("{:?}", found.unresolved()) };
+    assert_eq!((jump.reason, jump.label), (UnresolvedReason::Jump, ONE()));
+    assert!(jump.from < 1.0 / 3.0 && 1.0 / 3.0 <= jump.to && jump.to - jump.from <= 2e-9);
+    assert!(jump.before.value == 0.2 && jump.after.value > 0.7);
+    assert_eq!(found.jumps().count(), 1);
+}
+
+/// A peak is lost if no parameter is in it. With the position of the peak as a known parameter it is followed down to its width.
+#[test]
+fn a_narrow_peak_at_a_known_parameter_is_followed() {
+    let peak = |t: f64| 0.5 * (-((t - 0.4321) / 1e-4).powi(2)).exp();
+    let limits = CurveLimits { shortest: 1e-7, difference: 0.01, ..CurveLimits::default() };
+    assert!(along(&[], limits, peak).of(ONE()).all(|(_, range)| range.value < 1e-6));
+    let found = along(&[0.4321], limits, peak);
+    assert!(found.unresolved().is_empty());
+    let area: f64 = found
+        .points()
+        .windows(2)
+        .map(|pair| {
+            0.5 * (pair[1].0 - pair[0].0) * (pair[0].1.of(ONE()).value + pair[1].1.of(ONE()).value)
+        })
+        .sum();
+    let exact = 0.5e-4 * std::f64::consts::PI.sqrt();
+    assert!((area / exact - 1.0).abs() < 0.05, "{area} {exact}");
+}
+
+#[test]
+fn uncertain_fractions_and_the_budget_end_the_search_and_are_reported() {
+    // Noise of the size of the ranges.
+    let noisy = |t: f64| of_one(0.5 + 0.05 * (1e5 * t).sin(), 0.06);
+    let found =
+        fractions_along::<Error>(unit(), &[], CurveLimits::default(), |t| Ok(noisy(t))).unwrap();
+    assert_eq!(found.points().len(), 17);
+    assert!(!found.unresolved().is_empty() && found.jumps().next().is_none());
+    assert!(found.unresolved().iter().all(|step| step.reason == UnresolvedReason::Uncertain));
+    let few = CurveLimits { budget: 20, ..CurveLimits::default() };
+    let found = along(&[], few, |t| t);
+    assert_eq!(found.points().len(), 20);
+    assert!(found.unresolved().iter().all(|step| step.reason == UnresolvedReason::Budget));
+    // A relative difference of a fraction that is small everywhere.
+    let limits = CurveLimits { difference: 1e-9, relative: 0.1, ..CurveLimits::default() };
+    let found = along(&[], limits, |t| 1e-5 * (5.0 * t).exp());
+    assert!(found.unresolved().is_empty() && found.points().len() > 40);
+}
+
+/// A basin that is not in the list may have what is undecided.
+#[test]
+fn an_unseen_basin_has_a_range_up_to_what_is_undecided() {
+    let fractions = Fractions { unseen: 0.01, ..of_one(0.9, 0.0) };
+    let other = fractions.of(Label::from(2));
+    assert_eq!((other.value, other.lower, other.upper), (0.0, 0.0, 0.01));
+    assert_eq!(other.gap(&fractions.of(ONE())), 0.89);
+}
+
+/// x → 3x/2 − x³/2 + c x: the attractors ±√(1 + 2c) are numbered in the order in which random starts find them. Their basins have
+/// one half each.
+#[test]
+fn attractors_whose_numbers_change_are_matched_by_position() {
+    let line = Hyperrectangle::try_from(Interval::new(-1.5, 1.5).unwrap()).unwrap();
+    let matched = Matching::Nearest { within: 0.2 };
+    let limits = CurveLimits { first_steps: 8, matching: matched, ..CurveLimits::default() };
+    let mut positive = Vec::new();
+    let at = |c: f64| {
+        let map = move |x: &[f64]| Some(vec![(1.5 + c) * x[0] - 0.5 * x[0] * x[0] * x[0]]);
+        // The number of the positive attractor is 1 or 2, as the first start says.
+        let sign = if (1e2 * c).sin() > 0.0 { 1.0 } else { -1.0 };
+        let starts = [vec![0.3 * sign], vec![-0.4 * sign]];
+        let found = Attractors::search(&map, line.clone(), &starts, RecurrenceLimits::default())?;
+        positive.push(found.label(&map, &[0.3]));
+        let counts = region_fractions(&line, 4000, 1, |x| {
+            // The positive basin is made smaller by c.
+            found.label(&map, &[x[0] - c])
+        })?;
+        Ok::<_, Error>(Fractions::from_counts(&counts)?.with_attractors(found.positions()))
+    };
+    let range = Interval::new(0.0, 0.2).unwrap();
+    let found = fractions_along(range, &[], limits, at).unwrap();
+    assert!(positive.contains(&Label::from(1)) && positive.contains(&Label::from(2)));
+    assert!(
+        found.unresolved().is_empty() && found.unmatched().is_empty(),
+        "{:?}",
+        found.unmatched()
+    );
+    // The same label is the same attractor at every parameter.
+    let label = found.labels()[0];
+    let sign = found.points()[0].1.attractors[&label][0][0].signum();
+    for (c, fractions) in found.points() {
+        let place = fractions.attractors[&label][0][0];
+        assert!((place - sign * (1.0 + 2.0 * c).sqrt()).abs() < 1e-6);
+        let expected = 0.5 - sign * c / 3.0;
+        assert!((fractions.of(label).value - expected).abs() < 0.03);
+    }
+}
+
+/// At c = 0 a second attractor appears: its basin has a label of its own, and is reported.
+#[test]
+fn an_attractor_that_appears_has_a_new_label() {
+    let at = |c: f64| {
+        let own = |x: f64, p: f64| (vec![vec![x]], FractionRange { value: p, lower: p, upper: p });
+        // Before, the left one has label 2; after, the labels 1 and 2 are the right and the left one.
+        let left = own(-1.0, if c < 0.0 { 1.0 } else { 0.6 });
+        let mut found =
+            Fractions { found: [(Label::from(2), left.1)].into(), ..Fractions::default() };
+        found.attractors.insert(Label::from(2), left.0);
+        if c >= 0.0 {
+            let right = own(1.0, 0.4);
+            found.found.insert(Label::from(1), right.1);
+            found.attractors.insert(Label::from(1), right.0);
+            // The numbers of both are exchanged above a half.
+            if c > 0.5 {
+                let (one, two) = (found.found[&Label::from(1)], found.found[&Label::from(2)]);
+                found.found = [(Label::from(1), two), (Label::from(2), one)].into();
+                found.attractors =
+                    [(Label::from(1), vec![vec![-1.0]]), (Label::from(2), vec![vec![1.0]])].into();
+            }
+        }
+        Ok::<_, Error>(found)
+    };
+    let limits = CurveLimits {
+        matching: Matching::Nearest { within: 0.5 },
+        shortest: 1e-6,
+        ..CurveLimits::default()
+    };
+    let found = fractions_along(Interval::new(-1.0, 1.0).unwrap(), &[], limits, at).unwrap();
+    let [new] = found.unmatched() else { panic!("{:?}", found.unmatched()) };
+    assert!(new.appears && new.label == Label::from(1) && new.from < 0.0 && new.to >= 0.0);
+    let [jump] = found.unresolved() else { panic!("{:?}", found.unresolved()) };
+    assert!(jump.reason == UnresolvedReason::Jump && jump.to - jump.from <= 2e-6);
+    let [(_, last)] = &found.points()[found.points().len() - 1..] else { panic!() };
+    assert_eq!((last.of(Label::from(2)).value, last.of(Label::from(1)).value), (0.6, 0.4));
+}
+
+#[test]
+fn curves_that_cannot_be_divided_are_refused() {
+    let all = |_: f64| Ok::<_, Error>(Fractions::default());
+    let limits = CurveLimits::default();
+    let bad = |limits| fractions_along(unit(), &[], limits, all).unwrap_err();
+    for limits in [
+        CurveLimits { first_steps: 0, ..limits },
+        CurveLimits { difference: 0.0, ..limits },
+        CurveLimits { difference: f64::NAN, ..limits },
+        CurveLimits { relative: -1.0, ..limits },
+        CurveLimits { shortest: 0.0, ..limits },
+        CurveLimits { budget: 16, ..limits },
+        CurveLimits { first_steps: usize::MAX, ..limits },
+    ] {
+        assert!(matches!(bad(limits), Error::BadCurveLimits { .. }), "{limits:?}");
+    }
+    for (left, right) in [(1.0, 0.0), (0.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+        assert!(fractions_along(Interval { left, right }, &[], limits, all).is_err());
+    }
+    assert!(fractions_along(unit(), &[f64::NAN], limits, all).is_err());
+    let fails = |_: f64| Err::<Fractions, _>(Error::NoDimension);
+    assert_eq!(fractions_along(unit(), &[], limits, fails), Err(Error::NoDimension));
+}

@@ -1,0 +1,375 @@
+//! The basins of a line as intervals, from below: a gap has a label if its image lies in an interval of known label.
+//!
+//! ```text
+//!   known, from 0 up    ├── decaying ──┤├─ to α*_1 ─┤ …              gap [a, b]
+//!                          ▲      ▲                                  │      │
+//!                          └──────┴───────────── f ──────────────────┴──────┘        the image is inside: decaying
+//! ```
+//!
+//! f is continuous and monotone on laps, whose ends are the critical points. So the image of [a, b] is the interval from the smallest to
+//! the largest of f(a), f(b) and the critical values of [a, b] (docs/theory.md, Theorem 95). Orbits descend: the image lies below the gap,
+//! where the labels are known already, and one hop suffices. A gap without a label is halved, and left open once it is small.
+
+use crate::basins::branches::branches_are_proved;
+use crate::coverage::images::{End, Reached};
+use crate::coverage::preimage_guess::PreimageGuess;
+use crate::error::Error;
+use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::hopper_fate::HopperFate;
+use crate::raster::rising_windows::trap_with_window;
+use crate::traps::hump::Hump;
+use crate::traps::trap_index::TrapIndex;
+use basin_of_attraction::{Interval, Label};
+use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, index_below};
+use std::f64::consts::PI;
+
+/// Most images of a gap that are taken. The first one shows the label as a rule. Where it lies between two known intervals, which the
+/// sweep left open, the second may. It affects the time, and what is left open.
+const MOST_IMAGES: usize = 2;
+
+/// Most passes over a pixel. Each resolves [`FINER`] gaps, the last one 10⁻⁴ of those of the first.
+const MOST_PASSES: usize = 8;
+
+/// The smallest width that a pass resolves, over that of the pass before. With a smaller factor there are fewer passes, and more is
+/// resolved than needed. It affects the time only.
+const FINER: f64 = 0.25;
+
+/// A part of the hop from a speed next to a fixed point: the image of so much above the speed lies below the speed.
+const TURN: f64 = 0.9;
+
+/// How far inside of the guessed preimage of an interval a gap is divided, as a part of the preimage. With less, more guesses miss the
+/// preimage; with more, more is left to the next pass. 0.01 to 0.1 differ by a fifth in time.
+const MARGIN: f64 = 0.03;
+
+/// The guess of more preimages than this takes a third point, which costs a hop. It affects the time only.
+const MANY: usize = 3;
+
+/// The relative distance from a computed critical point within which the map may have its extremum, as for the ends of laps: some
+/// thousand ulps, far more than their error.
+const DISTANCE_FROM_CRITICAL: f64 = 1e-12;
+
+/// Most images of a narrow window that are resolved apart. Next to a fixed point there are more, which the sweep below leaves open.
+const MOST_NARROW_IMAGES: usize = 64;
+
+/// Every speed from 0 to `top` lies on a known lap, up to the ends of laps.
+pub(crate) fn laps_are_known(mass_ratio: MassRatio, top: f64) -> bool {
+    // The windows (nπ, α*_n) that begin below `top`.
+    branches_are_proved(mass_ratio, (top / PI).floor() as u64)
+}
+
+/// A part of a pixel.
+#[derive(Debug, Clone, Copy)]
+enum Part {
+    Labelled(Interval, Label),
+    Open(End, End),
+}
+
+/// How far a pixel is resolved.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Resolution {
+    /// The open part of a pixel at which the passes end.
+    pub(crate) tolerance: f64,
+    /// The largest number of speeds inside a pixel whose images are taken.
+    pub(crate) speeds: usize,
+}
+
+/// The intervals of known label, from 0 up to the speed that the sweep has reached.
+pub(crate) struct LapsSweep<'a> {
+    map: &'a LiftOffMap,
+    /// The critical points, increasing, with the values of the map beside them.
+    critical: Vec<End>,
+    /// The traps, increasing.
+    traps: Vec<(Interval, Label)>,
+    /// Disjoint and increasing.
+    known: Vec<(Interval, Label)>,
+    /// The number of speeds that the pixel may still take.
+    budget: usize,
+}
+
+impl<'a> LapsSweep<'a> {
+    /// A sweep that has not begun, for speeds up to `top`. The laps must be [known](laps_are_known).
+    pub(crate) fn new(fates: &'a Fates, top: f64) -> Result<Self, Error> {
+        let map = fates.map();
+        let mut critical = Vec::new();
+        for n in 0..=index_below(top)? {
+            if let Some((maximum, minimum)) = Hump::new(n)?.falling(map.mass_ratio().mu())? {
+                let end = |speed: f64| {
+                    let hop = map.hop_within(speed, DISTANCE_FROM_CRITICAL * speed);
+                    End { speed, reached: Reached::of(hop) }
+                };
+                critical.extend([end(maximum), end(minimum)]);
+            }
+        }
+        let traps = TrapIndex::new(top, |n| trap_with_window(fates, n))?;
+        let trap = |(n, (left, right)): (u32, (f64, f64))| {
+            let inside = right.is_finite() && left <= right;
+            let label = HopperFate::label_of_fixed_point(n.into());
+            inside.then_some((Interval { left, right }, label))
+        };
+        let traps = traps.ends().filter_map(trap).collect();
+        Ok(LapsSweep { map, critical, traps, known: Vec::new(), budget: 0 })
+    }
+
+    /// The images of a window of speeds, as long as each is narrower than `widest`, from the first one down.
+    pub(crate) fn narrow_images(&self, window: Interval, widest: f64) -> Vec<Interval> {
+        let (mut images, mut own) = (Vec::new(), window);
+        while images.len() < MOST_NARROW_IMAGES {
+            let left = self.end(own.left.max(f64::MIN_POSITIVE));
+            let Reached::Within(low, high) = self.image(&left, &self.end(own.right)) else { break };
+            let trapped = self.traps.iter().any(|(trap, _)| trap.left <= low && high <= trap.right);
+            if trapped || low <= 0.0 || high - low > widest {
+                break;
+            }
+            own = Interval { left: low, right: high };
+            images.push(own);
+        }
+        images
+    }
+
+    /// The intervals found so far: disjoint, increasing, each with the label of all its speeds.
+    pub(crate) fn into_known(self) -> Vec<(Interval, Label)> {
+        self.known
+    }
+
+    /// Labels the speeds from `left` ≥ 0 to `right`, the next pixel.
+    pub(crate) fn add_pixel(&mut self, left: f64, right: f64, resolution: Resolution) {
+        let before = (self.known.len(), self.known.last().copied());
+        let allowed = resolution.tolerance * (right - left);
+        let mut finest = allowed;
+        self.budget = resolution.speeds;
+        let mut parts = self.cut(left, right);
+        for _ in 0..MOST_PASSES {
+            // The labels of the pixel are found again from below, now in smaller gaps.
+            self.known.truncate(before.0);
+            if let (Some(last), Some(own)) = (self.known.last_mut(), before.1) {
+                *last = own;
+            }
+            let mut next = Vec::with_capacity(2 * parts.len());
+            for part in parts {
+                match part {
+                    Part::Labelled(interval, label) => self.add(&mut next, interval, label),
+                    Part::Open(a, b) => self.resolve((a, b), finest, &mut next),
+                }
+            }
+            parts = next;
+            let open = |part: &Part| match part {
+                Part::Labelled(..) => 0.0,
+                Part::Open(a, b) => b.speed - a.speed,
+            };
+            if self.budget == 0 || parts.iter().map(open).sum::<f64>() <= allowed {
+                return;
+            }
+            finest *= FINER;
+        }
+    }
+
+    /// The traps of a pixel, and the gaps between them.
+    fn cut(&self, left: f64, right: f64) -> Vec<Part> {
+        let mut parts = Vec::new();
+        // No hop starts with the speed 0, which belongs to the trap of α*_0.
+        let mut from = self.end(left.max(f64::MIN_POSITIVE));
+        let first = self.traps.partition_point(|(trap, _)| trap.right <= left);
+        for &(trap, label) in self.traps[first..].iter().take_while(|(trap, _)| trap.left < right) {
+            let (low, high) = (trap.left.max(left), trap.right.min(right));
+            if from.speed < low {
+                parts.push(Part::Open(from, self.end(low)));
+            }
+            parts.push(Part::Labelled(Interval { left: low, right: high }, label));
+            from = self.end(high);
+        }
+        if from.speed < right {
+            parts.push(Part::Open(from, self.end(right)));
+        }
+        parts
+    }
+
+    fn end(&self, speed: f64) -> End {
+        End { speed, reached: Reached::of(self.map.hop_within(speed, 0.0)) }
+    }
+
+    /// Labels parts of a gap, from below, as far as their width is at least `finest`.
+    fn resolve(&mut self, (a, b): (End, End), finest: f64, parts: &mut Vec<Part>) {
+        let mut from = a;
+        while from.speed < b.speed {
+            if let Some((end, label)) = self.one_label_up_to_fixed_point(&from) {
+                let right = end.min(b.speed);
+                self.add(parts, Interval { left: from.speed, right }, label);
+                from = if right < b.speed { self.end(right) } else { b };
+                continue;
+            }
+            // Next to a fixed point the image of the gap may reach into the gap itself: turn by turn, each image is known. An unknown
+            // image is below its speed.
+            let highest = match b.reached {
+                Reached::Within(_, high) => high,
+                Reached::Unknown => b.speed,
+                Reached::Grounded => 0.0,
+            };
+            let mut next = b;
+            if let Reached::Within(low, _) = from.reached
+                && highest > from.speed
+            {
+                let step = TURN * (from.speed - low);
+                if step < finest {
+                    return parts.push(Part::Open(from, b));
+                }
+                if from.speed + step < b.speed {
+                    next = self.end(from.speed + step);
+                }
+            }
+            self.split((from, next), finest, parts);
+            from = next;
+        }
+    }
+
+    /// The largest speed below the next fixed point, and the label of all speeds up to there, if a turn below `from` has one label and
+    /// the map rises from there on (docs/theory.md, Theorem 95.3).
+    fn one_label_up_to_fixed_point(&self, from: &End) -> Option<(f64, Label)> {
+        let (Reached::Within(low, _), &(own, label)) = (from.reached, self.known.last()?) else {
+            return None;
+        };
+        let turn = own.left <= low && own.right == from.speed;
+        if !turn {
+            return None;
+        }
+        let star = FixedPointSpeed::new(index_below(from.speed).ok()? + 1);
+        let end = star.largest_below();
+        let first = from.speed * (1.0 - DISTANCE_FROM_CRITICAL);
+        let rises = !self.critical.iter().any(|point| point.speed >= first && point.speed <= end);
+        (rises && from.speed < end).then_some((end, label))
+    }
+
+    /// Divides a gap where the labels of its image change, and labels the parts.
+    fn split(&mut self, (a, b): (End, End), finest: f64, parts: &mut Vec<Part>) {
+        if let Some(label) = self.label(&a, &b, 1) {
+            return self.add(parts, Interval { left: a.speed, right: b.speed }, label);
+        }
+        if b.speed - a.speed <= finest || self.budget == 0 {
+            return parts.push(Part::Open(a, b));
+        }
+        if a.reached.kind() != b.reached.kind() {
+            // The edge of grounding has no known interval as its image: it is bisected. So is the place of an undecided hop.
+            let middle = a.speed.midpoint(b.speed);
+            if !(a.speed < middle && middle < b.speed) {
+                return parts.push(Part::Open(a, b));
+            }
+            let middle = self.end(middle);
+            self.budget -= 1;
+            self.split((a, middle), finest, parts);
+            return self.split((middle, b), finest, parts);
+        }
+        let mut from = a;
+        let (cuts, images) = self.cuts(&a, &b, finest);
+        for to in cuts {
+            if from.speed < to.speed && to.speed < b.speed && self.budget > 0 {
+                self.budget -= 1;
+                self.label_or_open((from, to), images, parts);
+                from = to;
+            }
+        }
+        self.label_or_open((from, b), images, parts);
+    }
+
+    fn label_or_open(&mut self, (a, b): (End, End), images: usize, parts: &mut Vec<Part>) {
+        match self.label(&a, &b, images) {
+            Some(label) => self.add(parts, Interval { left: a.speed, right: b.speed }, label),
+            None => parts.push(Part::Open(a, b)),
+        }
+    }
+
+    /// Where to divide a gap: at a critical point, or else a little inside of the preimages of the known intervals in its image. The
+    /// preimages are guessed; the labels do not depend on the guess.
+    fn cuts(&self, a: &End, b: &End, finest: f64) -> (Vec<End>, usize) {
+        let first = self.critical.partition_point(|end| end.speed <= a.speed + 0.5 * finest);
+        if let Some(turn) =
+            self.critical.get(first).filter(|end| end.speed < b.speed - 0.5 * finest)
+        {
+            return (vec![self.end(turn.speed)], 1);
+        }
+        let (mut at_a, mut at_b) = (a.reached, b.reached);
+        for image in 1..=MOST_IMAGES {
+            let (Some(from), Some(to)) = (at_a.middle(), at_b.middle()) else {
+                break;
+            };
+            let (low, high) = (from.min(to), from.max(to));
+            let first = self.known.partition_point(|(own, _)| own.right <= low);
+            // On a line, the narrowest interval whose preimage counts.
+            let narrowest = finest * (high - low) / (b.speed - a.speed);
+            let seen = |own: &Interval| own.right.min(high) - own.left.max(low) >= narrowest;
+            let inside = self.known[first..].iter().take_while(|(own, _)| own.left < high);
+            let inside: Vec<Interval> = inside.map(|(own, _)| *own).filter(seen).collect();
+            if inside.is_empty() {
+                (at_a, at_b) = (self.end(from).reached, self.end(to).reached);
+                continue;
+            }
+            let mut guess = PreimageGuess::line((from, a.speed), (to, b.speed));
+            let mut cuts = Vec::with_capacity(2 * inside.len() + 1);
+            // A third point costs a hop, and pays if several intervals are looked for.
+            if inside.len() > MANY && image == 1 {
+                let middle = self.end(a.speed.midpoint(b.speed));
+                if let Some(y) = middle.reached.middle() {
+                    guess = guess.with((y, middle.speed));
+                }
+                cuts.push(middle);
+            }
+            for own in inside {
+                let (x, y) = (guess.at(own.left.max(low)), guess.at(own.right.min(high)));
+                let margin = MARGIN * (y - x);
+                // The ends of the gap are known.
+                cuts.extend((own.left > low).then(|| self.end(x + margin)));
+                cuts.extend((own.right < high).then(|| self.end(y - margin)));
+            }
+            cuts.sort_by(|p, q| p.speed.total_cmp(&q.speed));
+            return (cuts, image);
+        }
+        (Vec::new(), 1)
+    }
+
+    fn add(&mut self, parts: &mut Vec<Part>, interval: Interval, label: Label) {
+        parts.push(Part::Labelled(interval, label));
+        match self.known.last_mut() {
+            Some((last, own)) if *own == label && last.right == interval.left => {
+                last.right = interval.right;
+            }
+            _ => self.known.push((interval, label)),
+        }
+    }
+
+    /// The label of all speeds from `a` to `b`; `None` if the images do not show it.
+    fn label(&self, a: &End, b: &End, images: usize) -> Option<Label> {
+        let mut reached = self.image(a, b);
+        for image in 1..=images {
+            let (low, high) = match reached {
+                Reached::Within(low, high) => (low, high),
+                Reached::Grounded => return Some(HopperFate::GROUNDED),
+                Reached::Unknown => return None,
+            };
+            // The first interval that does not end below the image, and the last one that does not begin above it.
+            let first = self.known.partition_point(|(own, _)| own.right < low);
+            let last = self.known[first..].partition_point(|(own, _)| own.left <= high) + first;
+            if let Some(&(own, label)) = self.known.get(first)
+                && last > first
+            {
+                if own.left <= low && high <= own.right {
+                    return Some(label);
+                }
+                if self.known[last - 1].1 != label {
+                    return None; // it contains speeds of two basins
+                }
+            }
+            if low <= 0.0 || image == images {
+                return None;
+            }
+            reached = self.image(&self.end(low), &self.end(high));
+        }
+        None
+    }
+
+    /// The image of all speeds from `a` to `b`.
+    fn image(&self, a: &End, b: &End) -> Reached {
+        let low = a.speed * (1.0 - DISTANCE_FROM_CRITICAL);
+        let high = b.speed * (1.0 + DISTANCE_FROM_CRITICAL);
+        let first = self.critical.partition_point(|end| end.speed < low);
+        let inside = self.critical[first..].iter().take_while(|end| end.speed <= high);
+        inside.fold(a.reached.with(b.reached), |all, end| all.with(end.reached))
+    }
+}
