@@ -96,10 +96,10 @@ pub use evidence::reference_hop::{FirstFlightErrors, HopErrors, LandingErrors, R
 pub use evidence::reference_local_hop::{ReferenceLocalHop, ReferenceNumber};
 pub use evidence::solver::Solver;
 pub use hopper::{Hopper, HopperSurface, Phase};
-pub use landing::error_bound::MaximumTest;
 pub use landing::flight_ends::{Landing, TakeOff};
 pub use landing::half_flight::HalfFlight;
 pub use landing::local_flight::LocalFlight;
+pub use landing::next_landing::MaximumTest;
 pub use map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep, OrbitTangent};
 pub use map::hop_within::HopWithin;
 pub use map::lift_off_map::{Hop, LiftOffMap};

@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::evidence::solver::Solver;
 use crate::evidence::traced_hop::{TracedHop, extended_trace, general_trace, kernel_trace};
-use crate::landing::error_bound::MaximumTest;
 use crate::landing::flight_ends::Landing;
+use crate::landing::next_landing::MaximumTest;
 use crate::map::lift_off_map::{Hop, LiftOffMap};
 use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::precision::double_double::DoubleDouble;

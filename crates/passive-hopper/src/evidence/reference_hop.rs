@@ -6,11 +6,11 @@ use crate::evidence::solver::Solver;
 use crate::evidence::traced_hop::{
     TracedHop, TracedLanding, extended_trace, general_trace, kernel_trace,
 };
-use crate::landing::error_bound::MaximumTest;
 use crate::landing::first_flight_table::{
     BEYOND_FLOOR, FirstFlight, TABLE_ULPS, TablePosition, fixed_points,
 };
 use crate::landing::flight_derivative::Variation;
+use crate::landing::next_landing::MaximumTest;
 use crate::map::lift_off_map::LiftOffMap;
 use crate::map::limits::LARGEST_PLAIN_SPEED;
 use crate::precision::double_double::DoubleDouble;

@@ -3,8 +3,9 @@
 use crate::error::Error;
 use crate::kernel::scalar::hop::watched_kernel_hop;
 use crate::kernel::scalar::landing_bracket::maximum_test_of;
-use crate::landing::error_bound::{ErrorBound, MaximumTest};
+use crate::landing::error_bound::ErrorBound;
 use crate::landing::flight_derivative::Variation;
+use crate::landing::next_landing::MaximumTest;
 use crate::map::extended_hop::{ExtendedHop, ExtendedMasses, Start, watched_hop_with};
 use crate::map::lift_off_map::{Hop, LiftOffMap, check_speed};
 use crate::precision::real::{Extended, Real};

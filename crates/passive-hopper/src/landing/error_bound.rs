@@ -14,7 +14,7 @@
 use crate::landing::flight_derivative::{FlightDerivative, Variation};
 use crate::landing::flight_ends::{Landing, TakeOff};
 use crate::landing::half_time_root::LARGE_DIFFERENCE;
-use crate::landing::next_landing::maximum_test;
+use crate::landing::next_landing::{MaximumTest, maximum_test};
 use std::f64::consts::PI;
 
 /// Bound on the direct rounding errors of x′, V′ and Γ at a landing, in ulps of the sum of all quantities in it,
@@ -85,15 +85,6 @@ pub(crate) struct ErrorBound {
     last_test: Option<MaximumTest>,
 }
 
-/// The number whose sign decides on which of two branches a flight lands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MaximumTest {
-    /// (−1)^m (V cos V − Y sin V), m = ⌊V/π⌋, at the start (Y, V) of the flight.
-    pub value: f64,
-    /// Bound on its error.
-    pub error: f64,
-}
-
 impl ErrorBound {
     /// For a hop from `alpha` in `f64`.
     pub(crate) fn of_f64(alpha: f64) -> Self {
@@ -143,19 +134,14 @@ impl ErrorBound {
 
     /// Propagates the bound through a flight to its landing. The maximum test of the branch is computed in `f64`.
     pub(crate) fn add_flight(&mut self, landing: &Landing, kappa: f64) {
-        self.add_differentiated(landing, kappa, &FlightDerivative::new(self.start, landing, kappa));
+        self.add_differentiated(landing, &FlightDerivative::new(self.start, landing, kappa), kappa);
     }
 
     /// As [`add_flight`](Self::add_flight), with the derivative of this flight.
-    pub(crate) fn add_differentiated(
-        &mut self,
-        landing: &Landing,
-        kappa: f64,
-        derivative: &FlightDerivative,
-    ) {
+    pub(crate) fn add_differentiated(&mut self, end: &Landing, by: &FlightDerivative, kappa: f64) {
         let TakeOff { excess, velocity } = self.start;
         let test = if velocity >= PI { maximum_test(excess, velocity) } else { f64::INFINITY };
-        self.add(landing, kappa, test, derivative);
+        self.add(end, kappa, test, by);
     }
 
     /// As [`add_flight`](Self::add_flight), with the maximum test that decided the branch, or infinity if only one
@@ -397,11 +383,9 @@ mod tests {
                     if e > 1e-3 || delta > 1.0 {
                         continue;
                     }
-                    let most = {
-                        let landing = landing.rounded(false);
-                        let slope = FlightDerivative::new(bound.start, &landing, 0.5);
-                        bound.only_loss(&landing, &slope, e)
-                    };
+                    let landing = landing.rounded(false);
+                    let derivative = FlightDerivative::new(bound.start, &landing, 0.5);
+                    let most = bound.only_loss(&landing, &derivative, e);
                     assert!(change.abs() <= most, "{n} {delta:e} {e:e}: {change:e} {most:e}");
                     largest = largest.max(change.abs() / most);
                 }

@@ -40,6 +40,15 @@ pub(crate) fn next_root(start: TakeOff, before_maximum: bool) -> HalfTimeRoot {
     HalfTimeRoot::solve(excess, velocity, bracket, guess)
 }
 
+/// The number whose sign decides on which of two branches a flight lands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MaximumTest {
+    /// (−1)^m (V cos V − Y sin V), m = ⌊V/π⌋, at the start (Y, V) of the flight.
+    pub value: f64,
+    /// Bound on its error.
+    pub error: f64,
+}
+
 /// (−1)^m (V cos V − Y sin V), m = ⌊V/π⌋: not negative up to the maximum of branch m. Rounded to `f64`.
 pub(crate) fn maximum_test<R: Real>(excess: R, velocity: R) -> f64 {
     let (sin, cos) = velocity.sin_cos();

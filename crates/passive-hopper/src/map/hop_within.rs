@@ -124,7 +124,7 @@ impl LiftOffMap {
             self.kernel_landings(alpha).or_else(|| self.plain_landings(alpha))?;
         let mut with_start = ErrorBound::of_f64(alpha).with_speed_error(error);
         for WithError { landing, derivative, error } in &all {
-            with_start.add_differentiated(landing, kappa, derivative);
+            with_start.add_differentiated(landing, derivative, kappa);
             with_start.add_kappa_error(changes.kappa, landing.closing_speed);
             with_start.add_state_error(*error);
             if with_start.landing_inconclusive() {
@@ -169,7 +169,7 @@ impl LiftOffMap {
             ratios_squared += ratio * ratio;
             let derivative = FlightDerivative::new(start, &landing, kappa);
             start = landing.take_off();
-            rounding.add_differentiated(&landing, kappa, &derivative);
+            rounding.add_differentiated(&landing, &derivative, kappa);
             // The bound of a landing contains the roundings of this solver.
             all.push(WithError { landing, derivative, error: 0.0 });
         }

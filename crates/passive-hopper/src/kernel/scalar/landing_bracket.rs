@@ -12,7 +12,7 @@
 use crate::kernel::scalar::ground_state::GroundState;
 use crate::kernel::scalar::half_angle::{HalfAngle, negated_if_odd};
 use crate::kernel::scalar::initial_guess;
-use crate::landing::error_bound::MaximumTest;
+use crate::landing::next_landing::MaximumTest;
 use crate::precision::nearest_integer::nearest_integer;
 use std::f64::consts::{FRAC_1_PI, PI};
 
