@@ -1,6 +1,7 @@
 //! The commands: one table of names, and the programs that run them.
 
 use crate::check_builds;
+use crate::check_python;
 use crate::error::Error;
 use crate::process::become_program;
 use crate::regenerate;
@@ -23,7 +24,7 @@ const PAPER: Option<&str> = Some("hopper-paper");
 const MEASUREMENTS: Option<&str> = Some("hopper-measurements");
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 15] = [
+const TASKS: [Task; 16] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -94,6 +95,11 @@ const TASKS: [Task; 15] = [
         about: "Build each crate alone, the fuzz target, and all with the oldest Rust promised",
         package: None,
     },
+    Task {
+        name: "check-python",
+        about: "Build the Python package and run its tests: needs Python and package indices",
+        package: None,
+    },
     Task { name: "tidy", about: "Check the repository's rules", package: None },
 ];
 
@@ -131,6 +137,7 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     }
     match arguments.first().map(|argument| argument.to_string_lossy()) {
         None if task.name == "check-builds" => check_builds::run(),
+        None if task.name == "check-python" => check_python::run(),
         None => tidy::run(),
         Some(option) if option == "--help" || option == "-h" => print(&format!(
             "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",
