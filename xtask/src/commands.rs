@@ -1,6 +1,7 @@
 //! The commands: one table of names, and the programs that run them.
 
 use crate::check_builds;
+use crate::check_python;
 use crate::error::Error;
 use crate::process::become_program;
 use crate::regenerate;
@@ -30,7 +31,7 @@ const BASINS: Option<Program> = Some(("hopper", Some("basins")));
 type Program = (&'static str, Option<&'static str>);
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 15] = [
+const TASKS: [Task; 16] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -101,6 +102,11 @@ const TASKS: [Task; 15] = [
         about: "Build each crate alone, the fuzz target, and all with the oldest Rust promised",
         program: None,
     },
+    Task {
+        name: "check-python",
+        about: "Build the Python package and run its tests: needs Python and package indices",
+        program: None,
+    },
     Task { name: "tidy", about: "Check the repository's rules", program: None },
 ];
 
@@ -138,6 +144,7 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     }
     match arguments.first().map(|argument| argument.to_string_lossy()) {
         None if task.name == "check-builds" => check_builds::run(),
+        None if task.name == "check-python" => check_python::run(),
         None => tidy::run(),
         Some(option) if option == "--help" || option == "-h" => print(&format!(
             "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",

@@ -4,9 +4,11 @@
 //! is part of a program in `crates/`; `cargo xtask` builds that program and becomes it.
 
 mod check_builds;
+mod check_python;
 mod commands;
 mod error;
 mod process;
+mod python_environment;
 mod regenerate;
 mod repository;
 mod tidy;

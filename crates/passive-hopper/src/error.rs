@@ -101,6 +101,16 @@ pub enum Error {
         /// Velocity of the upper mass at the start of the flight.
         velocity: f64,
     },
+    /// Speeds and results in slices of different lengths.
+    #[error(
+        "there are {speeds} speeds and room for {results} results; both must be the same number"
+    )]
+    Lengths {
+        /// The number of speeds.
+        speeds: usize,
+        /// The room for results.
+        results: usize,
+    },
     /// A number is not finite, but must be.
     #[error("{name} must be finite, not {value:?}")]
     NotFinite {

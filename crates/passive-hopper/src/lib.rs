@@ -19,6 +19,7 @@
 //! | [`LiftOffMap::bounded_hop`], [`BoundedHop`] | a hop with bounds on the errors of its landings and of α′ |
 //! | [`LiftOffMap::reference_hop`], [`ReferenceHop`], [`Solver`] | a hop in 106 to 1024 bits, and the errors of shorter ways against it |
 //! | [`LiftOffMap::images`], [`LiftOffMap::images_of_pairs`] | many hops at once, four times as fast, to the same bits |
+//! | [`LiftOffMap::images_into`], [`LiftOffMap::images_with_status`], [`HopStatus`] | the same for plain arrays, NaN for grounded |
 //! | [`LiftOffMap::hop_within`], [`HopWithin`] | the hop of a speed that is known to within an error |
 //! | [`ExtendedOrbit`], [`Arithmetic`], [`OrbitTangent`] | an orbit in 106 to 1024 bits, with a bound on its error; the orbits beside it |
 //! | [`BoundedOrbit`] | an orbit in the shortest arithmetic that suffices, with a bound on the error of each speed |
@@ -105,6 +106,7 @@ pub use map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep, OrbitTang
 pub use map::hop_within::HopWithin;
 pub use map::lift_off_map::{Hop, LiftOffMap};
 pub use map::limits::SUDDEN_LIFT_OFF_BUDGET;
+pub use map::many_at_once::HopStatus;
 pub use map::near_fixed_point::LocalHop;
 pub use map::printed::printed_image;
 pub use map::slopes::Slopes;

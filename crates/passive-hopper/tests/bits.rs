@@ -63,3 +63,14 @@ fn a_million_hops_have_the_committed_bits() {
         assert_eq!(hash, MILLION_HOPS, "{threads} threads: {hash:#x}");
     }
 }
+
+/// The Python package has the same hash of the same images (`crates/hopper-python/tests/test_map.py`).
+#[test]
+fn images_in_arrays_have_the_committed_bits() {
+    let map = LiftOffMap::new(MassRatio::new(0.2).unwrap());
+    let speeds: Vec<f64> = (0..100_000).map(|k| 4.5 + f64::from(k) * 2f64.powi(-13)).collect();
+    let mut images = vec![0.0; speeds.len()];
+    map.images_into(&speeds, &mut images).unwrap();
+    let words = images.iter().map(|image| if image.is_nan() { 0 } else { image.to_bits() });
+    assert_eq!(words.fold(0xcbf2_9ce4_8422_2325, mix), 0x242d_58af_4f60_2311);
+}

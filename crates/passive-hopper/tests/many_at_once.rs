@@ -2,7 +2,7 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use passive_hopper::{HopWithin, LiftOffMap, MassRatio, alpha_star};
+use passive_hopper::{Error, HopStatus, HopWithin, LiftOffMap, MassRatio, alpha_star};
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
@@ -32,6 +32,51 @@ fn check_images(m: f64, speeds: &[Option<f64>]) {
         speeds.iter().map(|speed| speed.map(f64::to_bits)).collect()
     };
     assert_eq!(bits(&found), bits(&expected), "M = {m}");
+    check_images_into(&map, speeds);
+}
+
+/// As [`check_images`], for plain arrays: NaN in the place of `None`, and of a speed with an error.
+fn check_images_into(map: &LiftOffMap, speeds: &[Option<f64>]) {
+    let plain: Vec<_> = speeds.iter().map(|speed| speed.unwrap_or(f64::NAN)).collect();
+    let (mut images, mut same) = (vec![0.0; plain.len()], vec![0.0; plain.len()]);
+    let mut status = vec![HopStatus::Undecided; plain.len()];
+    let into = map.images_into(&plain, &mut images);
+    let with_status = map.images_with_status(&plain, &mut same, &mut status);
+    let (mut failed, mut refused) = (false, false);
+    for (at, speed) in speeds.iter().enumerate() {
+        let (image, expected) = match speed.map(|alpha| map.image(alpha)) {
+            None => (None, HopStatus::NoSpeed),
+            Some(Ok(Some(next))) => (Some(next), HopStatus::LiftsOff),
+            Some(Ok(None)) => (None, HopStatus::Grounded),
+            Some(Err(error)) => {
+                failed = true;
+                let undecided =
+                    matches!(error, Error::Undecided { .. } | Error::SuddenLiftOffBudget { .. });
+                refused |= !undecided;
+                (None, if undecided { HopStatus::Undecided } else { HopStatus::NoSpeed })
+            }
+        };
+        assert_eq!(status[at], expected, "{speed:?}");
+        for found in [images[at], same[at]] {
+            match image {
+                Some(next) => assert_eq!(found.to_bits(), next.to_bits(), "{speed:?}"),
+                None => assert!(found.is_nan(), "{speed:?}: {found}"),
+            }
+        }
+    }
+    assert_eq!((into.is_err(), with_status.is_err()), (failed, refused));
+}
+
+#[test]
+fn slices_of_different_lengths_are_errors() {
+    let map = LiftOffMap::new(MassRatio::ONE);
+    let (mut images, mut status) = ([7.0; 3], [HopStatus::LiftsOff; 2]);
+    let expected = Err(Error::Lengths { speeds: 2, results: 3 });
+    assert_eq!(map.images_into(&[5.0, 6.0], &mut images), expected);
+    assert_eq!(map.images_with_status(&[5.0, 6.0], &mut images, &mut status), expected);
+    let expected = Err(Error::Lengths { speeds: 3, results: 2 });
+    assert_eq!(map.images_with_status(&[5.0; 3], &mut images, &mut status), expected);
+    assert_eq!(images, [7.0; 3]);
 }
 
 /// As [`check_images`], for `images_of_pairs`. The mass ratios are assigned to the speeds cyclically.

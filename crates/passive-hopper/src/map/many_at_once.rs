@@ -3,7 +3,6 @@
 use crate::error::Error;
 use crate::kernel::batch::hop_block::HopBlock;
 use crate::kernel::batch::rows::BLOCK;
-use crate::kernel::scalar::hop::kernel_hop;
 use crate::map::hop_within::HopWithin;
 use crate::map::lift_off_map::LiftOffMap;
 
@@ -34,7 +33,103 @@ impl LiftOffMap {
     /// The first error that [`image`](Self::image) gives for one of the speeds. A speed with an error stays as it is;
     /// all other speeds are replaced.
     pub fn images(&self, speeds: &mut [Option<f64>]) -> Result<(), Error> {
-        images(speeds, |_| *self, |&speed| speed, |speed| speed)
+        let mut first = Ok(());
+        images(speeds, |_| *self, |&speed| speed, |speed, next| replace(speed, next, &mut first));
+        first
+    }
+
+    /// Writes the images of `speeds` into `images`, with the bits of [`image`](Self::image). A grounded hopper gives NaN, and NaN
+    /// stays NaN. For callers whose numbers lie in plain arrays.
+    ///
+    /// ```
+    /// use passive_hopper::{LiftOffMap, MassRatio};
+    /// let map = LiftOffMap::new(MassRatio::new(0.5)?);
+    /// let mut images = [0.0; 3];
+    /// map.images_into(&[5.5, 3.0, f64::NAN], &mut images)?;
+    /// assert_eq!(Some(images[0]), map.image(5.5)?);
+    /// assert_eq!(Some(images[1]).filter(|next| next.is_finite()), map.image(3.0)?);
+    /// assert!(images[2].is_nan());
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Lengths`] for slices of different lengths; else the first error that [`image`](Self::image) gives for one of the
+    /// speeds. The image of such a speed is NaN, and all other images are written.
+    pub fn images_into(&self, speeds: &[f64], images: &mut [f64]) -> Result<(), Error> {
+        let mut first = Ok(());
+        self.each_image(speeds, images, |_, result| {
+            result.unwrap_or_else(|error| {
+                if first.is_ok() {
+                    first = Err(error);
+                }
+                None
+            })
+        })?;
+        first
+    }
+
+    /// As [`images_into`](Self::images_into), with the reason of each NaN: a hop that cannot be decided is a status, and no error.
+    ///
+    /// # Errors
+    /// [`Error::Lengths`] for slices of different lengths; else the first error other than an undecided hop, after all images are
+    /// written.
+    pub fn images_with_status(
+        &self,
+        speeds: &[f64],
+        images: &mut [f64],
+        status: &mut [HopStatus],
+    ) -> Result<(), Error> {
+        check_lengths(speeds, status)?;
+        status.fill(HopStatus::NoSpeed);
+        let mut first = Ok(());
+        self.each_image(speeds, images, |at, result| {
+            status[at] = match &result {
+                Ok(Some(_)) => HopStatus::LiftsOff,
+                Ok(None) => HopStatus::Grounded,
+                Err(Error::Undecided { .. } | Error::SuddenLiftOffBudget { .. }) => {
+                    HopStatus::Undecided
+                }
+                Err(error) => {
+                    if first.is_ok() {
+                        first = Err(error.clone());
+                    }
+                    HopStatus::NoSpeed
+                }
+            };
+            result.ok().flatten()
+        })?;
+        first
+    }
+
+    /// Writes the image of each speed, which `end` makes of the result at its place.
+    fn each_image(
+        &self,
+        speeds: &[f64],
+        images: &mut [f64],
+        mut end: impl FnMut(usize, Result<Option<f64>, Error>) -> Option<f64>,
+    ) -> Result<(), Error> {
+        check_lengths(speeds, images)?;
+        let mut block = [(0, 0.0); BLOCK];
+        for (k, (speeds, written)) in speeds.chunks(BLOCK).zip(images.chunks_mut(BLOCK)).enumerate()
+        {
+            let entries = &mut block[..speeds.len()];
+            for (at, (entry, &speed)) in entries.iter_mut().zip(speeds).enumerate() {
+                *entry = (k * BLOCK + at, speed);
+            }
+            let speed = |entry: &(usize, f64)| (!entry.1.is_nan()).then_some(entry.1);
+            self::images(
+                entries,
+                |_| *self,
+                speed,
+                |entry, next| {
+                    entry.1 = end(entry.0, next).unwrap_or(f64::NAN);
+                },
+            );
+            for (image, entry) in written.iter_mut().zip(entries) {
+                *image = entry.1;
+            }
+        }
+        Ok(())
     }
 
     /// Replaces each speed by its image under the map beside it, as [`images`](Self::images) does for one map. For
@@ -53,7 +148,9 @@ impl LiftOffMap {
     /// # Errors
     /// As for [`images`](Self::images).
     pub fn images_of_pairs(hops: &mut [(&LiftOffMap, Option<f64>)]) -> Result<(), Error> {
-        images(hops, |hop| *hop.0, |hop| hop.1, |hop| &mut hop.1)
+        let mut first = Ok(());
+        images(hops, |hop| *hop.0, |hop| hop.1, |hop, next| replace(&mut hop.1, next, &mut first));
+        first
     }
 
     /// Replaces each `Next` by its hop under the map beside it, with the bits of [`hop_within`](Self::hop_within). All other
@@ -95,48 +192,68 @@ impl LiftOffMap {
     }
 }
 
-/// Replaces the speed of each entry by its image, and returns the first error. `map` and `speed` read an entry. `image`
-/// gives access to the speed that is replaced.
+/// How a hop ended, beside an image that is a plain number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum HopStatus {
+    /// The hopper lifts off again: the image is a speed.
+    LiftsOff = 0,
+    /// The hopper is grounded.
+    Grounded = 1,
+    /// The hop cannot be decided with 1024 bits.
+    Undecided = 2,
+    /// There was no valid speed to hop from.
+    NoSpeed = 3,
+}
+
+fn check_lengths<T>(speeds: &[f64], results: &[T]) -> Result<(), Error> {
+    let (speeds, results) = (speeds.len(), results.len());
+    if speeds == results { Ok(()) } else { Err(Error::Lengths { speeds, results }) }
+}
+
+/// Replaces a speed by its image. A speed with an error stays as it is, and the first error is noted.
+fn replace(
+    speed: &mut Option<f64>,
+    next: Result<Option<f64>, Error>,
+    first: &mut Result<(), Error>,
+) {
+    match next {
+        Ok(next) => *speed = next,
+        Err(error) if first.is_ok() => *first = Err(error),
+        Err(_) => {}
+    }
+}
+
+/// Gives `end` each entry that has a speed, with the image of this speed. `map` and `speed` read an entry.
 fn images<H>(
     entries: &mut [H],
     map: impl Fn(&H) -> LiftOffMap,
     speed: impl Fn(&H) -> Option<f64>,
-    image: impl Fn(&mut H) -> &mut Option<f64>,
-) -> Result<(), Error> {
-    let mut first_error = Ok(());
-    let mut careful = |entry: &mut H| {
-        let Some(alpha) = speed(entry) else { return };
-        match map(entry).careful_image(alpha) {
-            Ok(next) => *image(entry) = next,
-            Err(error) if first_error.is_ok() => first_error = Err(error),
-            Err(_) => {}
-        }
-    };
+    mut end: impl FnMut(&mut H, Result<Option<f64>, Error>),
+) {
     if entries.len() < FEW {
         for entry in entries {
             let Some(alpha) = speed(entry) else { continue };
-            match kernel_hop(alpha, map(entry).factors) {
-                Some(decided) => *image(entry) = decided.next(),
-                None => careful(entry),
-            }
+            let next = map(entry).image(alpha);
+            end(entry, next);
         }
-        return first_error;
+        return;
     }
     HopBlock::of_this_thread(|block| {
         for entries in entries.chunks_mut(BLOCK) {
             // An entry without a speed enters the block with 0, which is not a valid speed. The block leaves it
-            // undecided, and `careful` then skips the entry.
+            // undecided, and it is then skipped.
             let from = |entry: &H| (speed(entry).unwrap_or(0.0), map(entry).factors);
             block.hop(entries, from, |entry, next| {
                 if next > 0.0 {
-                    *image(entry) = Some(next);
+                    end(entry, Ok(Some(next)));
                 } else if next < 0.0 {
-                    *image(entry) = None;
-                } else {
-                    careful(entry);
+                    end(entry, Ok(None));
+                } else if let Some(alpha) = speed(entry) {
+                    let next = map(entry).careful_image(alpha);
+                    end(entry, next);
                 }
             });
         }
     });
-    first_error
 }

@@ -1,0 +1,63 @@
+"""The exact map, fates and basins of a passive hopper: two masses, one spring, plastic landings, no motor.
+
+All dynamics is one map of the lift-off speed, α′ = f(α; M). Lengths are in units of m₂g/k, times in units of 1/ω with
+ω² = k(1+M)/m₂, speeds in units of m₂gω/k. M = m₂/m₁ is the lower mass over the upper one.
+
+>>> import numpy as np
+>>> from passive_hopper import LiftOffMap, alpha_star
+>>> m = LiftOffMap(0.2)
+>>> m(np.linspace(4.5, 20, 1000)).shape
+(1000,)
+>>> m.fate(4.55).name
+'to α*_1'
+>>> bool(np.isnan(LiftOffMap(0.8)(3.0)))
+True
+"""
+
+from ._native import (
+    Bounds,
+    Crisis,
+    Fate,
+    Hop,
+    IntervalBasins,
+    Landing,
+    LiftOffMap,
+    Trap,
+    UndecidedError,
+    __version__,
+    alpha_star,
+    basin_labels,
+    crisis,
+    fractions,
+    grounding,
+    interval_basins,
+    label_codes,
+    label_name,
+    trap,
+)
+from .datasets import basins
+from .plots import cobweb, plot_basins
+
+__all__ = [
+    "Bounds",
+    "Crisis",
+    "Fate",
+    "Hop",
+    "IntervalBasins",
+    "Landing",
+    "LiftOffMap",
+    "Trap",
+    "UndecidedError",
+    "alpha_star",
+    "basin_labels",
+    "basins",
+    "cobweb",
+    "crisis",
+    "fractions",
+    "grounding",
+    "interval_basins",
+    "label_codes",
+    "label_name",
+    "plot_basins",
+    "trap",
+]

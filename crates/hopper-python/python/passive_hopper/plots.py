@@ -1,0 +1,64 @@
+"""Pictures with matplotlib."""
+
+from . import _native
+
+
+def _matplotlib():
+    try:
+        import matplotlib.pyplot
+    except ImportError as error:
+        raise ImportError("pictures need matplotlib: pip install 'passive-hopper[plots]'") from error
+    return matplotlib.pyplot
+
+
+def cobweb(mass_ratio, alpha, hops=30, ax=None):
+    """Draws the map and the orbit from ``alpha`` as a cobweb; returns the axes."""
+    import numpy
+
+    plt = _matplotlib()
+    ax = ax or plt.figure(figsize=(4, 4), layout="constrained").add_subplot()
+    lift_off_map = _native.LiftOffMap(mass_ratio)
+    orbit = lift_off_map.orbit(alpha, hops)
+    top = 1.05 * float(orbit.max())
+    speeds = numpy.linspace(top / 4000, top, 4000)
+    images = lift_off_map(speeds)
+    ax.plot([0, top], [0, top], color="0.6", linewidth=0.8)
+    # The map jumps: a line across a jump would be no part of it.
+    images[1:][numpy.abs(numpy.diff(images)) > 0.05 * top] = numpy.nan
+    ax.plot(speeds, images, color="black", linewidth=1)
+    corners = numpy.repeat(orbit, 2)
+    ax.plot(corners[:-1], corners[1:], color="tab:red", linewidth=0.9)
+    ax.set(xlim=(0, top), ylim=(0, top), aspect="equal")
+    ax.set_xlabel(r"lift-off speed $\alpha$")
+    ax.set_ylabel(r"next lift-off speed $\alpha'$")
+    ax.set_title(f"M = {mass_ratio:g}")
+    return ax
+
+
+#: The colours of the paper's basins: decaying, α*₁, α*₂, …; repeated for more.
+COLOURS = ["#ffffff", "#4daf4a", "#e41a1c", "#377eb8", "#984ea3", "#ff7f00", "#ffff33", "#a65628"]
+
+
+def plot_basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), ax=None):
+    """Draws the basins over a window of (M, α) with a legend; returns the axes."""
+    import numpy
+    from matplotlib.colors import to_rgb
+    from matplotlib.patches import Patch
+
+    plt = _matplotlib()
+    ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
+    ratios, speeds, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape)
+    others = set(_native.label_codes())
+    picture = numpy.empty(labels.T.shape + (3,))
+    legend = []
+    for code in (int(code) for code in numpy.unique(labels)):
+        colour = "0.5" if code in others else COLOURS[code % len(COLOURS)]
+        picture[labels.T == code] = to_rgb(colour)
+        legend.append(Patch(facecolor=colour, edgecolor="0.3", linewidth=0.5, label=_native.label_name(code)))
+    half = [(ratios[-1] - ratios[0]) / max(len(ratios) - 1, 1) / 2, (speeds[-1] - speeds[0]) / max(len(speeds) - 1, 1) / 2]
+    extent = (ratios[0] - half[0], ratios[-1] + half[0], speeds[0] - half[1], speeds[-1] + half[1])
+    ax.imshow(picture, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
+    ax.set_xlabel("mass ratio M")
+    ax.set_ylabel(r"lift-off speed $\alpha$")
+    ax.figure.legend(handles=legend, loc="outside right upper", frameon=False)
+    return ax

@@ -1,0 +1,216 @@
+//! Basins over the plane and at one mass ratio.
+
+use crate::arrays::shaped;
+use crate::errors::value_error;
+use crate::interruptible::pieces;
+use basin_of_attraction::{Grid, Interval, Label, Refinement, columns_in_parallel};
+use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, basin_columns};
+use passive_hopper::MassRatio;
+use pyo3::prelude::*;
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+/// Columns of a strip that one thread computes, and strips between two looks for Ctrl-C.
+const STRIP: usize = 16;
+const STRIPS: usize = 4;
+
+type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
+
+/// The label of every pixel of a window of (M, α): arrays of M, of α, and of labels (uint16) with the shape (M, α).
+///
+/// Each label is the fate of its pixel's middle. label_name names the labels. `alpha` is the window of the paper, from α*_1 to α*_6,
+/// unless given. `progress(done, all)` is called after every few columns. Ctrl-C ends the computation within some tenths of a second.
+#[pyfunction]
+#[pyo3(signature = (M = (0.1, 1.0), alpha = None, shape = (512, 512), progress = None))]
+#[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
+pub(crate) fn basin_labels<'py>(
+    py: Python<'py>,
+    M: (f64, f64),
+    alpha: Option<(f64, f64)>,
+    shape: (usize, usize),
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Labels<'py>> {
+    let speeds = hopper_basin::first_humps(5);
+    let (bottom, top) = alpha.unwrap_or((speeds.left, speeds.right));
+    let grid = Grid {
+        x: Interval::new(M.0, M.1).map_err(value_error)?,
+        y: Interval::new(bottom, top).map_err(value_error)?,
+        columns: shape.0,
+        rows: shape.1,
+    };
+    let pixels = grid.pixels().map_err(value_error)?;
+    let mut codes: Vec<u16> = Vec::with_capacity(pixels);
+    let width = STRIP * STRIPS;
+    let compute = |k: usize| {
+        let first = k * width;
+        let columns = (grid.columns - first).min(width);
+        let strip = |strip: usize| {
+            let begin = first + strip * STRIP;
+            basin_columns(&grid, begin..(begin + STRIP).min(first + columns))
+        };
+        let found =
+            columns_in_parallel(columns.div_ceil(STRIP), strip, |_| ControlFlow::Continue(()))?;
+        codes.extend(found.iter().flatten().flatten().map(|label| label.code()));
+        Ok::<(), hopper_basin::Error>(())
+    };
+    let all = grid.columns;
+    pieces(py, all.div_ceil(width), compute, value_error, |done| match &progress {
+        Some(progress) => progress.call1(((done * width).min(all), all)).map(|_| ()),
+        None => Ok(()),
+    })?;
+    let ratios: Vec<f64> = (0..grid.columns).map(|column| grid.x_at(column)).collect();
+    let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();
+    Ok((
+        shaped(py, ratios, &[grid.columns])?,
+        shaped(py, speeds, &[grid.rows])?,
+        shaped(py, codes, &[grid.columns, grid.rows])?,
+    ))
+}
+
+/// A number between two bounds.
+#[pyclass(frozen, get_all, eq, module = "passive_hopper")]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Bounds {
+    /// The lower bound.
+    lower: f64,
+    /// The upper bound.
+    upper: f64,
+}
+
+#[pymethods]
+impl Bounds {
+    fn __repr__(&self) -> String {
+        format!("Bounds(lower={:?}, upper={:?})", self.lower, self.upper)
+    }
+
+    fn __contains__(&self, number: f64) -> bool {
+        self.lower <= number && number <= self.upper
+    }
+}
+
+/// All basins at one mass ratio, as intervals of the lift-off speed.
+#[pyclass(frozen, module = "passive_hopper")]
+pub(crate) struct IntervalBasins {
+    found: HopperBasins,
+}
+
+#[pymethods]
+impl IntervalBasins {
+    /// The lower ends, the upper ends and the labels (uint16) of all intervals, from below.
+    fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Labels<'py>> {
+        let parts = self.found.basins.intervals();
+        let shape = [parts.len()];
+        let left = parts.iter().map(|part| part.interval.left).collect::<Vec<f64>>();
+        let right = parts.iter().map(|part| part.interval.right).collect::<Vec<f64>>();
+        let labels = parts.iter().map(|part| part.label.code()).collect::<Vec<u16>>();
+        Ok((shaped(py, left, &shape)?, shaped(py, right, &shape)?, shaped(py, labels, &shape)?))
+    }
+
+    fn __len__(&self) -> usize {
+        self.found.basins.intervals().len()
+    }
+
+    /// The window of speeds.
+    #[getter]
+    fn window(&self) -> (f64, f64) {
+        let window = self.found.basins.window();
+        (window.left, window.right)
+    }
+
+    /// The total length that belongs to no interval.
+    #[getter]
+    fn undecided(&self) -> f64 {
+        self.found.basins.undecided()
+    }
+
+    /// Why the search stopped.
+    #[getter]
+    fn stop_reason(&self) -> String {
+        format!("{:?}", self.found.basins.stop_reason())
+    }
+
+    /// "proved" if the branches of the map are proved to be complete, else "sampled": then whole intervals may have wrong labels.
+    #[getter]
+    fn ground(&self) -> &'static str {
+        match self.found.ground {
+            BranchGround::Proved => "proved",
+            BranchGround::Spacing { .. } => "sampled",
+        }
+    }
+
+    /// The number of random speeds whose fate was compared with their interval, and the number of those that differ.
+    #[getter]
+    fn probes(&self) -> (usize, usize) {
+        (self.found.probes.compared, self.found.probes.wrong)
+    }
+
+    /// Bounds on the fraction of the window that has this label. They hold as the labels do: see `ground`.
+    fn fraction(&self, label: u16) -> Bounds {
+        let basins = &self.found.basins;
+        let bounds = basins.basin_length(Label::from_code(label));
+        let length = basins.window().length();
+        Bounds { lower: bounds.lower / length, upper: (bounds.upper / length).min(1.0) }
+    }
+
+    /// The label of the interval that contains α; None where it is undecided.
+    fn label(&self, alpha: f64) -> Option<u16> {
+        self.found.basins.label(alpha).map(Label::code)
+    }
+
+    fn __repr__(&self) -> String {
+        let (left, right) = self.window();
+        format!(
+            "IntervalBasins({} intervals on [{left:?}, {right:?}], undecided {:e}, {})",
+            self.__len__(),
+            self.undecided(),
+            self.ground()
+        )
+    }
+}
+
+/// All basins between α*_first and α*_last at one mass ratio, as intervals with ends to an ulp.
+///
+/// The search stops as soon as no more than the length `undecided` is open, and does not follow intervals below `shortest`.
+/// `samples` points search each sudden window for branches of the map.
+///
+/// >>> from passive_hopper import interval_basins
+/// >>> basins = interval_basins(0.2, last=2)
+/// >>> basins.ground
+/// 'proved'
+/// >>> basins.fraction(1)
+/// Bounds(lower=0.04629701149302055, upper=0.04629728650815918)
+#[pyfunction]
+#[pyo3(signature = (mass_ratio, first = 1, last = 6, undecided = 1e-6, shortest = 1e-12, samples = 400))]
+pub(crate) fn interval_basins(
+    py: Python<'_>,
+    mass_ratio: f64,
+    first: u64,
+    last: u64,
+    undecided: f64,
+    shortest: f64,
+    samples: usize,
+) -> PyResult<IntervalBasins> {
+    let refinement = Refinement { undecided, shortest, ..Refinement::default() };
+    let found = py.detach(|| {
+        let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
+        hopper_basin::hopper_basins(&fates, first, last, samples, refinement)
+    });
+    found.map(|found| IntervalBasins { found }).map_err(value_error)
+}
+
+/// The basin fractions by the paper's protocol: `points` equally spaced speeds between any two neighbouring fixed points.
+/// A dictionary from names of fates to fractions.
+#[pyfunction]
+#[pyo3(signature = (mass_ratio, first = 1, last = 6, points = 10_000))]
+pub(crate) fn fractions(
+    py: Python<'_>,
+    mass_ratio: f64,
+    first: u64,
+    last: u64,
+    points: usize,
+) -> PyResult<BTreeMap<String, f64>> {
+    let found = py
+        .detach(|| hopper_basin::basin_fractions(MassRatio::new(mass_ratio)?, first, last, points));
+    let found = found.map_err(value_error)?;
+    Ok(found.counts.keys().map(|&label| (HopperFate::label_name(label), found.of(label))).collect())
+}

@@ -1,0 +1,118 @@
+//! Fixed points, traps and crises.
+
+use crate::errors::value_error;
+use hopper_basin::TrapEdge;
+use passive_hopper::MassRatio;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+/// The trap [α*_n, α*_n + Δ]: every orbit in it converges to α*_n.
+#[pyclass(frozen, get_all, eq, module = "passive_hopper")]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Trap {
+    /// The index of the fixed point.
+    n: u64,
+    /// α*_n, in units of m₂gω/k.
+    left: f64,
+    /// α*_n + Δ.
+    right: f64,
+    /// Δ, the length.
+    length: f64,
+    /// Bound on the error of the length.
+    error: f64,
+    /// Why the trap ends there: "crossing", "contact end" or "next fixed point".
+    edge: &'static str,
+}
+
+#[pymethods]
+impl Trap {
+    fn __repr__(&self) -> String {
+        format!(
+            "Trap(n={}, left={:?}, right={:?}, edge={:?})",
+            self.n, self.left, self.right, self.edge
+        )
+    }
+
+    fn __contains__(&self, alpha: f64) -> bool {
+        // The error is that of the length: a speed so near to the end is not called inside.
+        self.left <= alpha && alpha <= self.right - self.error
+    }
+}
+
+/// A mass ratio at which the map's minimum on a hump touches its fixed point, or zero.
+#[pyclass(frozen, get_all, eq, module = "passive_hopper")]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Crisis {
+    /// The index of the hump.
+    n: u64,
+    /// The mass ratio M ≤ 1 at the touch; it happens at 1/M as well.
+    mass_ratio: f64,
+    /// The lift-off speed of the minimum at the touch.
+    alpha: f64,
+}
+
+#[pymethods]
+impl Crisis {
+    fn __repr__(&self) -> String {
+        format!("Crisis(n={}, mass_ratio={:?}, alpha={:?})", self.n, self.mass_ratio, self.alpha)
+    }
+}
+
+/// α*_n, the n-th solution of tan α* = α*, in units of m₂gω/k: a float for an int, a list for a sequence of ints.
+///
+/// >>> from passive_hopper import alpha_star
+/// >>> alpha_star(1)
+/// 4.493409457909064
+#[pyfunction]
+pub(crate) fn alpha_star<'py>(
+    py: Python<'py>,
+    n: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let star = |n: i64| match u64::try_from(n) {
+        Ok(n) => Ok(passive_hopper::alpha_star(n)),
+        Err(_) => {
+            Err(PyValueError::new_err(format!("the index of a fixed point is not negative: {n}")))
+        }
+    };
+    if let Ok(n) = n.extract::<i64>() {
+        return Ok(star(n)?.into_pyobject(py)?.into_any());
+    }
+    let stars = n.try_iter()?.map(|n| star(n?.extract()?)).collect::<PyResult<Vec<f64>>>()?;
+    let count = stars.len();
+    crate::arrays::shaped(py, stars, &[count])
+}
+
+/// The trap of α*_n.
+#[pyfunction]
+pub(crate) fn trap(n: u64, mass_ratio: f64) -> PyResult<Trap> {
+    let ratio = MassRatio::new(mass_ratio).map_err(value_error)?;
+    let trap = hopper_basin::Trap::new(n, ratio).map_err(value_error)?;
+    Ok(Trap {
+        n,
+        left: trap.fixed_point.value(),
+        right: trap.right(),
+        length: trap.delta,
+        error: trap.error,
+        edge: match trap.edge {
+            TrapEdge::Crossing => "crossing",
+            TrapEdge::ContactEnd => "contact end",
+            TrapEdge::NextFixedPoint => "next fixed point",
+        },
+    })
+}
+
+/// The mass ratio from which orbits of hump n fall below α*_n.
+#[pyfunction]
+pub(crate) fn crisis(n: u64) -> PyResult<Crisis> {
+    let hopper_basin::Crisis { n, mass_ratio, alpha, .. } =
+        hopper_basin::crisis(n).map_err(value_error)?;
+    Ok(Crisis { n, mass_ratio, alpha })
+}
+
+/// The mass ratio from which orbits of hump n are grounded.
+#[pyfunction]
+pub(crate) fn grounding(n: u64) -> PyResult<Crisis> {
+    let hopper_basin::Crisis { n, mass_ratio, alpha, .. } =
+        hopper_basin::grounding(n).map_err(value_error)?;
+    Ok(Crisis { n, mass_ratio, alpha })
+}

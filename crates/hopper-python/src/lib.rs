@@ -1,0 +1,37 @@
+//! The native part of the Python package `passive_hopper`. It converts arguments and results, and computes nothing itself.
+
+mod arrays;
+mod basins;
+mod errors;
+mod fates;
+mod fixed_points;
+mod hop;
+mod interruptible;
+mod map;
+
+use pyo3::prelude::*;
+
+/// The native part of `passive_hopper`.
+#[pymodule]
+fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_class::<map::LiftOffMap>()?;
+    module.add_class::<hop::Hop>()?;
+    module.add_class::<hop::Landing>()?;
+    module.add_class::<fates::Fate>()?;
+    module.add_class::<fixed_points::Trap>()?;
+    module.add_class::<fixed_points::Crisis>()?;
+    module.add_class::<basins::IntervalBasins>()?;
+    module.add_class::<basins::Bounds>()?;
+    module.add_function(wrap_pyfunction!(fixed_points::alpha_star, module)?)?;
+    module.add_function(wrap_pyfunction!(fixed_points::trap, module)?)?;
+    module.add_function(wrap_pyfunction!(fixed_points::crisis, module)?)?;
+    module.add_function(wrap_pyfunction!(fixed_points::grounding, module)?)?;
+    module.add_function(wrap_pyfunction!(fates::label_name, module)?)?;
+    module.add_function(wrap_pyfunction!(fates::label_codes, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::basin_labels, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::interval_basins, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::fractions, module)?)?;
+    Ok(())
+}

@@ -1,0 +1,164 @@
+//! The lift-off map for scalars and arrays.
+
+use crate::arrays::{Numbers, like, shaped};
+use crate::errors::{map_error, value_error};
+use crate::fates::Fate;
+use crate::hop::Hop;
+use crate::interruptible::pieces;
+use hopper_basin::Fates;
+use passive_hopper::{HopStatus, MassRatio};
+use pyo3::prelude::*;
+use std::sync::OnceLock;
+
+/// Speeds between two looks for Ctrl-C: some milliseconds.
+const PIECE: usize = 1 << 16;
+
+/// The map α′ = f(α; M) from one gradual lift-off speed to the next.
+///
+/// Speeds are in units of m₂gω/k, and M = m₂/m₁ is the lower mass over the upper one. A call takes a number or anything that
+/// NumPy makes an array of, and gives a float or an array of the same shape. NaN means that the hopper is grounded, and stays NaN.
+///
+/// >>> from passive_hopper import LiftOffMap
+/// >>> m = LiftOffMap(0.2)
+/// >>> m(7.0)
+/// 5.4319312674983316
+/// >>> m([5.5, 7.0]).shape
+/// (2,)
+///
+/// Every result has the bits of the Rust library: α′ is right to some ulps, and every decision of a hop is larger than its error.
+#[pyclass(frozen, module = "passive_hopper")]
+pub(crate) struct LiftOffMap {
+    map: passive_hopper::LiftOffMap,
+    fates: OnceLock<Fates>,
+}
+
+#[pymethods]
+impl LiftOffMap {
+    #[new]
+    fn new(mass_ratio: f64) -> PyResult<Self> {
+        let ratio = MassRatio::new(mass_ratio).map_err(map_error)?;
+        Ok(LiftOffMap { map: passive_hopper::LiftOffMap::new(ratio), fates: OnceLock::new() })
+    }
+
+    /// M = m₂/m₁.
+    #[getter]
+    fn mass_ratio(&self) -> f64 {
+        self.map.mass_ratio().value()
+    }
+
+    /// f(α), for a number or an array; NaN where the hopper is grounded.
+    #[pyo3(signature = (alpha, /))]
+    fn __call__<'py>(
+        &self,
+        py: Python<'py>,
+        alpha: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        if let Ok(alpha) = alpha.extract::<f64>() {
+            let next =
+                if alpha.is_nan() { None } else { self.map.image(alpha).map_err(map_error)? };
+            return Ok(next.unwrap_or(f64::NAN).into_pyobject(py)?.into_any());
+        }
+        self.images(py, alpha.extract()?, false)
+    }
+
+    /// f(α) for all speeds at once; NaN where the hopper is grounded.
+    ///
+    /// With status=True a pair: the images, and an array of uint8 with 0 where the hopper lifts off again, 1 where it is grounded,
+    /// 2 where the hop cannot be decided, and 3 where the speed was NaN. Without it an undecided hop raises UndecidedError.
+    #[pyo3(signature = (alpha, status = false))]
+    fn images<'py>(
+        &self,
+        py: Python<'py>,
+        alpha: Numbers,
+        status: bool,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let Numbers { values: speeds, shape } = alpha;
+        let mut images = vec![0.0; speeds.len()];
+        let mut all = vec![HopStatus::NoSpeed; if status { speeds.len() } else { 0 }];
+        let hop = |k: usize| {
+            let range = k * PIECE..((k + 1) * PIECE).min(speeds.len());
+            let (from, to) = (&speeds[range.clone()], &mut images[range.clone()]);
+            match all.get_mut(range) {
+                Some(status) if status.len() == from.len() => {
+                    self.map.images_with_status(from, to, status)
+                }
+                _ => self.map.images_into(from, to),
+            }
+        };
+        pieces(py, speeds.len().div_ceil(PIECE), hop, map_error, |_| Ok(()))?;
+        let images = like(py, images, &shape)?;
+        if !status {
+            return Ok(images);
+        }
+        let codes: Vec<u8> = all.into_iter().map(|status| status as u8).collect();
+        let codes = shaped(py, codes, &shape)?;
+        Ok((images, codes).into_pyobject(py)?.into_any())
+    }
+
+    /// The hop that starts with speed α, with all its landings.
+    fn hop(&self, alpha: f64) -> PyResult<Hop> {
+        let hop = self.map.hop(alpha).map_err(map_error)?;
+        let landings = self.map.landings(alpha).map_err(map_error)?;
+        Ok(Hop::new(&hop, &landings))
+    }
+
+    /// The speeds α, f(α), f(f(α)), …: an array with up to `hops` + 1 speeds. It ends early if the hopper is grounded.
+    #[pyo3(signature = (alpha, hops = 100))]
+    fn orbit<'py>(&self, py: Python<'py>, alpha: f64, hops: usize) -> PyResult<Bound<'py, PyAny>> {
+        self.map.check_speed(alpha).map_err(map_error)?;
+        let mut speeds = vec![alpha];
+        let mut grounded = false;
+        let hop = |k: usize| {
+            for _ in k * PIECE..((k + 1) * PIECE).min(hops) {
+                let Some(&speed) = speeds.last().filter(|_| !grounded) else { break };
+                match self.map.image(speed)? {
+                    Some(next) => speeds.push(next),
+                    None => grounded = true,
+                }
+            }
+            Ok(())
+        };
+        pieces(py, hops.div_ceil(PIECE), hop, map_error, |_| Ok(()))?;
+        let count = speeds.len();
+        shaped(py, speeds, &[count])
+    }
+
+    /// The fate of the orbit from α, with the number of hops until it is known.
+    fn fate(&self, py: Python<'_>, alpha: f64) -> PyResult<Fate> {
+        py.detach(|| Fate::of(self.stored_fates()?, alpha)).map_err(value_error)
+    }
+
+    /// The labels of many speeds, as an array of uint16; label_name names them.
+    fn fates<'py>(&self, py: Python<'py>, alpha: Numbers) -> PyResult<Bound<'py, PyAny>> {
+        let Numbers { values: speeds, shape } = alpha;
+        let mut codes = Vec::with_capacity(speeds.len());
+        let fates = self.stored_fates().map_err(value_error)?;
+        let label = |k: usize| {
+            let range = k * PIECE..((k + 1) * PIECE).min(speeds.len());
+            codes.extend(fates.labels(&speeds[range])?.iter().map(|label| label.code()));
+            Ok::<(), hopper_basin::Error>(())
+        };
+        pieces(py, speeds.len().div_ceil(PIECE), label, value_error, |_| Ok(()))?;
+        shaped(py, codes, &shape)
+    }
+
+    /// The derivatives (∂α′/∂α, ∂α′/∂M); None if the hopper is grounded.
+    fn slopes(&self, alpha: f64) -> PyResult<Option<(f64, f64)>> {
+        let slopes = self.map.slopes(alpha).map_err(map_error)?;
+        Ok(slopes.map(|slopes| (slopes.by_speed, slopes.by_mass_ratio)))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("LiftOffMap({:?})", self.mass_ratio())
+    }
+}
+
+impl LiftOffMap {
+    fn stored_fates(&self) -> Result<&Fates, hopper_basin::Error> {
+        if let Some(fates) = self.fates.get() {
+            return Ok(fates);
+        }
+        let fates = Fates::new(self.map.mass_ratio())?;
+        Ok(self.fates.get_or_init(|| fates))
+    }
+}

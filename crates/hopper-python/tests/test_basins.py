@@ -1,0 +1,147 @@
+"""Fates, traps and basins."""
+
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import passive_hopper as hopper
+import pytest
+
+
+def test_fates_of_scalars_and_arrays_agree():
+    m = hopper.LiftOffMap(0.2)
+    speeds = np.linspace(4.5, 20, 500)
+    assert [m.fate(float(speed)).label for speed in speeds] == m.fates(speeds).tolist()
+    assert m.fates(speeds.reshape(5, 100)).shape == (5, 100)
+    fate = m.fate(4.55)
+    assert (fate.label, fate.name) == (1, hopper.label_name(1))
+
+
+def test_traps_and_crises():
+    trap = hopper.trap(1, 0.2)
+    assert trap.left == hopper.alpha_star(1) and trap.left < trap.right
+    assert trap.left in trap and trap.right + 1e-9 not in trap
+    assert hopper.crisis(1).mass_ratio == pytest.approx(0.10345775533613707, abs=1e-15)
+    assert hopper.grounding(1).mass_ratio > 0.3
+    assert np.array_equal(hopper.alpha_star(range(1, 4)), [hopper.alpha_star(n) for n in (1, 2, 3)])
+    with pytest.raises(ValueError):
+        hopper.crisis(0)
+    with pytest.raises((ValueError, OverflowError)):
+        hopper.alpha_star(-1)
+
+
+def test_intervals_agree_with_fates():
+    basins = hopper.interval_basins(0.2, last=3)
+    left, right, labels = basins.arrays()
+    assert len(left) == len(basins) and (left <= right).all() and (left[1:] >= right[:-1]).all()
+    m = hopper.LiftOffMap(0.2)
+    wide = right - left > 1e-9
+    assert np.array_equal(m.fates((0.5 * (left + right))[wide]), labels[wide])
+    assert basins.ground == "proved" and basins.probes[1] == 0
+    total = sum(basins.fraction(int(label)).lower for label in np.unique(labels))
+    assert total == pytest.approx(1 - basins.undecided / (basins.window[1] - basins.window[0]), abs=1e-9)
+    assert basins.label(4.55) == 1
+    assert hopper.interval_basins(2.0, last=2).ground == "sampled"
+
+
+def test_the_papers_fraction():
+    fractions = hopper.fractions(0.2)
+    incessant = sum(share for name, share in fractions.items() if name.startswith("to "))
+    assert incessant == pytest.approx(0.037, abs=5e-4)
+    assert sum(fractions.values()) == pytest.approx(1)
+
+
+def test_rasters_have_the_fates_of_their_pixels():
+    calls = []
+    ratios, speeds, labels = hopper.basin_labels(
+        M=(0.15, 0.9), alpha=(4.5, 12.0), shape=(100, 80), progress=lambda done, all: calls.append((done, all))
+    )
+    assert labels.shape == (100, 80) and labels.dtype == np.uint16
+    assert calls[-1] == (100, 100) and calls == sorted(calls)
+    for column in (0, 37, 99):
+        assert np.array_equal(hopper.LiftOffMap(ratios[column]).fates(speeds), labels[column])
+
+
+def test_datasets_name_their_flags():
+    xarray = pytest.importorskip("xarray")
+    found = hopper.basins(shape=(20, 30))
+    assert isinstance(found, xarray.Dataset) and found["label"].dims == ("M", "alpha")
+    label = found["label"]
+    assert len(label.attrs["flag_meanings"].split()) == len(label.attrs["flag_values"])
+
+
+@pytest.mark.parametrize(
+    "arguments, part",
+    [
+        ({"M": (1.0, 0.1)}, "0.1"),
+        ({"M": (0.1, float("nan"))}, "NaN"),
+        ({"alpha": (-1.0, 5.0)}, "-1"),
+        ({"shape": (0, 10)}, "0"),
+        ({"shape": (2**40, 2**40)}, "1099511627776"),
+    ],
+)
+def test_wrong_windows_are_value_errors_with_the_numbers(arguments, part):
+    with pytest.raises(ValueError) as caught:
+        hopper.basin_labels(**({"shape": (4, 4)} | arguments))
+    assert part in str(caught.value)
+
+
+def test_an_error_in_progress_ends_the_computation():
+    def progress(done, all):
+        raise RuntimeError("stop")
+
+    with pytest.raises(RuntimeError, match="stop"):
+        hopper.basin_labels(shape=(512, 512), progress=progress)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_ctrl_c_ends_a_long_raster_soon():
+    def interrupt():
+        time.sleep(0.3)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        hopper.basin_labels(shape=(20000, 20000))
+    thread.join()
+
+
+def test_other_threads_run_meanwhile():
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    hopper.basin_labels(shape=(512, 512))
+    done.set()
+    thread.join()
+    assert len(ticks) > 5
+
+
+def test_doctests_run():
+    import doctest
+
+    from passive_hopper import _native, datasets
+
+    pytest.importorskip("xarray")
+    finder = doctest.DocTestFinder()
+    names = [hopper, datasets, _native.LiftOffMap, _native.alpha_star, _native.interval_basins, _native.label_name]
+    for name in names:
+        for test in finder.find(name, getattr(name, "__name__", "hopper"), globs={}):
+            result = doctest.DocTestRunner().run(test)
+            assert result.failed == 0, test.name
+
+
+def test_pictures_are_drawn(tmp_path):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    hopper.cobweb(0.2, 7.0).figure.savefig(tmp_path / "cobweb.png")
+    hopper.plot_basins(shape=(64, 64)).figure.savefig(tmp_path / "basins.png")
+    assert (tmp_path / "basins.png").stat().st_size > 1000

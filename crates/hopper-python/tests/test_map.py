@@ -1,0 +1,94 @@
+"""The map for scalars and arrays."""
+
+import numpy as np
+import passive_hopper as hopper
+import pytest
+
+
+@pytest.fixture
+def lift_off_map():
+    return hopper.LiftOffMap(0.2)
+
+
+def test_scalars_are_floats_and_arrays_keep_their_shape(lift_off_map):
+    assert isinstance(lift_off_map(7.0), float)
+    assert isinstance(lift_off_map(np.float64(7.0)), float)
+    assert isinstance(lift_off_map(7), float)
+    for speeds in ([5.0, 7.0], (5.0, 7.0), np.array([5, 7]), np.array([5.0, 7.0], dtype=np.float32)):
+        images = lift_off_map(speeds)
+        assert images.dtype == np.float64 and images.shape == (2,)
+        assert images[1] == lift_off_map(7.0)
+    square = np.linspace(4.5, 20, 12).reshape(3, 4)
+    assert np.array_equal(lift_off_map(square).ravel(), lift_off_map(square.ravel()))
+    # Strides that are not those of C.
+    assert np.array_equal(lift_off_map(square.T), lift_off_map(square).T)
+    assert np.array_equal(lift_off_map(square[:, ::-2]), lift_off_map(square)[:, ::-2])
+    assert lift_off_map(np.empty((0, 3))).shape == (0, 3)
+
+
+def test_arrays_and_scalars_have_the_same_bits(lift_off_map):
+    speeds = np.linspace(0.1, 20, 3000)
+    one_by_one = np.array([lift_off_map(float(speed)) for speed in speeds])
+    assert np.array_equal(lift_off_map(speeds), one_by_one, equal_nan=True)
+
+
+def test_the_bits_are_those_of_the_library(lift_off_map):
+    # crates/passive-hopper/tests/bits.rs has the same hash of the same images.
+    images = lift_off_map(4.5 + np.arange(100_000) * 2.0**-13)
+    digest = 0xCBF29CE484222325
+    for word in np.nan_to_num(images).view(np.uint64).tolist():
+        digest = (digest ^ word) * 0x100000001B3 % 2**64
+    assert digest == 0x242D58AF4F602311
+
+
+def test_nan_is_grounded_and_stays(lift_off_map):
+    heavy = hopper.LiftOffMap(0.8)
+    grounded = heavy.fates(np.linspace(4.5, 20, 1000))
+    assert np.isnan(heavy(np.nan))
+    images, status = heavy.images([np.nan, 3.0, 7.0], status=True)
+    assert status.dtype == np.uint8
+    assert np.array_equal(np.isnan(images), status != 0)
+    assert status[0] == 3
+    assert hopper.label_name(int(grounded.max())) == "grounded"
+
+
+@pytest.mark.parametrize("bad", [-1.0, 0.0, np.inf, 1e300, [5.0, -2.0]])
+def test_wrong_speeds_are_value_errors_with_the_number(lift_off_map, bad):
+    number = str(np.ravel(bad)[-1]).removesuffix(".0")
+    with pytest.raises(ValueError) as caught:
+        lift_off_map(bad)
+    assert number.split("e")[0] in str(caught.value)
+
+
+@pytest.mark.parametrize("bad", ["seven", None, [1 + 2j], [[1.0], [2.0, 3.0]], object()])
+def test_wrong_types_are_type_or_value_errors(lift_off_map, bad):
+    with pytest.raises((TypeError, ValueError)):
+        lift_off_map(bad)
+
+
+@pytest.mark.parametrize("bad", [0.0, -1.0, np.nan, np.inf])
+def test_wrong_mass_ratios_are_value_errors(bad):
+    with pytest.raises(ValueError, match="mass ratio"):
+        hopper.LiftOffMap(bad)
+
+
+def test_hops_and_orbits(lift_off_map):
+    hop = lift_off_map.hop(7.0)
+    assert hop.next == lift_off_map(7.0)
+    assert hop.sudden + 1 == len(hop.landings)
+    assert hop.loss == pytest.approx(hop.speed - hop.next, rel=1e-12)
+    assert "next=" in repr(hop) and "time=" in repr(hop.landings[0])
+    orbit = lift_off_map.orbit(7.0, 5)
+    assert orbit[0] == 7.0 and len(orbit) == 6
+    assert np.array_equal(lift_off_map(orbit[:-1]), orbit[1:])
+    assert len(lift_off_map.orbit(7.0, 0)) == 1
+    slope, _ = lift_off_map.slopes(7.0)
+    step = 1e-6
+    assert (lift_off_map(7.0 + step) - lift_off_map(7.0 - step)) / (2 * step) == pytest.approx(slope, rel=1e-4)
+
+
+def test_contact_hops_are_the_same_at_one_over_m():
+    light, heavy = hopper.LiftOffMap(0.25), hopper.LiftOffMap(4.0)
+    speeds = [speed for speed in np.linspace(4.5, 20, 1000) if light.hop(speed).sudden == heavy.hop(speed).sudden == 0]
+    assert len(speeds) > 100
+    assert np.allclose(light(speeds), heavy(speeds), rtol=1e-12, equal_nan=True)

@@ -1,0 +1,65 @@
+//! `cargo xtask check-python`: builds the Python package in an environment of its own, and runs its tests.
+//!
+//! It needs Python 3.10 or newer, a package index, and the crates that bind Rust to Python. If one of them cannot be had, it
+//! prints a line that begins with SKIPPED.
+
+use crate::error::Error;
+use crate::python_environment::{call, environment_python, first_python};
+use crate::repository::repository;
+use std::io::Write;
+use std::path::PathBuf;
+use std::process::{Command, ExitCode, Stdio};
+
+/// Builds, installs, tests.
+pub(crate) fn run() -> Result<ExitCode, Error> {
+    let root = repository();
+    let package = root.join("crates/hopper-python");
+    let target = root.join("target/python");
+    let python = first_python();
+    if !succeeds(Command::new(&python).args(["-c", NEW_ENOUGH])) {
+        return skip("Python 3.10 or newer is not there; name one with PYTHON=/path/to/python3");
+    }
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut fetch = Command::new(&cargo);
+    fetch.args(["fetch", "--quiet", "--locked", "--manifest-path"]).arg(package.join("Cargo.toml"));
+    if !succeeds(&mut fetch) {
+        return skip("its crates cannot be had (cargo fetch fails in crates/hopper-python)");
+    }
+    let list = package.join("tests/requirements.txt");
+    let Ok(inside) = environment_python(&python, &target.join("environment"), &list) else {
+        return skip("the packages of its tests cannot be installed; its messages stand above");
+    };
+    let mut install = Command::new(&inside);
+    install.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    install.args(["--no-build-isolation", "--no-deps", "--force-reinstall"]).arg(&package);
+    // The build starts the program `maturin` of the environment.
+    let programs = inside.parent().map(PathBuf::from);
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let all = programs.into_iter().chain(std::env::split_paths(&path));
+    if let Ok(path) = std::env::join_paths(all) {
+        install.env("PATH", path);
+    }
+    call(&inside, install.env("CARGO_TARGET_DIR", target.join("build")).current_dir(&root))?;
+    let mut tests = Command::new(&inside);
+    // Without this, Python would write its compiled files into the repository.
+    tests.args(["-m", "pytest", "-p", "no:cacheprovider"]).env("PYTHONDONTWRITEBYTECODE", "1");
+    call(&inside, tests.current_dir(package))?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Ends with an error in a Python that is too old, or has no virtual environments.
+const NEW_ENOUGH: &str = "import sys, venv; sys.exit(sys.version_info < (3, 10))";
+
+fn succeeds(command: &mut Command) -> bool {
+    command
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success())
+}
+
+fn skip(reason: &str) -> Result<ExitCode, Error> {
+    let at = |source| Error::File { path: PathBuf::from("standard output"), source };
+    writeln!(std::io::stdout(), "SKIPPED the Python package: {reason}").map_err(at)?;
+    Ok(ExitCode::SUCCESS)
+}
