@@ -181,7 +181,10 @@ const ASIDE: f64 = 1e-9;
 /// use basin_of_attraction::{CurveLimits, Interval};
 /// use hopper_basin::{Fates, FractionLimits, HopperFate, fractions_over_mass_ratio, hump_fractions};
 /// use passive_hopper::MassRatio;
-/// let at = |m: f64| Ok(hump_fractions(&Fates::new(MassRatio::new(m)?)?, 1, 2, FractionLimits::default())?.0);
+/// let at = |m: f64| {
+///     let fates = Fates::new(MassRatio::new(m)?)?;
+///     Ok::<_, hopper_basin::Error>(hump_fractions(&fates, 1, 2, FractionLimits::default())?.0)
+/// };
 /// let curve = CurveLimits { first_steps: 2, difference: 0.25, ..CurveLimits::default() };
 /// let found = fractions_over_mass_ratio(Interval::new(0.08, 0.13)?, 1, 2, curve, at)?;
 /// // All of hump 1 goes to α*_1 up to the crisis.
