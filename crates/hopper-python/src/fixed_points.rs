@@ -7,35 +7,61 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// The trap [α*_n, α*_n + Δ]: every orbit in it converges to α*_n.
-#[pyclass(frozen, get_all, eq, module = "passive_hopper")]
+#[pyclass(frozen, eq, module = "passive_hopper")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trap {
-    /// The index of the fixed point.
-    n: u64,
-    /// α*_n, in units of m₂gω/k.
-    left: f64,
-    /// α*_n + Δ.
-    right: f64,
-    /// Δ, the length.
-    length: f64,
-    /// Bound on the error of the length.
-    error: f64,
-    /// Why the trap ends there: "crossing", "contact end" or "next fixed point".
-    edge: &'static str,
+    trap: hopper_basin::Trap,
 }
 
 #[pymethods]
 impl Trap {
+    /// The index of the fixed point.
+    #[getter]
+    fn n(&self) -> u64 {
+        self.trap.n
+    }
+
+    /// α*_n, in units of m₂gω/k.
+    #[getter]
+    fn left(&self) -> f64 {
+        self.trap.fixed_point.value()
+    }
+
+    /// α*_n + Δ.
+    #[getter]
+    fn right(&self) -> f64 {
+        self.trap.right()
+    }
+
+    /// Δ, the length.
+    #[getter]
+    fn length(&self) -> f64 {
+        self.trap.delta
+    }
+
+    /// Bound on the error of the length.
+    #[getter]
+    fn error(&self) -> f64 {
+        self.trap.error
+    }
+
+    /// Why the trap ends there: "crossing", "contact end" or "next fixed point".
+    #[getter]
+    fn edge(&self) -> &'static str {
+        match self.trap.edge {
+            TrapEdge::Crossing => "crossing",
+            TrapEdge::ContactEnd => "contact end",
+            TrapEdge::NextFixedPoint => "next fixed point",
+        }
+    }
+
     fn __repr__(&self) -> String {
-        format!(
-            "Trap(n={}, left={:?}, right={:?}, edge={:?})",
-            self.n, self.left, self.right, self.edge
-        )
+        let (left, right) = (self.left(), self.right());
+        format!("Trap(n={}, left={left:?}, right={right:?}, edge={:?})", self.n(), self.edge())
     }
 
     fn __contains__(&self, alpha: f64) -> bool {
-        // The error is that of the length: a speed so near to the end is not called inside.
-        self.left <= alpha && alpha <= self.right - self.error
+        self.trap.contains(alpha)
     }
 }
 
@@ -86,33 +112,23 @@ pub(crate) fn alpha_star<'py>(
 #[pyfunction]
 pub(crate) fn trap(n: u64, mass_ratio: f64) -> PyResult<Trap> {
     let ratio = MassRatio::new(mass_ratio).map_err(value_error)?;
-    let trap = hopper_basin::Trap::new(n, ratio).map_err(value_error)?;
-    Ok(Trap {
-        n,
-        left: trap.fixed_point.value(),
-        right: trap.right(),
-        length: trap.delta,
-        error: trap.error,
-        edge: match trap.edge {
-            TrapEdge::Crossing => "crossing",
-            TrapEdge::ContactEnd => "contact end",
-            TrapEdge::NextFixedPoint => "next fixed point",
-        },
-    })
+    hopper_basin::Trap::new(n, ratio).map(|trap| Trap { trap }).map_err(value_error)
+}
+
+impl From<hopper_basin::Crisis> for Crisis {
+    fn from(of: hopper_basin::Crisis) -> Self {
+        Crisis { n: of.n, mass_ratio: of.mass_ratio, alpha: of.alpha }
+    }
 }
 
 /// The mass ratio from which orbits of hump n fall below α*_n.
 #[pyfunction]
 pub(crate) fn crisis(n: u64) -> PyResult<Crisis> {
-    let hopper_basin::Crisis { n, mass_ratio, alpha, .. } =
-        hopper_basin::crisis(n).map_err(value_error)?;
-    Ok(Crisis { n, mass_ratio, alpha })
+    hopper_basin::crisis(n).map(Crisis::from).map_err(value_error)
 }
 
 /// The mass ratio from which orbits of hump n are grounded.
 #[pyfunction]
 pub(crate) fn grounding(n: u64) -> PyResult<Crisis> {
-    let hopper_basin::Crisis { n, mass_ratio, alpha, .. } =
-        hopper_basin::grounding(n).map_err(value_error)?;
-    Ok(Crisis { n, mass_ratio, alpha })
+    hopper_basin::grounding(n).map(Crisis::from).map_err(value_error)
 }
