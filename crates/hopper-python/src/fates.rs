@@ -41,16 +41,8 @@ pub(crate) fn label_name(label: u16) -> String {
     HopperFate::label_name(Label::from_code(label))
 }
 
-/// The codes of all labels that are no fixed points.
+/// The colour of a label in the figures, as CSS.
 #[pyfunction]
-pub(crate) fn label_codes() -> Vec<u16> {
-    [
-        HopperFate::GROUNDED,
-        HopperFate::UNDECIDED,
-        HopperFate::UNDECIDED_PRECISION,
-        HopperFate::UNDECIDED_HOP,
-        HopperFate::BEYOND_LABELS,
-    ]
-    .map(Label::code)
-    .to_vec()
+pub(crate) fn label_colour(label: u16) -> &'static str {
+    hopper_figures::fate_colors::css(Label::from_code(label))
 }

@@ -29,7 +29,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fixed_points::crisis, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::grounding, module)?)?;
     module.add_function(wrap_pyfunction!(fates::label_name, module)?)?;
-    module.add_function(wrap_pyfunction!(fates::label_codes, module)?)?;
+    module.add_function(wrap_pyfunction!(fates::label_colour, module)?)?;
     module.add_function(wrap_pyfunction!(basins::basin_labels, module)?)?;
     module.add_function(wrap_pyfunction!(basins::interval_basins, module)?)?;
     module.add_function(wrap_pyfunction!(basins::fractions, module)?)?;

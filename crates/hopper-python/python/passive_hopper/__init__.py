@@ -31,7 +31,7 @@ from ._native import (
     fractions,
     grounding,
     interval_basins,
-    label_codes,
+    label_colour,
     label_name,
     trap,
 )
@@ -56,7 +56,7 @@ __all__ = [
     "fractions",
     "grounding",
     "interval_basins",
-    "label_codes",
+    "label_colour",
     "label_name",
     "plot_basins",
     "trap",

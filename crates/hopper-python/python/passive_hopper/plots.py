@@ -35,10 +35,6 @@ def cobweb(mass_ratio, alpha, hops=30, ax=None):
     return ax
 
 
-#: The colours of the paper's basins: decaying, α*₁, α*₂, …; repeated for more.
-COLOURS = ["#ffffff", "#4daf4a", "#e41a1c", "#377eb8", "#984ea3", "#ff7f00", "#ffff33", "#a65628"]
-
-
 def plot_basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), ax=None):
     """Draws the basins over a window of (M, α) with a legend; returns the axes."""
     import numpy
@@ -48,11 +44,10 @@ def plot_basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), ax=None):
     plt = _matplotlib()
     ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
     ratios, speeds, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape)
-    others = set(_native.label_codes())
     picture = numpy.empty(labels.T.shape + (3,))
     legend = []
     for code in (int(code) for code in numpy.unique(labels)):
-        colour = "0.5" if code in others else COLOURS[code % len(COLOURS)]
+        colour = _native.label_colour(code)
         picture[labels.T == code] = to_rgb(colour)
         legend.append(Patch(facecolor=colour, edgecolor="0.3", linewidth=0.5, label=_native.label_name(code)))
     half = [(ratios[-1] - ratios[0]) / max(len(ratios) - 1, 1) / 2, (speeds[-1] - speeds[0]) / max(len(speeds) - 1, 1) / 2]
