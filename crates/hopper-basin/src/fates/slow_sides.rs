@@ -22,8 +22,9 @@ fn farthest(n: u64, mass_ratio: MassRatio, turn: f64) -> f64 {
     (1.1 * root * root * root).min(FARTHEST)
 }
 
-/// The largest A x of a walk and of a jump.
-const WALK: f64 = 1.2;
+/// The largest A x of a walk and of a jump. From 0.8 an orbit leaves with the next hop or two, which lose less than a walk costs. It
+/// affects the time only.
+const WALK: f64 = 0.8;
 const JUMP: f64 = 0.12;
 
 /// Largest error of a phase with which an orbit jumps. Where it decides too little, longer arithmetic has a smaller one. The

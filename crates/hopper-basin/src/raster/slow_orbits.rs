@@ -7,7 +7,7 @@ use crate::raster::arcs::{Arc, Arcs};
 use crate::raster::column::Column;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, NO_INTERVAL};
-use crate::raster::speed_within::{is_inside, offset_from, speed_at, with_signs};
+use crate::raster::speed_within::{hop_within, is_inside, offset_from, speed_at};
 use crate::raster::strip::Strip;
 use crate::traps::trap::TrapSide;
 use passive_hopper::HopWithin;
@@ -351,7 +351,7 @@ impl<'a> Strip<'a> {
             let column = &self.columns[column];
             itinerary.hop(column.laps.as_ref()?.lap(speed, error));
             let map = column.fates.map();
-            match with_signs(map, (speed, error), map.hop_within(speed, error)) {
+            match hop_within(map, (speed, error)) {
                 HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
                 HopWithin::Grounded => {
                     itinerary.end_on_ground();

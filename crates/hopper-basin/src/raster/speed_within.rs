@@ -45,3 +45,14 @@ pub(crate) fn with_signs(map: &LiftOffMap, before: (f64, f64), hop: HopWithin) -
         found => found,
     }
 }
+
+/// The hop from a speed with its error. Where the error is large, the first bound would mostly be computed in vain.
+pub(crate) fn hop_within(map: &LiftOffMap, (speed, error): (f64, f64)) -> HopWithin {
+    if error > LARGE_ERROR {
+        let found = map.signed_hop_within(speed, error);
+        if found != HopWithin::Inconclusive {
+            return found;
+        }
+    }
+    with_signs(map, (speed, error), map.hop_within(speed, error))
+}
