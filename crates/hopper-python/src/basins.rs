@@ -2,24 +2,44 @@
 
 use crate::arrays::shaped;
 use crate::errors::value_error;
-use crate::interruptible::pieces;
+use crate::interruptible::{Watch, in_background};
 use basin_of_attraction::{Grid, Interval, Label, Refinement, columns_in_parallel};
 use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, basin_columns};
 use passive_hopper::MassRatio;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
-/// Columns of a strip that one thread computes, and strips between two looks for Ctrl-C.
+/// Columns of a strip that one thread computes at a time: the orbits of several columns fill a vector.
 const STRIP: usize = 16;
-const STRIPS: usize = 4;
+
+/// The labels of some columns, column after column.
+fn labels_of(
+    grid: &Grid,
+    columns: Range<usize>,
+    watch: &Watch,
+) -> Result<Vec<u16>, hopper_basin::Error> {
+    let strip = |strip: usize| {
+        let begin = columns.start + strip * STRIP;
+        let end = (begin + STRIP).min(columns.end);
+        let labels = basin_columns(grid, begin..end)?;
+        watch.finished(end - begin);
+        Ok::<_, hopper_basin::Error>(labels)
+    };
+    let go_on = |_: usize| match watch.is_stopped() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let found = columns_in_parallel(columns.len().div_ceil(STRIP), strip, go_on)?;
+    Ok(found.iter().flatten().flatten().map(|label| label.code()).collect())
+}
 
 type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 /// The label of every pixel of a window of (M, α): arrays of M, of α, and of labels (uint16) with the shape (M, α).
 ///
 /// Each label is the fate of its pixel's middle. label_name names the labels. `alpha` is the window of the paper, from α*_1 to α*_6,
-/// unless given. `progress(done, all)` is called after every few columns. Ctrl-C ends the computation within some tenths of a second.
+/// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end. Ctrl-C ends the computation.
 #[pyfunction]
 #[pyo3(signature = (M = (0.1, 1.0), alpha = None, shape = (512, 512), progress = None))]
 #[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
@@ -38,24 +58,11 @@ pub(crate) fn basin_labels<'py>(
         columns: shape.0,
         rows: shape.1,
     };
-    let pixels = grid.pixels().map_err(value_error)?;
-    let mut codes: Vec<u16> = Vec::with_capacity(pixels);
-    let width = STRIP * STRIPS;
-    let compute = |k: usize| {
-        let first = k * width;
-        let columns = (grid.columns - first).min(width);
-        let strip = |strip: usize| {
-            let begin = first + strip * STRIP;
-            basin_columns(&grid, begin..(begin + STRIP).min(first + columns))
-        };
-        let found =
-            columns_in_parallel(columns.div_ceil(STRIP), strip, |_| ControlFlow::Continue(()))?;
-        codes.extend(found.iter().flatten().flatten().map(|label| label.code()));
-        Ok::<(), hopper_basin::Error>(())
-    };
+    grid.pixels().map_err(value_error)?;
     let all = grid.columns;
-    pieces(py, all.div_ceil(width), compute, value_error, |done| match &progress {
-        Some(progress) => progress.call1(((done * width).min(all), all)).map(|_| ()),
+    let work = move |watch: &Watch| labels_of(&grid, 0..grid.columns, watch);
+    let codes = in_background(py, work, value_error, |done| match &progress {
+        Some(progress) => progress.call1((done, all)).map(drop),
         None => Ok(()),
     })?;
     let ratios: Vec<f64> = (0..grid.columns).map(|column| grid.x_at(column)).collect();
@@ -191,11 +198,11 @@ pub(crate) fn interval_basins(
     samples: usize,
 ) -> PyResult<IntervalBasins> {
     let refinement = Refinement { undecided, shortest, ..Refinement::default() };
-    let found = py.detach(|| {
+    let work = move |_: &Watch| {
         let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
         hopper_basin::hopper_basins(&fates, first, last, samples, refinement)
-    });
-    found.map(|found| IntervalBasins { found }).map_err(value_error)
+    };
+    in_background(py, work, value_error, |_| Ok(())).map(|found| IntervalBasins { found })
 }
 
 /// The basin fractions by the paper's protocol: `points` equally spaced speeds between any two neighbouring fixed points.
@@ -209,8 +216,9 @@ pub(crate) fn fractions(
     last: u64,
     points: usize,
 ) -> PyResult<BTreeMap<String, f64>> {
-    let found = py
-        .detach(|| hopper_basin::basin_fractions(MassRatio::new(mass_ratio)?, first, last, points));
-    let found = found.map_err(value_error)?;
+    let work = move |_: &Watch| {
+        hopper_basin::basin_fractions(MassRatio::new(mass_ratio)?, first, last, points)
+    };
+    let found = in_background(py, work, value_error, |_| Ok(()))?;
     Ok(found.counts.keys().map(|&label| (HopperFate::label_name(label), found.of(label))).collect())
 }

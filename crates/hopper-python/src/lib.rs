@@ -8,6 +8,7 @@ mod fixed_points;
 mod hop;
 mod interruptible;
 mod map;
+mod motion;
 
 use pyo3::prelude::*;
 
@@ -33,5 +34,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(basins::basin_labels, module)?)?;
     module.add_function(wrap_pyfunction!(basins::interval_basins, module)?)?;
     module.add_function(wrap_pyfunction!(basins::fractions, module)?)?;
+    module.add_function(wrap_pyfunction!(motion::motion_arrays, module)?)?;
+    module.add_function(wrap_pyfunction!(motion::motion_event_names, module)?)?;
+    module.add_function(wrap_pyfunction!(motion::animation_bytes, module)?)?;
     Ok(())
 }

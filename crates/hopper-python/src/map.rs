@@ -85,7 +85,7 @@ impl LiftOffMap {
                 _ => self.map.images_into(from, to),
             }
         };
-        pieces(py, speeds.len().div_ceil(PIECE), hop, map_error, |_| Ok(()))?;
+        pieces(py, speeds.len().div_ceil(PIECE), hop, map_error)?;
         let images = like(py, images, &shape)?;
         if !status {
             return Ok(images);
@@ -97,9 +97,7 @@ impl LiftOffMap {
 
     /// The hop that starts with speed α, with all its landings.
     fn hop(&self, alpha: f64) -> PyResult<Hop> {
-        let hop = self.map.hop(alpha).map_err(map_error)?;
-        let landings = self.map.landings(alpha).map_err(map_error)?;
-        Ok(Hop::new(&hop, &landings))
+        self.map.bounded_hop(alpha).map(Hop::from).map_err(map_error)
     }
 
     /// The speeds α, f(α), f(f(α)), …: an array with up to `hops` + 1 speeds. It ends early if the hopper is grounded.
@@ -118,7 +116,7 @@ impl LiftOffMap {
             }
             Ok(())
         };
-        pieces(py, hops.div_ceil(PIECE), hop, map_error, |_| Ok(()))?;
+        pieces(py, hops.div_ceil(PIECE), hop, map_error)?;
         let count = speeds.len();
         shaped(py, speeds, &[count])
     }
@@ -138,7 +136,7 @@ impl LiftOffMap {
             codes.extend(fates.labels(&speeds[range])?.iter().map(|label| label.code()));
             Ok::<(), hopper_basin::Error>(())
         };
-        pieces(py, speeds.len().div_ceil(PIECE), label, value_error, |_| Ok(()))?;
+        pieces(py, speeds.len().div_ceil(PIECE), label, value_error)?;
         shaped(py, codes, &shape)
     }
 

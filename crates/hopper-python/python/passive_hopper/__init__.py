@@ -33,9 +33,11 @@ from ._native import (
     interval_basins,
     label_colour,
     label_name,
+    motion_arrays,
     trap,
 )
 from .datasets import basins
+from .motions import animate, motion
 from .plots import cobweb, plot_basins
 
 __all__ = [
@@ -49,6 +51,7 @@ __all__ = [
     "Trap",
     "UndecidedError",
     "alpha_star",
+    "animate",
     "basin_labels",
     "basins",
     "cobweb",
@@ -58,6 +61,8 @@ __all__ = [
     "interval_basins",
     "label_colour",
     "label_name",
+    "motion",
+    "motion_arrays",
     "plot_basins",
     "trap",
 ]

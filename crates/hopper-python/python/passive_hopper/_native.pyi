@@ -18,6 +18,7 @@ class Landing:
 class Hop:
     speed: float
     next: float | None
+    next_error: float | None
     loss: float | None
     next_speed_squared: float
     sudden: int
@@ -110,3 +111,12 @@ def interval_basins(
 def fractions(
     mass_ratio: float, first: int = 1, last: int = 6, points: int = 10_000
 ) -> dict[str, float]: ...
+def motion_arrays(alpha: float, mass_ratio: float, hops: int = 10) -> dict[str, Any]: ...
+def motion_event_names() -> list[tuple[int, str]]: ...
+def animation_bytes(
+    alpha: float,
+    mass_ratio: float,
+    hops: int = 3,
+    form: str = "gif",
+    progress: Callable[[int, int], Any] | None = None,
+) -> bytes: ...
