@@ -31,7 +31,8 @@ pub fn frame_png(motion: &Motion, time: f64) -> Result<Vec<u8>, Error> {
 /// use hopper_figures::{AnimationForm, Motion, animation, frame_png, frame_times};
 /// use passive_hopper::MassRatio;
 /// let motion = Motion::new(MassRatio::new(0.2)?, 7.0, 1)?;
-/// let frames = frame_times(&motion)?[..3].iter().map(|&time| frame_png(&motion, time));
+/// let times = frame_times(&motion)?;
+/// let frames = times[..3].iter().map(|&time| frame_png(&motion, time));
 /// let bytes = animation(&frames.collect::<Result<Vec<_>, _>>()?, AnimationForm::Gif)?;
 /// assert!(bytes.starts_with(b"GIF89a"));
 /// # Ok::<(), hopper_figures::Error>(())

@@ -94,7 +94,7 @@ pub(crate) fn animation_bytes<'py>(
             if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
         let frames = basin_of_attraction::columns_in_parallel(times.len(), frame, count)?;
-        Ok::<_, Failure>(animation(&frames, form).map_err(Failure::Figure)?)
+        animation(&frames, form).map_err(Failure::Figure)
     };
     let bytes = in_background(py, work, value_error, |done| match &progress {
         Some(progress) => progress.call1((done, all)).map(drop),
