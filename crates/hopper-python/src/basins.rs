@@ -34,6 +34,7 @@ fn labels_of(
     Ok(found.iter().flatten().flatten().map(|label| label.code()).collect())
 }
 
+type Middles<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
 type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 /// The label of every pixel of a window of (M, α): arrays of M, of α, and of labels (uint16) with the shape (M, α).
@@ -74,14 +75,31 @@ pub(crate) fn basin_labels<'py>(
     ))
 }
 
+/// The middles of the pixels of a window ((left, right), (bottom, top)): an array for each side.
+#[pyfunction]
+pub(crate) fn pixel_middles<'py>(
+    py: Python<'py>,
+    window: ((f64, f64), (f64, f64)),
+    shape: (usize, usize),
+) -> PyResult<Middles<'py>> {
+    let ((left, right), (bottom, top)) = window;
+    let x = Interval::new(left, right).map_err(value_error)?;
+    let y = Interval::new(bottom, top).map_err(value_error)?;
+    let grid = Grid { x, y, columns: shape.0, rows: shape.1 };
+    grid.pixels().map_err(value_error)?;
+    let across = (0..grid.columns).map(|column| grid.x_at(column)).collect();
+    let up = (0..grid.rows).map(|row| grid.y_at(row)).collect();
+    Ok((shaped::<f64>(py, across, &[grid.columns])?, shaped::<f64>(py, up, &[grid.rows])?))
+}
+
 /// A number between two bounds.
 #[pyclass(frozen, get_all, eq, module = "passive_hopper")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bounds {
     /// The lower bound.
-    lower: f64,
+    pub(crate) lower: f64,
     /// The upper bound.
-    upper: f64,
+    pub(crate) upper: f64,
 }
 
 #[pymethods]

@@ -8,6 +8,7 @@ mod fixed_points;
 mod hop;
 mod hybrid;
 mod interruptible;
+mod labelling;
 mod map;
 mod motion;
 
@@ -26,6 +27,14 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<fixed_points::Crisis>()?;
     module.add_class::<basins::IntervalBasins>()?;
     module.add_class::<basins::Bounds>()?;
+    module.add_class::<labelling::LabelImage>()?;
+    module.add_class::<labelling::BoxCount>()?;
+    module.add_class::<labelling::Interval>()?;
+    module.add_class::<labelling::UncertaintyExponent>()?;
+    module.add_class::<labelling::Attractors>()?;
+    module.add_function(wrap_pyfunction!(labelling::label_codes, module)?)?;
+    module.add_function(wrap_pyfunction!(labelling::region_fractions, module)?)?;
+    module.add_function(wrap_pyfunction!(labelling::uncertainty_exponent, module)?)?;
     module.add_class::<hybrid::HybridSystem>()?;
     module.add_class::<hybrid::Guard>()?;
     module.add_class::<hybrid::Clock>()?;
@@ -42,6 +51,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fates::label_name, module)?)?;
     module.add_function(wrap_pyfunction!(fates::label_colour, module)?)?;
     module.add_function(wrap_pyfunction!(basins::basin_labels, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::pixel_middles, module)?)?;
     module.add_function(wrap_pyfunction!(basins::interval_basins, module)?)?;
     module.add_function(wrap_pyfunction!(basins::fractions, module)?)?;
     module.add_function(wrap_pyfunction!(motion::motion_arrays, module)?)?;

@@ -13,6 +13,9 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
 
+/// The point that an execution has reached, and its limits.
+type At = (Checkpoint<Mode, Surface, State>, Limits);
+
 /// An execution of a hybrid system: an iterator over its arcs.
 ///
 /// After an exception of a function, or Ctrl-C, it is where it was before the call: next() tries the same arc again.
@@ -20,7 +23,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[derive(Debug)]
 pub(crate) struct Execution {
     model: Arc<Model>,
-    at: Mutex<Option<(Checkpoint<Mode, Surface, State>, Limits)>>,
+    /// `None` while a call is at work.
+    at: Mutex<Option<At>>,
 }
 
 impl Execution {

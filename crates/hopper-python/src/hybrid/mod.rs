@@ -23,3 +23,4 @@ pub(crate) use execution::Execution;
 pub(crate) use guards::{Clock, Guard};
 pub(crate) use model::HybridSystem;
 pub(crate) use quasi_polynomial::QuasiPolynomial;
+pub(crate) use vectors::vector;
