@@ -5,7 +5,7 @@ use crate::motion::Motion;
 use crate::motion_frames::{SECONDS_A_FRAME, draw_frame};
 use journal_figures::{animated_gif, animated_png, render};
 
-/// Pixels of a frame for each CSS pixel of its drawing: a frame has 480 × 285 of them. More make larger files.
+/// Pixels of a frame for each CSS pixel of its drawing: a frame has 640 × 380 of them. More make larger files.
 const SCREEN_SCALE: f64 = 0.75;
 
 /// The kind of file.

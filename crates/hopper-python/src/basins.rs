@@ -40,7 +40,8 @@ type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 /// The label of every pixel of a window of (M, α): arrays of M, of α, and of labels (uint16) with the shape (M, α).
 ///
 /// Each label is the fate of its pixel's middle. label_name names the labels. `alpha` is the window of the paper, from α*_1 to α*_6,
-/// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end. Ctrl-C ends the computation.
+/// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end. Ctrl-C
+/// ends the computation.
 #[pyfunction]
 #[pyo3(signature = (M = (0.1, 1.0), alpha = None, shape = (512, 512), progress = None))]
 #[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
@@ -51,42 +52,73 @@ pub(crate) fn basin_labels<'py>(
     shape: (usize, usize),
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Labels<'py>> {
-    let speeds = hopper_basin::first_humps(5);
-    let (bottom, top) = alpha.unwrap_or((speeds.left, speeds.right));
-    let grid = Grid {
-        x: Interval::new(M.0, M.1).map_err(value_error)?,
-        y: Interval::new(bottom, top).map_err(value_error)?,
-        columns: shape.0,
-        rows: shape.1,
+    let alpha = alpha.unwrap_or_else(first_window);
+    let (ratios, speeds) = pixel_middles(py, (M, alpha), shape)?;
+    let labels = basin_region(py, M, alpha, shape, (0, shape.0), None, progress)?;
+    Ok((ratios, speeds, labels))
+}
+
+/// The labels of the columns from `columns[0]` to before `columns[1]` of the raster of basin_labels, by this number of threads, or by
+/// all.
+#[pyfunction]
+#[pyo3(signature = (M, alpha, shape, columns, threads = None, progress = None))]
+#[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
+pub(crate) fn basin_region<'py>(
+    py: Python<'py>,
+    M: (f64, f64),
+    alpha: (f64, f64),
+    shape: (usize, usize),
+    columns: (usize, usize),
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let grid = grid_of((M, alpha), shape)?;
+    let (begin, end) = columns;
+    if !(begin < end && end <= grid.columns) {
+        return Err(value_error(format!(
+            "columns {begin} to {end} are no part of a raster of {} columns",
+            grid.columns
+        )));
+    }
+    // rayon takes 0 for the number of processors.
+    let pool = threads.map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build());
+    let pool = pool.transpose().map_err(value_error)?;
+    let work = move |watch: &Watch| match &pool {
+        Some(pool) => pool.install(|| labels_of(&grid, begin..end, watch)),
+        None => labels_of(&grid, begin..end, watch),
     };
-    grid.pixels().map_err(value_error)?;
-    let all = grid.columns;
-    let work = move |watch: &Watch| labels_of(&grid, 0..grid.columns, watch);
     let codes = in_background(py, work, value_error, |done| match &progress {
-        Some(progress) => progress.call1((done, all)).map(drop),
+        Some(progress) => progress.call1((done, end - begin)).map(drop),
         None => Ok(()),
     })?;
-    let ratios: Vec<f64> = (0..grid.columns).map(|column| grid.x_at(column)).collect();
-    let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();
-    Ok((
-        shaped(py, ratios, &[grid.columns])?,
-        shaped(py, speeds, &[grid.rows])?,
-        shaped(py, codes, &[grid.columns, grid.rows])?,
-    ))
+    shaped(py, codes, &[end - begin, shape.1])
+}
+
+/// The window of speeds of the paper, from α*_1 to α*_6.
+#[pyfunction]
+pub(crate) fn first_window() -> (f64, f64) {
+    let speeds = hopper_basin::first_humps(5);
+    (speeds.left, speeds.right)
+}
+
+type Window = ((f64, f64), (f64, f64));
+
+fn grid_of(((left, right), (bottom, top)): Window, shape: (usize, usize)) -> PyResult<Grid> {
+    let x = Interval::new(left, right).map_err(value_error)?;
+    let y = Interval::new(bottom, top).map_err(value_error)?;
+    let grid = Grid { x, y, columns: shape.0, rows: shape.1 };
+    grid.pixels().map_err(value_error)?;
+    Ok(grid)
 }
 
 /// The middles of the pixels of a window ((left, right), (bottom, top)): an array for each side.
 #[pyfunction]
 pub(crate) fn pixel_middles<'py>(
     py: Python<'py>,
-    window: ((f64, f64), (f64, f64)),
+    window: Window,
     shape: (usize, usize),
 ) -> PyResult<Middles<'py>> {
-    let ((left, right), (bottom, top)) = window;
-    let x = Interval::new(left, right).map_err(value_error)?;
-    let y = Interval::new(bottom, top).map_err(value_error)?;
-    let grid = Grid { x, y, columns: shape.0, rows: shape.1 };
-    grid.pixels().map_err(value_error)?;
+    let grid = grid_of(window, shape)?;
     let across = (0..grid.columns).map(|column| grid.x_at(column)).collect();
     let up = (0..grid.rows).map(|row| grid.y_at(row)).collect();
     Ok((shaped::<f64>(py, across, &[grid.columns])?, shaped::<f64>(py, up, &[grid.rows])?))
@@ -175,6 +207,22 @@ impl IntervalBasins {
         let bounds = basins.basin_length(Label::from_code(label));
         let length = basins.window().length();
         Bounds { lower: bounds.lower / length, upper: (bounds.upper / length).min(1.0) }
+    }
+
+    /// The probability that a speed of one basin is in another after the mass ratio has changed to that of `after`: a dictionary from pairs
+    /// (label before, label after) to Bounds. Both have the same window.
+    fn tipping_to(&self, after: &Self) -> PyResult<BTreeMap<(u16, u16), Bounds>> {
+        let (one, two) = (&self.found.basins, &after.found.basins);
+        let tipping = one.tipping_to(two).map_err(value_error)?;
+        let pairs = one.labels().into_iter().flat_map(|before| {
+            two.labels().into_iter().map(move |after| (before, after)).collect::<Vec<_>>()
+        });
+        let found = pairs.filter_map(|(before, after)| {
+            let probability = tipping.probability(before, after)?;
+            let bounds = Bounds { lower: probability.lower, upper: probability.upper };
+            Some(((before.code(), after.code()), bounds))
+        });
+        Ok(found.collect())
     }
 
     /// The label of the interval that contains α; None where it is undecided.

@@ -12,7 +12,7 @@ True
 >>> x, y = np.meshgrid(np.linspace(-1, 1, 256), np.linspace(-1, 1, 256), indexing="ij")
 >>> image = label_image(disc(x, y))
 >>> image.boxes(8).mixed
-100
+124
 >>> image.exceeds_ln_2()
 False
 """

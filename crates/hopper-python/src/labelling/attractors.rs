@@ -9,17 +9,22 @@ use basin_of_attraction::{
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// A map of Python in a thread of its own. After an exception, or Ctrl-C, it has no more values.
 struct PythonMap {
     function: Py<PyAny>,
     exception: Mutex<Option<PyErr>>,
+    calls: AtomicUsize,
 }
+
+/// Calls between two moments at which other threads can have the interpreter's lock: less than a millisecond.
+const CALLS: usize = 256;
 
 impl PythonMap {
     fn new(function: Py<PyAny>) -> Arc<Self> {
-        Arc::new(PythonMap { function, exception: Mutex::new(None) })
+        Arc::new(PythonMap { function, exception: Mutex::new(None), calls: AtomicUsize::new(0) })
     }
 
     fn image(&self, state: &[f64], watch: &Watch) -> Option<Vec<f64>> {
@@ -27,6 +32,10 @@ impl PythonMap {
             return None;
         }
         let call = |py: Python<'_>| {
+            // A function that is written in C never gives the lock away, and Ctrl-C would wait for it.
+            if self.calls.fetch_add(1, Ordering::Relaxed).is_multiple_of(CALLS) {
+                py.detach(std::thread::yield_now);
+            }
             let found = self.function.bind(py).call1((PyArray1::from_slice(py, state),))?;
             if found.is_none() {
                 return Ok(None);
@@ -98,9 +107,14 @@ impl Attractors {
         let region = Hyperrectangle::new(sides).map_err(value_error)?;
         let own = PythonMap::new(map.clone_ref(py));
         let step = Arc::clone(&own);
+        // Only one thread can call Python at a time. More of them would wait for each other at every step.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(value_error)?;
         let work = move |watch: &Watch| {
             let image = |state: &[f64]| step.image(state, watch);
-            Ok::<_, Error>(basin_of_attraction::Attractors::search(&image, region, &starts, limits))
+            let search =
+                || basin_of_attraction::Attractors::search(&image, region, &starts, limits);
+            // The thread keeps the interpreter's lock from step to step: to take it anew takes longer than a step.
+            Ok::<_, Error>(pool.install(|| Python::attach(|_| search())))
         };
         let found = in_background(py, work, value_error, |_| Ok(()))?;
         let found = own.unless_raised(found)?.map_err(value_error)?;
@@ -137,7 +151,8 @@ impl Attractors {
         let work = move |watch: &Watch| {
             let image = |state: &[f64]| step.image(state, watch);
             let label = |start: &Vec<f64>| found.label(&image, start).code();
-            Ok::<_, Error>(starts.iter().map(label).collect::<Vec<u16>>())
+            let labels = || starts.iter().map(label).collect::<Vec<u16>>();
+            Ok::<_, Error>(Python::attach(|_| labels()))
         };
         let codes = in_background(py, work, value_error, |_| Ok(()))?;
         shaped(py, own.unless_raised(codes)?, &[count])
