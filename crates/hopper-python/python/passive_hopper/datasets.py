@@ -1,12 +1,28 @@
 """Basins as an xarray.Dataset, in memory or in a Zarr store on disk."""
 
+from __future__ import annotations
+
 import hashlib
 import operator
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 
+if TYPE_CHECKING:
+    import distributed
+    import xarray
 
-def basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), progress=None, store=None, client=None):
+
+def basins(
+    M: tuple[float, float] = (0.1, 1.0),
+    alpha: tuple[float, float] | None = None,
+    shape: tuple[int, int] = (512, 512),
+    progress: Callable[[int, int], Any] | None = None,
+    store: str | os.PathLike[str] | None = None,
+    client: distributed.Client | None = None,
+) -> xarray.Dataset:
     """The basins over a window of (M, α), as an ``xarray.Dataset`` with the dimensions ``M`` and ``alpha``.
 
     ``alpha`` is the window of the paper, from α*_1 to α*_6, unless given. Each label is the fate of its pixel's middle. The variable

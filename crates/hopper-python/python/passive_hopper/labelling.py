@@ -17,8 +17,17 @@ True
 False
 """
 
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
 from . import _native
 from ._native import Attractors, BoxCount, Interval, LabelImage, UncertaintyExponent
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike
 
 __all__ = [
     "Attractors",
@@ -67,7 +76,7 @@ def _labels(found, shape):
     return numpy.ascontiguousarray(labels, dtype=numpy.uint16)
 
 
-def label_image(labels):
+def label_image(labels: ArrayLike | xarray.DataArray) -> LabelImage:
     """The :class:`LabelImage` of a two-dimensional array of labels, with the axes (x, y): any integers from 0 to 65535, or booleans."""
     labels = _labels(labels, None)
     if labels.ndim != 2:
@@ -75,7 +84,13 @@ def label_image(labels):
     return LabelImage(labels)
 
 
-def basins_of(label, window, shape=(512, 512), names=None, progress=None):
+def basins_of(
+    label: Callable[..., Any],
+    window: Mapping[str, tuple[float, float]],
+    shape: tuple[int, int] = (512, 512),
+    names: Mapping[int, str] | None = None,
+    progress: Callable[[int, int], Any] | None = None,
+) -> xarray.Dataset:
     """The labels of a window of the plane by any labelling, as an ``xarray.Dataset``.
 
     ``label(x, y)`` gets two arrays of one shape, and returns the labels. ``window`` has the two coordinates with their ends, as
@@ -117,7 +132,9 @@ def basins_of(label, window, shape=(512, 512), names=None, progress=None):
     )
 
 
-def region_fractions(label, window, count=10_000, seed=0):
+def region_fractions(
+    label: Callable[..., Any], window: Sequence[tuple[float, float]], count: int = 10_000, seed: int = 0
+) -> dict[int, Interval]:
     """The fraction of each basin in a region of any dimension, with a 95 % interval: a dictionary from labels to :class:`Interval`.
 
     ``window`` has the ends of each coordinate; ``label`` gets one array of coordinates for each, of ``count`` random points. Points with
@@ -126,7 +143,13 @@ def region_fractions(label, window, count=10_000, seed=0):
     return _native.region_fractions(_flat(label), list(window), count, seed)
 
 
-def uncertainty_exponent(label, window, epsilons, count=100_000, seed=0):
+def uncertainty_exponent(
+    label: Callable[..., Any],
+    window: Sequence[tuple[float, float]],
+    epsilons: Sequence[float],
+    count: int = 100_000,
+    seed: int = 0,
+) -> UncertaintyExponent:
     """The exponent of final-state uncertainty: the fraction of pairs of points at a distance ε with different labels is ∝ ε^exponent.
 
     The dimension of the boundary is that of the space less the exponent. Points may lie outside the window by up to ε.

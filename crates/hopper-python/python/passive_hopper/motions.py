@@ -1,12 +1,19 @@
 """The motion of both masses as an xarray.Dataset, and as an animation."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._files import write_whole
 
+if TYPE_CHECKING:
+    import xarray
 
-def motion(alpha, M=0.2, hops=10):
+
+def motion(alpha: float, M: float = 0.2, hops: int = 10) -> xarray.Dataset:
     """Both masses in time, from a gradual lift-off with speed ``alpha`` over some hops, as an ``xarray.Dataset``.
 
     Positions are in units of m₂g/k, times in units of 1/ω, speeds in units of m₂gω/k, with ω² = k(1+M)/m₂. The upper mass stands at 1
@@ -68,7 +75,11 @@ def motion(alpha, M=0.2, hops=10):
     )
 
 
-def animate(motion, path, progress=None):
+def animate(
+    motion: xarray.Dataset,
+    path: str | os.PathLike[str],
+    progress: Callable[[int, int], Any] | None = None,
+) -> str | os.PathLike[str]:
     """Draws a motion, from :func:`motion`, as an animation: a file ``….gif``, or ``….apng`` (animated PNG). Returns the path.
 
     It is the drawing of the program ``hopper orbit --animate``: the hopper on the left, and a cursor on the curves of both masses.

@@ -1,6 +1,13 @@
 """Pictures with matplotlib."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from . import _native
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 def _matplotlib():
@@ -11,7 +18,7 @@ def _matplotlib():
     return matplotlib.pyplot
 
 
-def cobweb(mass_ratio, alpha, hops=30, ax=None):
+def cobweb(mass_ratio: float, alpha: float, hops: int = 30, ax: Axes | None = None) -> Axes:
     """Draws the map and the orbit from ``alpha`` as a cobweb; returns the axes."""
     import numpy
 
@@ -35,7 +42,13 @@ def cobweb(mass_ratio, alpha, hops=30, ax=None):
     return ax
 
 
-def plot_basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), ax=None, legend=True):
+def plot_basins(
+    M: tuple[float, float] = (0.1, 1.0),
+    alpha: tuple[float, float] | None = None,
+    shape: tuple[int, int] = (512, 512),
+    ax: Axes | None = None,
+    legend: bool = True,
+) -> Axes:
     """Draws the basins over a window of (M, α), with a legend unless that is switched off; returns the axes."""
     import numpy
     from matplotlib.colors import to_rgb

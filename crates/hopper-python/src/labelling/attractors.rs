@@ -71,7 +71,7 @@ impl PythonMap {
 ///
 /// >>> from passive_hopper.labelling import Attractors
 /// >>> newton = lambda x: (x - (x ** 2 - 2) / (2 * x)) if x[0] else None
-/// >>> found = Attractors(newton, region=[(-3.1, 3)], starts=[[1.0], [-1.0]])
+/// >>> found = Attractors(newton, region=[(-3.1, 3)], starts=[[1.0], [-1.0]], tests=20)
 /// >>> [round(float(points[0, 0]), 6) for points in found.points.values()]
 /// [1.414214, -1.414214]
 /// >>> found.labels([[0.3], [-7.0]]).tolist()
