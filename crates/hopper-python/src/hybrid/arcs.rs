@@ -1,11 +1,13 @@
 //! Arcs and their ends as Python objects.
 
-use super::callables::{Callables, State, not_after_start};
+use super::callables::Callables;
 use super::model::Model;
 use super::names::{Mode, Surface};
-use super::vectors::{array, numbers};
+use super::sliding::Sliding;
+use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
 use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, EventKind, StateVector};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::sync::Arc;
 
@@ -55,44 +57,6 @@ pub(crate) struct Zeno {
     next_mode: Option<Py<PyAny>>,
     /// The state after the limit; None if the execution ends there.
     after: Option<Py<PyAny>>,
-}
-
-/// A point of a surface at which the fields on both sides point.
-#[pyclass(frozen, get_all, module = "passive_hopper.hybrid")]
-#[derive(Debug)]
-pub(crate) struct Sliding {
-    /// The name of the guard.
-    surface: String,
-    /// The mode where the guard is negative.
-    below: Py<PyAny>,
-    /// The mode where it is positive.
-    above: Py<PyAny>,
-    /// The time.
-    time: f64,
-    /// The state on the surface.
-    state: Py<PyAny>,
-    /// The rates of the guard below the surface and above it.
-    rates: (f64, f64),
-    /// The field of Filippov's convention, tangent to the surface; None if the model has no field.
-    field: Option<Py<PyAny>>,
-}
-
-impl Sliding {
-    pub(crate) fn of(
-        py: Python<'_>,
-        model: &Model,
-        sliding: &hybrid_system::Sliding<Mode, Surface, State>,
-    ) -> PyResult<Self> {
-        Ok(Sliding {
-            surface: surface_name(model, sliding.surface),
-            below: model.modes.name(py, sliding.below),
-            above: model.modes.name(py, sliding.above),
-            time: sliding.time,
-            state: copied(py, &sliding.state),
-            rates: sliding.rates,
-            field: sliding.field.as_ref().map(|field| copied(py, field)),
-        })
-    }
 }
 
 /// A piece of continuous motion in one mode, between two events.
@@ -166,7 +130,7 @@ impl HybridArc {
         let event = self.own.event()?;
         let (next_mode, after) = self.next(py, event.after.as_ref());
         Some(Event {
-            surface: surface_name(&self.model, event.surface),
+            surface: self.model.surface_name(event.surface),
             time: event.time,
             time_error: event.time_error,
             at_time_limit: event.at_time_limit,
@@ -213,7 +177,9 @@ impl HybridArc {
     ) -> PyResult<Bound<'py, PyAny>> {
         let elapsed = numbers(elapsed)?;
         if let Some(&bad) = elapsed.iter().find(|&&time| !(time >= 0.0 && time.is_finite())) {
-            return Err(not_after_start(bad));
+            return Err(PyValueError::new_err(format!(
+                "a time after the start of an arc must be finite and not negative, not {bad:?}"
+            )));
         }
         let callables = Callables::new(py, &self.model);
         let found = self.own.states(&callables, &elapsed);
@@ -248,16 +214,6 @@ impl HybridArc {
     }
 }
 
-/// The name of a guard.
-pub(crate) fn surface_name(model: &Model, surface: Surface) -> String {
-    model.watched.get(surface.0).map_or_else(String::new, |watched| watched.name().to_owned())
-}
-
-/// A state as an array of its own.
-pub(crate) fn copied(py: Python<'_>, state: &State) -> Py<PyAny> {
-    array(py, state.as_slice()).into_any().unbind()
-}
-
 pub(crate) fn kind(kind: EventKind) -> &'static str {
     match kind {
         EventKind::Crossing => "crossing",
@@ -289,12 +245,5 @@ impl Zeno {
     fn __repr__(&self) -> String {
         let Zeno { time, time_error, ratio, period, .. } = self;
         format!("Zeno(time={time:?}, time_error={time_error:?}, ratio={ratio:?}, period={period})")
-    }
-}
-
-#[pymethods]
-impl Sliding {
-    fn __repr__(&self) -> String {
-        format!("Sliding({:?}, time={:?}, rates={:?})", self.surface, self.time, self.rates)
     }
 }

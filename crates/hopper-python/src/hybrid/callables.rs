@@ -7,18 +7,16 @@ use super::guards::{After, Times};
 use super::model::{Model, Watched};
 use super::names::{Mode, Surface};
 use super::quasi_polynomial::QuasiPolynomial;
-use super::vectors::{array, vector};
+use super::sliding::Sliding;
+use super::vectors::{State, array, vector};
 use hybrid_system::{
-    Enclosure, Error, Guard, NextEvent, Reset, Search, Sliding, StateVector, default_search,
+    Enclosure, Error, Guard, NextEvent, Reset, Search, StateVector, default_search,
     integrated_crossing, integrated_flow, integrated_states,
 };
-use nalgebra::DVector;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::cell::RefCell;
-
-pub(crate) type State = DVector<f64>;
 
 /// A model during one call.
 pub(crate) struct Callables<'py, 'a> {
@@ -88,7 +86,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
     type Surface = Surface;
 
     fn flow(&self, mode: Mode, start: &State, time: f64) -> State {
-        let Some(flow) = &self.model.flow else {
+        let Some(flow) = &self.model.functions.flow else {
             return integrated_flow(self, mode, start, time, self.model.tolerances);
         };
         let call = || {
@@ -99,7 +97,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
     }
 
     fn flow_at(&self, mode: Mode, start: &State, times: &[f64]) -> Result<Vec<State>, Error> {
-        match self.model.flow {
+        match self.model.functions.flow {
             Some(_) => Ok(times.iter().map(|&time| self.flow(mode, start, time)).collect()),
             None => integrated_states(self, mode, start, times, self.model.tolerances),
         }
@@ -136,7 +134,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
     }
 
     fn rest(&self, mode: Mode, limit: &State) -> Option<(Mode, State)> {
-        let rest = self.model.rest.as_ref()?.bind(self.py);
+        let rest = self.model.functions.rest.as_ref()?.bind(self.py);
         let call = || {
             let found = rest.call1((self.mode(mode), self.array(limit)))?;
             self.pair(&found, limit.len(), "rest")
@@ -144,17 +142,20 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
         self.kept(call).flatten()
     }
 
-    fn slide(&self, sliding: &Sliding<Mode, Surface, State>) -> Option<(Mode, State)> {
-        let slide = self.model.slide.as_ref()?.bind(self.py);
+    fn slide(
+        &self,
+        sliding: &hybrid_system::Sliding<Mode, Surface, State>,
+    ) -> Option<(Mode, State)> {
+        let slide = self.model.functions.slide.as_ref()?.bind(self.py);
         let call = || {
-            let sliding_point = super::arcs::Sliding::of(self.py, self.model, sliding)?;
+            let sliding_point = Sliding::of(self.py, self.model, sliding)?;
             self.pair(&slide.call1((sliding_point,))?, sliding.state.len(), "slide")
         };
         self.kept(call).flatten()
     }
 
     fn vector_field(&self, mode: Mode, state: &State) -> Option<State> {
-        let field = self.model.field.as_ref()?.bind(self.py);
+        let field = self.model.functions.field.as_ref()?.bind(self.py);
         let call = || {
             let found = field.call1((self.mode(mode), self.array(state)))?;
             vector(&found, state.len(), "field")
@@ -222,16 +223,9 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
         start: &State,
         search: &Search<Surface>,
     ) -> Result<NextEvent<Surface, State>, Error> {
-        match self.model.flow {
+        match self.model.functions.flow {
             Some(_) => default_search(self, mode, start, search),
             None => integrated_crossing(self, mode, start, search, self.model.tolerances),
         }
     }
-}
-
-/// The error of a duration that is no time after the start of an arc.
-pub(crate) fn not_after_start(elapsed: f64) -> PyErr {
-    PyValueError::new_err(format!(
-        "a time after the start of an arc must be finite and not negative, not {elapsed:?}"
-    ))
 }

@@ -1,10 +1,10 @@
 //! Executions: iterators over arcs, which stay usable after an exception.
 
-use super::arcs::{HybridArc, certainty, copied, kind, surface_name};
-use super::callables::{Callables, State};
+use super::arcs::{HybridArc, certainty, kind};
+use super::callables::Callables;
 use super::model::Model;
 use super::names::{Mode, Surface};
-use super::vectors::numbers;
+use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
 use hybrid_system::{Checkpoint, Error, Execution as LibraryExecution, Limits, Stop};
 use nalgebra::DMatrix;
@@ -124,7 +124,7 @@ impl Execution {
         let events = found.events;
         let number = events.times.len();
         all.set_item("event_times", shaped(py, events.times, &[number])?)?;
-        let surfaces = events.surfaces.iter().map(|&surface| surface_name(&self.model, surface));
+        let surfaces = events.surfaces.iter().map(|&surface| self.model.surface_name(surface));
         all.set_item("event_surfaces", surfaces.collect::<Vec<_>>())?;
         all.set_item("event_modes", events.modes.iter().map(name).collect::<Vec<_>>())?;
         let next = events.next_modes.iter().map(|mode| mode.as_ref().map(name));

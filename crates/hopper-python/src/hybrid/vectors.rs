@@ -6,6 +6,14 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
+/// The state of a model.
+pub(crate) type State = DVector<f64>;
+
+/// A state as an object of Python.
+pub(crate) fn copied(py: Python<'_>, state: &State) -> Py<PyAny> {
+    array(py, state.as_slice()).into_any().unbind()
+}
+
 /// A state as an array of its own.
 pub(crate) fn array<'py>(py: Python<'py>, state: &[f64]) -> Bound<'py, PyArray1<f64>> {
     PyArray1::from_slice(py, state)
