@@ -17,6 +17,10 @@ use pyo3::prelude::*;
 /// The native part of `passive_hopper`.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    // Loaded here, where a failure or Ctrl-C is an exception. The numpy crate would load it in the first call that makes an array, and
+    // panic.
+    module.py().import("numpy")?;
+    drop(numpy::PyArray1::<f64>::from_slice(module.py(), &[]));
     module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<map::LiftOffMap>()?;

@@ -108,3 +108,14 @@ def test_contact_hops_are_the_same_at_one_over_m():
     speeds = [speed for speed in np.linspace(4.5, 20, 1000) if light.hop(speed).sudden == heavy.hop(speed).sudden == 0]
     assert len(speeds) > 100
     assert np.allclose(light(speeds), heavy(speeds), rtol=1e-12, equal_nan=True)
+
+
+def test_numpy_is_loaded_with_the_package():
+    # Loaded later, within a call, a failure would be a panic.
+    import subprocess
+    import sys
+
+    code = "import sys; from passive_hopper import _native; assert 'numpy' in sys.modules"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    broken = "import sys; sys.modules['numpy'] = None\ntry:\n    import passive_hopper\nexcept ImportError: sys.exit(7)"
+    assert subprocess.run([sys.executable, "-c", broken], check=False).returncode == 7
