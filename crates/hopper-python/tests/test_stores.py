@@ -111,9 +111,16 @@ def test_a_process_that_is_killed_loses_nothing(tmp_path):
     assert not list(store.rglob("*.partial"))
 
 
-def test_memory_is_bounded_by_a_region():
-    # A region of 64 columns is all that a process holds.
-    assert stores.REGION * 16384 * 2 <= 2 * 2**20
+def test_a_process_holds_one_region_at_a_time(tmp_path, monkeypatch):
+    native, asked = stores._native.basin_region, []
+
+    def region(M, alpha, shape, columns, threads=None):
+        asked.append(columns)
+        return native(M, alpha, shape, columns, threads=threads)
+
+    monkeypatch.setattr(stores._native, "basin_region", region)
+    hopper.basins(**JOB, store=tmp_path / "basins.zarr")
+    assert asked == [(0, 64), (64, 128), (128, 150)]
 
 
 def test_a_client_needs_a_store():
