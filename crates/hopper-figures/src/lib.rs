@@ -10,8 +10,8 @@
 //! | [`fate_colors`] | the colour and the name of every fate |
 //! | [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
 //! | [`MapPlot`] | the map with its fixed points and traps, and the cobweb of an orbit |
-//! | [`Motion`], [`draw_motion`] | the motion of both masses, sampled, and against time |
-//! | [`frame_times`], [`draw_frame`] | the frames of its animation |
+//! | [`Motion`], [`MotionEvent`], [`draw_motion`] | the motion of both masses, sampled, with its events, and against time |
+//! | [`frame_times`], [`draw_frame`], [`frame_png`], [`animation`] | the frames of its animation, and the file |
 //! | [`draw_ground`], [`draw_block`], [`draw_spring`] | the parts of a drawn hopper |
 //!
 //! ```
@@ -26,6 +26,7 @@
 //! # Not here
 //! Files (`journal_figures::render` gives the bytes of a drawing), and the figures of one paper (`hopper-paper`).
 
+mod animation;
 mod basins;
 mod coverage;
 mod error;
@@ -39,6 +40,7 @@ mod motion_frames;
 mod motion_plot;
 mod shares;
 
+pub use animation::{AnimationForm, animation, frame_png};
 pub use basins::{Inset, PIXELS, Window, draw_basins, label_png, legend};
 pub use coverage::{coverage_png, draw_coverage, undecided_share};
 pub use error::Error;
@@ -46,7 +48,7 @@ pub use graph::{cuts, cuts_between, graph_pieces};
 pub use hops::draw_hops;
 pub use machine::{draw_block, draw_ground, draw_spring};
 pub use map_plot::MapPlot;
-pub use motion::{Motion, Sample};
+pub use motion::{Motion, MotionEvent, Sample};
 pub use motion_frames::{SECONDS_A_FRAME, draw_frame, frame_times};
 pub use motion_plot::draw_motion;
 pub use shares::{draw_shares, share_pixels, share_png, share_words};

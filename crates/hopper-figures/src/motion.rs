@@ -28,6 +28,28 @@ pub struct Sample {
     pub state: HopperState,
 }
 
+/// What happens at an instant of a motion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MotionEvent {
+    /// The contact force vanishes, and the lower mass leaves the ground.
+    GradualLiftOff,
+    /// The lower mass lands and stays on the ground.
+    Landing,
+    /// The lower mass lands and is pulled off the ground at once by the stretched spring.
+    SuddenLiftOff,
+}
+
+impl MotionEvent {
+    /// The event at a surface, by the phase after it.
+    fn of(surface: HopperSurface, after: Option<Phase>) -> Self {
+        match (surface, after) {
+            (HopperSurface::LiftOff, _) => MotionEvent::GradualLiftOff,
+            (HopperSurface::Landing, Some(Phase::Flight)) => MotionEvent::SuddenLiftOff,
+            (HopperSurface::Landing, _) => MotionEvent::Landing,
+        }
+    }
+}
+
 /// The motion over some hops. A landing has two samples at the same time: before the collision and after it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
@@ -35,6 +57,8 @@ pub struct Motion {
     pub mass_ratio: MassRatio,
     /// The samples in the order of time.
     pub samples: Vec<Sample>,
+    /// The times of the events, in units of 1/ω, in their order. The gradual lift-off at the start is the first one.
+    pub events: Vec<(f64, MotionEvent)>,
     /// Whether the hopper is grounded at the end.
     pub grounded: bool,
 }
@@ -45,13 +69,15 @@ impl Motion {
     /// On the ground for ever it is followed for one period of the contact phase, or as long as it has hopped if that is shorter.
     ///
     /// ```
-    /// use hopper_figures::Motion;
+    /// use hopper_figures::{Motion, MotionEvent};
     /// use passive_hopper::MassRatio;
     /// let motion = Motion::new(MassRatio::new(0.2)?, 7.0, 2)?;
     /// let end = motion.samples.last().expect("it has samples");
     /// assert!(end.hop == 2 && end.state.upper_position == 1.0 && !motion.grounded);
     /// // The lower mass never is below the ground.
     /// assert!(motion.samples.iter().all(|sample| sample.state.lower_position > -1e-12));
+    /// let landings = motion.events.iter().filter(|(_, event)| *event == MotionEvent::Landing);
+    /// assert_eq!(landings.count(), 2);
     /// # Ok::<(), hopper_figures::Error>(())
     /// ```
     ///
@@ -63,7 +89,8 @@ impl Motion {
         let hopper = Hopper::new(mass_ratio);
         let start = HopperState::lift_off(alpha);
         let limits = Limits::new(f64::INFINITY, MOST_ARCS);
-        let mut motion = Motion { mass_ratio, samples: Vec::new(), grounded: false };
+        let events = vec![(0.0, MotionEvent::GradualLiftOff)];
+        let mut motion = Motion { mass_ratio, samples: Vec::new(), events, grounded: false };
         let mut hop = 0;
         for arc in Execution::new(&hopper, Phase::Flight, start.into(), limits) {
             let arc = arc?;
@@ -89,6 +116,10 @@ impl Motion {
                 motion.samples.push(Sample { time, hop, phase: arc.mode, state });
             }
             motion.grounded = never;
+            if let Some(event) = arc.event() {
+                let kind = MotionEvent::of(event.surface, event.after.map(|(phase, _)| phase));
+                motion.events.push((event.time, kind));
+            }
             let lift_off = arc.event().filter(|event| event.surface == HopperSurface::LiftOff);
             if let Some((phase, state)) = lift_off.and_then(|event| event.after) {
                 hop += 1;

@@ -1,8 +1,12 @@
 //! Numbers from whatever NumPy makes an array of, and results of the same shape.
 
-use numpy::{AllowTypeChange, Element, PyArray, PyArrayLikeDyn, PyArrayMethods};
-use pyo3::exceptions::PyTypeError;
+use numpy::{
+    AllowTypeChange, Element, PyArray, PyArrayDyn, PyArrayLikeDyn, PyArrayMethods,
+    PyReadonlyArrayDyn, PyUntypedArrayMethods,
+};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use std::ops::Range;
 
 /// The numbers of a scalar or an array, in C order, and its shape.
 pub(crate) struct Numbers {
@@ -31,6 +35,49 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
             None => view.iter().copied().collect(),
         };
         Ok(Numbers { values, shape: view.shape().to_vec() })
+    }
+}
+
+/// Where speeds are read from, piece by piece.
+pub(crate) enum Source<'py> {
+    /// An array of f64 whose numbers are beside each other. Another Python thread may change it during a computation: each piece is
+    /// copied while the interpreter is locked.
+    Array(PyReadonlyArrayDyn<'py, f64>),
+    /// Anything else, converted once.
+    Converted(Numbers),
+}
+
+impl<'py> Source<'py> {
+    pub(crate) fn of(object: &Bound<'py, PyAny>) -> PyResult<Self> {
+        if let Ok(array) = object.cast::<PyArrayDyn<f64>>()
+            && array.is_c_contiguous()
+            && let Ok(array) = array.try_readonly()
+        {
+            return Ok(Source::Array(array));
+        }
+        object.extract().map(Source::Converted)
+    }
+
+    pub(crate) fn shape(&self) -> Vec<usize> {
+        match self {
+            Source::Array(array) => array.shape().to_vec(),
+            Source::Converted(numbers) => numbers.shape.clone(),
+        }
+    }
+
+    /// Puts the numbers of this range into `piece`.
+    pub(crate) fn copy(&self, range: Range<usize>, piece: &mut Vec<f64>) -> PyResult<()> {
+        let all = match self {
+            Source::Array(array) => array.as_slice()?,
+            Source::Converted(numbers) => &numbers.values,
+        };
+        let Some(part) = all.get(range) else {
+            let text = "the array was made shorter during the call";
+            return Err(PyValueError::new_err(text));
+        };
+        piece.clear();
+        piece.extend_from_slice(part);
+        Ok(())
     }
 }
 

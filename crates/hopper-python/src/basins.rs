@@ -2,24 +2,46 @@
 
 use crate::arrays::shaped;
 use crate::errors::value_error;
-use crate::interruptible::pieces;
+use crate::interruptible::{Watch, in_background};
 use basin_of_attraction::{Grid, Interval, Label, Refinement, columns_in_parallel};
 use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, basin_columns};
 use passive_hopper::MassRatio;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
-/// Columns of a strip that one thread computes, and strips between two looks for Ctrl-C.
+/// Columns of a strip that one thread computes at a time: the orbits of several columns fill a vector.
 const STRIP: usize = 16;
-const STRIPS: usize = 4;
 
+/// The labels of some columns, column after column.
+fn labels_of(
+    grid: &Grid,
+    columns: Range<usize>,
+    watch: &Watch,
+) -> Result<Vec<u16>, hopper_basin::Error> {
+    let strip = |strip: usize| {
+        let begin = columns.start + strip * STRIP;
+        let end = (begin + STRIP).min(columns.end);
+        let labels = basin_columns(grid, begin..end)?;
+        watch.finished(end - begin);
+        Ok::<_, hopper_basin::Error>(labels)
+    };
+    let go_on = |_: usize| match watch.is_stopped() {
+        true => ControlFlow::Break(()),
+        false => ControlFlow::Continue(()),
+    };
+    let found = columns_in_parallel(columns.len().div_ceil(STRIP), strip, go_on)?;
+    Ok(found.iter().flatten().flatten().map(|label| label.code()).collect())
+}
+
+type Middles<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>);
 type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 
 /// The label of every pixel of a window of (M, α): arrays of M, of α, and of labels (uint16) with the shape (M, α).
 ///
 /// Each label is the fate of its pixel's middle. label_name names the labels. `alpha` is the window of the paper, from α*_1 to α*_6,
-/// unless given. `progress(done, all)` is called after every few columns. Ctrl-C ends the computation within some tenths of a second.
+/// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end. Ctrl-C
+/// ends the computation.
 #[pyfunction]
 #[pyo3(signature = (M = (0.1, 1.0), alpha = None, shape = (512, 512), progress = None))]
 #[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
@@ -30,41 +52,76 @@ pub(crate) fn basin_labels<'py>(
     shape: (usize, usize),
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Labels<'py>> {
-    let speeds = hopper_basin::first_humps(5);
-    let (bottom, top) = alpha.unwrap_or((speeds.left, speeds.right));
-    let grid = Grid {
-        x: Interval::new(M.0, M.1).map_err(value_error)?,
-        y: Interval::new(bottom, top).map_err(value_error)?,
-        columns: shape.0,
-        rows: shape.1,
+    let alpha = alpha.unwrap_or_else(first_window);
+    let (ratios, speeds) = pixel_middles(py, (M, alpha), shape)?;
+    let labels = basin_region(py, M, alpha, shape, (0, shape.0), None, progress)?;
+    Ok((ratios, speeds, labels))
+}
+
+/// The labels of the columns from `columns[0]` to before `columns[1]` of the raster of basin_labels, by this number of threads, or by
+/// all.
+#[pyfunction]
+#[pyo3(signature = (M, alpha, shape, columns, threads = None, progress = None))]
+#[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
+pub(crate) fn basin_region<'py>(
+    py: Python<'py>,
+    M: (f64, f64),
+    alpha: (f64, f64),
+    shape: (usize, usize),
+    columns: (usize, usize),
+    threads: Option<usize>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let grid = grid_of((M, alpha), shape)?;
+    let (begin, end) = columns;
+    if !(begin < end && end <= grid.columns) {
+        return Err(value_error(format!(
+            "columns {begin} to {end} are no part of a raster of {} columns",
+            grid.columns
+        )));
+    }
+    // rayon takes 0 for the number of processors.
+    let pool = threads.map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build());
+    let pool = pool.transpose().map_err(value_error)?;
+    let work = move |watch: &Watch| match &pool {
+        Some(pool) => pool.install(|| labels_of(&grid, begin..end, watch)),
+        None => labels_of(&grid, begin..end, watch),
     };
-    let pixels = grid.pixels().map_err(value_error)?;
-    let mut codes: Vec<u16> = Vec::with_capacity(pixels);
-    let width = STRIP * STRIPS;
-    let compute = |k: usize| {
-        let first = k * width;
-        let columns = (grid.columns - first).min(width);
-        let strip = |strip: usize| {
-            let begin = first + strip * STRIP;
-            basin_columns(&grid, begin..(begin + STRIP).min(first + columns))
-        };
-        let found =
-            columns_in_parallel(columns.div_ceil(STRIP), strip, |_| ControlFlow::Continue(()))?;
-        codes.extend(found.iter().flatten().flatten().map(|label| label.code()));
-        Ok::<(), hopper_basin::Error>(())
-    };
-    let all = grid.columns;
-    pieces(py, all.div_ceil(width), compute, value_error, |done| match &progress {
-        Some(progress) => progress.call1(((done * width).min(all), all)).map(|_| ()),
+    let codes = in_background(py, work, value_error, |done| match &progress {
+        Some(progress) => progress.call1((done, end - begin)).map(drop),
         None => Ok(()),
     })?;
-    let ratios: Vec<f64> = (0..grid.columns).map(|column| grid.x_at(column)).collect();
-    let speeds: Vec<f64> = (0..grid.rows).map(|row| grid.y_at(row)).collect();
-    Ok((
-        shaped(py, ratios, &[grid.columns])?,
-        shaped(py, speeds, &[grid.rows])?,
-        shaped(py, codes, &[grid.columns, grid.rows])?,
-    ))
+    shaped(py, codes, &[end - begin, shape.1])
+}
+
+/// The window of speeds of the paper, from α*_1 to α*_6.
+#[pyfunction]
+pub(crate) fn first_window() -> (f64, f64) {
+    let speeds = hopper_basin::first_humps(5);
+    (speeds.left, speeds.right)
+}
+
+type Window = ((f64, f64), (f64, f64));
+
+fn grid_of(((left, right), (bottom, top)): Window, shape: (usize, usize)) -> PyResult<Grid> {
+    let x = Interval::new(left, right).map_err(value_error)?;
+    let y = Interval::new(bottom, top).map_err(value_error)?;
+    let grid = Grid { x, y, columns: shape.0, rows: shape.1 };
+    grid.pixels().map_err(value_error)?;
+    Ok(grid)
+}
+
+/// The middles of the pixels of a window ((left, right), (bottom, top)): an array for each side.
+#[pyfunction]
+pub(crate) fn pixel_middles<'py>(
+    py: Python<'py>,
+    window: Window,
+    shape: (usize, usize),
+) -> PyResult<Middles<'py>> {
+    let grid = grid_of(window, shape)?;
+    let across = (0..grid.columns).map(|column| grid.x_at(column)).collect();
+    let up = (0..grid.rows).map(|row| grid.y_at(row)).collect();
+    Ok((shaped::<f64>(py, across, &[grid.columns])?, shaped::<f64>(py, up, &[grid.rows])?))
 }
 
 /// A number between two bounds.
@@ -72,9 +129,9 @@ pub(crate) fn basin_labels<'py>(
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Bounds {
     /// The lower bound.
-    lower: f64,
+    pub(crate) lower: f64,
     /// The upper bound.
-    upper: f64,
+    pub(crate) upper: f64,
 }
 
 #[pymethods]
@@ -152,6 +209,22 @@ impl IntervalBasins {
         Bounds { lower: bounds.lower / length, upper: (bounds.upper / length).min(1.0) }
     }
 
+    /// The probability that a speed of one basin is in another after the mass ratio has changed to that of `after`: a dictionary from pairs
+    /// (label before, label after) to Bounds. Both have the same window.
+    fn tipping_to(&self, after: &Self) -> PyResult<BTreeMap<(u16, u16), Bounds>> {
+        let (one, two) = (&self.found.basins, &after.found.basins);
+        let tipping = one.tipping_to(two).map_err(value_error)?;
+        let pairs = one.labels().into_iter().flat_map(|before| {
+            two.labels().into_iter().map(move |after| (before, after)).collect::<Vec<_>>()
+        });
+        let found = pairs.filter_map(|(before, after)| {
+            let probability = tipping.probability(before, after)?;
+            let bounds = Bounds { lower: probability.lower, upper: probability.upper };
+            Some(((before.code(), after.code()), bounds))
+        });
+        Ok(found.collect())
+    }
+
     /// The label of the interval that contains α; None where it is undecided.
     fn label(&self, alpha: f64) -> Option<u16> {
         self.found.basins.label(alpha).map(Label::code)
@@ -191,11 +264,11 @@ pub(crate) fn interval_basins(
     samples: usize,
 ) -> PyResult<IntervalBasins> {
     let refinement = Refinement { undecided, shortest, ..Refinement::default() };
-    let found = py.detach(|| {
+    let work = move |_: &Watch| {
         let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
         hopper_basin::hopper_basins(&fates, first, last, samples, refinement)
-    });
-    found.map(|found| IntervalBasins { found }).map_err(value_error)
+    };
+    in_background(py, work, value_error, |_| Ok(())).map(|found| IntervalBasins { found })
 }
 
 /// The basin fractions by the paper's protocol: `points` equally spaced speeds between any two neighbouring fixed points.
@@ -209,8 +282,9 @@ pub(crate) fn fractions(
     last: u64,
     points: usize,
 ) -> PyResult<BTreeMap<String, f64>> {
-    let found = py
-        .detach(|| hopper_basin::basin_fractions(MassRatio::new(mass_ratio)?, first, last, points));
-    let found = found.map_err(value_error)?;
+    let work = move |_: &Watch| {
+        hopper_basin::basin_fractions(MassRatio::new(mass_ratio)?, first, last, points)
+    };
+    let found = in_background(py, work, value_error, |_| Ok(()))?;
     Ok(found.counts.keys().map(|&label| (HopperFate::label_name(label), found.of(label))).collect())
 }

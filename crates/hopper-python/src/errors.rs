@@ -7,7 +7,8 @@ create_exception!(
     passive_hopper,
     UndecidedError,
     PyArithmeticError,
-    "A hop that cannot be decided with 1024 bits: sudden or not, on which branch, or grounded or not."
+    "What happens cannot be decided: a hop with 1024 bits (sudden or not, on which branch, or grounded or not), or an event of a \
+     hybrid system that rounding hides."
 );
 
 /// A ValueError with the message of a library's error, which has the numbers in it.

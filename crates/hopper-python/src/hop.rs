@@ -1,5 +1,6 @@
 //! One hop, landing by landing.
 
+use passive_hopper::{BoundedHop, BoundedLanding};
 use pyo3::prelude::*;
 
 /// One landing of a hop.
@@ -26,6 +27,8 @@ pub(crate) struct Hop {
     speed: f64,
     /// α′, the next lift-off speed; None if the hopper is grounded.
     next: Option<f64>,
+    /// Bound on the error of α′; None if the hopper is grounded.
+    next_error: Option<f64>,
     /// α − α′, to full accuracy even where it is tiny; None if the hopper is grounded.
     loss: Option<f64>,
     /// α′²; negative if the hopper is grounded.
@@ -34,22 +37,22 @@ pub(crate) struct Hop {
     sudden: usize,
     /// The time of all flights of the hop, in units of 1/ω.
     flight_time: f64,
-    /// The landings, one more than the sudden lift-offs.
+    /// The landings: one more than the sudden lift-offs, or as many if a last flight is too short for a float.
     landings: Vec<Landing>,
 }
 
-impl Hop {
-    pub(crate) fn new(hop: &passive_hopper::Hop, landings: &[passive_hopper::Landing]) -> Self {
-        let landing = |of: &passive_hopper::Landing| Landing {
-            time: of.time,
-            closing_speed: of.closing_speed,
-            excess: of.excess,
-            velocity: of.velocity,
-            sudden: of.sudden,
+impl From<BoundedHop> for Hop {
+    fn from(bounded: BoundedHop) -> Self {
+        let BoundedHop { hop, next_error, landings, .. } = bounded;
+        let landing = |of: &BoundedLanding| {
+            let passive_hopper::Landing { time, closing_speed, excess, velocity, sudden } =
+                of.landing;
+            Landing { time, closing_speed, excess, velocity, sudden }
         };
         Hop {
             speed: hop.speed,
             next: hop.next,
+            next_error,
             loss: hop.loss,
             next_speed_squared: hop.next_speed_squared,
             sudden: hop.sudden,

@@ -6,14 +6,21 @@ mod errors;
 mod fates;
 mod fixed_points;
 mod hop;
+mod hybrid;
 mod interruptible;
+mod labelling;
 mod map;
+mod motion;
 
 use pyo3::prelude::*;
 
 /// The native part of `passive_hopper`.
 #[pymodule]
 fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    // Loaded here, where a failure or Ctrl-C is an exception. The numpy crate would load it in the first call that makes an array, and
+    // panic.
+    module.py().import("numpy")?;
+    drop(numpy::PyArray1::<f64>::from_slice(module.py(), &[]));
     module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_class::<map::LiftOffMap>()?;
@@ -24,6 +31,23 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<fixed_points::Crisis>()?;
     module.add_class::<basins::IntervalBasins>()?;
     module.add_class::<basins::Bounds>()?;
+    module.add_class::<labelling::LabelImage>()?;
+    module.add_class::<labelling::BoxCount>()?;
+    module.add_class::<labelling::Interval>()?;
+    module.add_class::<labelling::UncertaintyExponent>()?;
+    module.add_class::<labelling::Attractors>()?;
+    module.add_function(wrap_pyfunction!(labelling::label_codes, module)?)?;
+    module.add_function(wrap_pyfunction!(labelling::region_fractions, module)?)?;
+    module.add_function(wrap_pyfunction!(labelling::uncertainty_exponent, module)?)?;
+    module.add_class::<hybrid::HybridSystem>()?;
+    module.add_class::<hybrid::Guard>()?;
+    module.add_class::<hybrid::Clock>()?;
+    module.add_class::<hybrid::Execution>()?;
+    module.add_class::<hybrid::HybridArc>()?;
+    module.add_class::<hybrid::Event>()?;
+    module.add_class::<hybrid::Zeno>()?;
+    module.add_class::<hybrid::Sliding>()?;
+    module.add_class::<hybrid::QuasiPolynomial>()?;
     module.add_function(wrap_pyfunction!(fixed_points::alpha_star, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::trap, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::crisis, module)?)?;
@@ -31,7 +55,14 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(fates::label_name, module)?)?;
     module.add_function(wrap_pyfunction!(fates::label_colour, module)?)?;
     module.add_function(wrap_pyfunction!(basins::basin_labels, module)?)?;
+    module.add("RASTER_VERSION", hopper_basin::RASTER_VERSION)?;
+    module.add_function(wrap_pyfunction!(basins::basin_region, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::first_window, module)?)?;
+    module.add_function(wrap_pyfunction!(basins::pixel_middles, module)?)?;
     module.add_function(wrap_pyfunction!(basins::interval_basins, module)?)?;
     module.add_function(wrap_pyfunction!(basins::fractions, module)?)?;
+    module.add_function(wrap_pyfunction!(motion::motion_arrays, module)?)?;
+    module.add_function(wrap_pyfunction!(motion::motion_event_names, module)?)?;
+    module.add_function(wrap_pyfunction!(motion::animation_bytes, module)?)?;
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! The lift-off map for scalars and arrays.
 
-use crate::arrays::{Numbers, like, shaped};
+use crate::arrays::{Numbers, Source, like, shaped};
 use crate::errors::{map_error, value_error};
 use crate::fates::Fate;
 use crate::hop::Hop;
@@ -58,7 +58,7 @@ impl LiftOffMap {
                 if alpha.is_nan() { None } else { self.map.image(alpha).map_err(map_error)? };
             return Ok(next.unwrap_or(f64::NAN).into_pyobject(py)?.into_any());
         }
-        self.images(py, alpha.extract()?, false)
+        self.images(py, alpha, false)
     }
 
     /// f(α) for all speeds at once; NaN where the hopper is grounded.
@@ -69,23 +69,29 @@ impl LiftOffMap {
     fn images<'py>(
         &self,
         py: Python<'py>,
-        alpha: Numbers,
+        alpha: &Bound<'py, PyAny>,
         status: bool,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let Numbers { values: speeds, shape } = alpha;
-        let mut images = vec![0.0; speeds.len()];
-        let mut all = vec![HopStatus::NoSpeed; if status { speeds.len() } else { 0 }];
-        let hop = |k: usize| {
-            let range = k * PIECE..((k + 1) * PIECE).min(speeds.len());
-            let (from, to) = (&speeds[range.clone()], &mut images[range.clone()]);
-            match all.get_mut(range) {
+        let speeds = Source::of(alpha)?;
+        let shape = speeds.shape();
+        let count = shape.iter().product();
+        let mut images = vec![0.0; count];
+        let mut all = vec![HopStatus::NoSpeed; if status { count } else { 0 }];
+        let mut piece = Vec::with_capacity(PIECE.min(count));
+        for start in (0..count).step_by(PIECE) {
+            py.check_signals()?;
+            let range = start..(start + PIECE).min(count);
+            speeds.copy(range.clone(), &mut piece)?;
+            let (from, to) = (&piece, &mut images[range.clone()]);
+            let status = all.get_mut(range);
+            py.detach(|| match status {
                 Some(status) if status.len() == from.len() => {
                     self.map.images_with_status(from, to, status)
                 }
                 _ => self.map.images_into(from, to),
-            }
-        };
-        pieces(py, speeds.len().div_ceil(PIECE), hop, map_error, |_| Ok(()))?;
+            })
+            .map_err(map_error)?;
+        }
         let images = like(py, images, &shape)?;
         if !status {
             return Ok(images);
@@ -97,9 +103,7 @@ impl LiftOffMap {
 
     /// The hop that starts with speed α, with all its landings.
     fn hop(&self, alpha: f64) -> PyResult<Hop> {
-        let hop = self.map.hop(alpha).map_err(map_error)?;
-        let landings = self.map.landings(alpha).map_err(map_error)?;
-        Ok(Hop::new(&hop, &landings))
+        self.map.bounded_hop(alpha).map(Hop::from).map_err(map_error)
     }
 
     /// The speeds α, f(α), f(f(α)), …: an array with up to `hops` + 1 speeds. It ends early if the hopper is grounded.
@@ -118,7 +122,7 @@ impl LiftOffMap {
             }
             Ok(())
         };
-        pieces(py, hops.div_ceil(PIECE), hop, map_error, |_| Ok(()))?;
+        pieces(py, hops.div_ceil(PIECE), hop, map_error)?;
         let count = speeds.len();
         shaped(py, speeds, &[count])
     }
@@ -138,7 +142,7 @@ impl LiftOffMap {
             codes.extend(fates.labels(&speeds[range])?.iter().map(|label| label.code()));
             Ok::<(), hopper_basin::Error>(())
         };
-        pieces(py, speeds.len().div_ceil(PIECE), label, value_error, |_| Ok(()))?;
+        pieces(py, speeds.len().div_ceil(PIECE), label, value_error)?;
         shaped(py, codes, &shape)
     }
 

@@ -125,20 +125,6 @@ def test_other_threads_run_meanwhile():
     assert len(ticks) > 5
 
 
-def test_doctests_run():
-    import doctest
-
-    from passive_hopper import _native, datasets
-
-    pytest.importorskip("xarray")
-    finder = doctest.DocTestFinder()
-    names = [hopper, datasets, _native.LiftOffMap, _native.alpha_star, _native.interval_basins, _native.label_name]
-    for name in names:
-        for test in finder.find(name, getattr(name, "__name__", "hopper"), globs={}):
-            result = doctest.DocTestRunner().run(test)
-            assert result.failed == 0, test.name
-
-
 def test_pictures_are_drawn(tmp_path):
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")

@@ -26,6 +26,22 @@ def test_scalars_are_floats_and_arrays_keep_their_shape(lift_off_map):
     assert lift_off_map(np.empty((0, 3))).shape == (0, 3)
 
 
+def test_arrays_of_every_layout_and_length_are_the_same(lift_off_map):
+    # Longer than the pieces in which arrays are read.
+    speeds = np.linspace(4.5, 20, 150_001)
+    images, status = lift_off_map.images(speeds, status=True)
+    assert np.array_equal(lift_off_map(speeds), images, equal_nan=True)
+    assert np.array_equal(np.concatenate([lift_off_map(part) for part in np.array_split(speeds, 7)]), images, equal_nan=True)
+    assert np.array_equal(status == 0, ~np.isnan(images))
+    locked = speeds.copy()
+    locked.flags.writeable = False
+    for array in (locked, speeds.astype(">f8"), np.repeat(speeds, 2)[::2], memoryview(speeds)):
+        assert np.array_equal(lift_off_map(array), images, equal_nan=True)
+    assert np.array_equal(lift_off_map(speeds[::-1]), images[::-1], equal_nan=True)
+    assert lift_off_map(np.array(7.0)) == lift_off_map(7.0)
+    assert np.array_equal(speeds, np.linspace(4.5, 20, 150_001))
+
+
 def test_arrays_and_scalars_have_the_same_bits(lift_off_map):
     speeds = np.linspace(0.1, 20, 3000)
     one_by_one = np.array([lift_off_map(float(speed)) for speed in speeds])
@@ -92,3 +108,14 @@ def test_contact_hops_are_the_same_at_one_over_m():
     speeds = [speed for speed in np.linspace(4.5, 20, 1000) if light.hop(speed).sudden == heavy.hop(speed).sudden == 0]
     assert len(speeds) > 100
     assert np.allclose(light(speeds), heavy(speeds), rtol=1e-12, equal_nan=True)
+
+
+def test_numpy_is_loaded_with_the_package():
+    # Loaded later, within a call, a failure would be a panic.
+    import subprocess
+    import sys
+
+    code = "import sys; from passive_hopper import _native; assert 'numpy' in sys.modules"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+    broken = "import sys; sys.modules['numpy'] = None\ntry:\n    import passive_hopper\nexcept ImportError: sys.exit(7)"
+    assert subprocess.run([sys.executable, "-c", broken], check=False).returncode == 7

@@ -1,4 +1,4 @@
-//! `compare-peers`: the same hops by heyoka, SciPy, numba and this repository.
+//! `compare-peers`: the same hops by heyoka, SciPy, numba and this repository, in Rust and in Python.
 
 use crate::error::Error;
 use crate::peers::{Python, csv, markdown, measure, peers_figure};
@@ -27,7 +27,9 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "peers")?;
     // Two runs would install into the same environment and read each other's results.
     let _lock = Lock::take(folder.path(), "compare-peers")?;
-    let python = Python::with_packages(&options.python, folder.path())?;
+    let package = repository().join("crates/hopper-python");
+    let python = Python::with_packages(&options.python, folder.path())?
+        .with_own_package(&package, &folder.path().join("build"))?;
     let peers = measure(&python, folder.path(), &Progress)?;
     let rendered = render("peers", &peers_figure(&peers), 2.0)?;
     folder.write("peers.csv", &csv(&peers)?.bytes)?;

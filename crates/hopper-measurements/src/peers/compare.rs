@@ -26,7 +26,13 @@ pub(crate) fn measure(
     let hops = window_hops()?;
     let found = theirs(python, folder, &hops)?;
     bar.set(1);
-    let mut peers: Vec<Peer> = found.into_iter().map(|found| peer(found, false, &hops)).collect();
+    let mut peers: Vec<Peer> = found
+        .into_iter()
+        .map(|found| {
+            let ours = found.name.starts_with("passive_hopper");
+            peer(found, ours, &hops)
+        })
+        .collect();
     for method in [Method::HybridSearched, Method::HybridExact, Method::Stable, Method::AtOnce] {
         peers.push(peer(ours(method, &hops), true, &hops));
     }

@@ -1,4 +1,4 @@
-"""Hops of the passive hopper by heyoka, SciPy and numba: time a hop, and the speeds found.
+"""Hops of the passive hopper by heyoka, SciPy, numba and this repository's package: time a hop, and the speeds found.
 
 python peers.py hops.json results.json
 
@@ -17,6 +17,7 @@ import time
 import heyoka
 import numba
 import numpy
+import passive_hopper
 import scipy
 from scipy.integrate import solve_ivp
 
@@ -225,6 +226,32 @@ def by_numba(hops):
     return [speed if speed > 0.0 else None for speed in numba_hops(ratios.copy(), alphas.copy())]
 
 
+def none_for_nan(speeds):
+    return [speed if speed == speed else None for speed in speeds]
+
+
+def by_package(all_hops):
+    # A program makes its maps before it needs images.
+    pairs = [(passive_hopper.LiftOffMap(ratio), alpha) for ratio, alpha in all_hops]
+    return lambda hops: none_for_nan([image(alpha) for image, alpha in pairs[: len(hops)]])
+
+
+def by_package_arrays(hops):
+    """The time of a hop in arrays of a million speeds of the same window, and each hop in an array of its own."""
+    maps = [passive_hopper.LiftOffMap(ratio) for ratio, _ in hops]
+    found = [float(image(numpy.full(32, alpha))[0]) for image, (_, alpha) in zip(maps, hops)]
+    least, most = min(alpha for _, alpha in hops), max(alpha for _, alpha in hops)
+    speeds = least + (most - least) * (numpy.arange(10**6) * 0.7548776662466927 % 1.0)
+    times = []
+    # Every hundredth map: light and heavy lower masses.
+    for image in maps[::100]:
+        begin = time.perf_counter()
+        image(speeds)
+        times.append(time.perf_counter() - begin)
+    name = f"passive_hopper {passive_hopper.__version__} in Python, arrays"
+    return {"name": name, "seconds": sum(times) / len(times) / len(speeds), "next": none_for_nan(found)}
+
+
 def measure(name, run, hops, repeats):
     """Once to warm up, then the median of some runs."""
     run(hops[:16])
@@ -246,6 +273,8 @@ def main():
         measure(f"heyoka {heyoka.__version__}, terminal event", heyoka_scalar(), hops, 5),
         measure(f"heyoka {heyoka.__version__}, batch of {lanes}", heyoka_batch(), hops, 5),
         measure(f"heyoka {heyoka.__version__}, batch of {lanes}, first flights alone", heyoka_flights(), hops, 5),
+        measure(f"passive_hopper {passive_hopper.__version__} in Python, one by one", by_package(hops), hops, 5),
+        by_package_arrays(hops),
     ]
     with open(sys.argv[2], "w") as file:
         json.dump(results, file)

@@ -43,6 +43,16 @@ impl Python {
         Ok(Python(inside))
     }
 
+    /// Builds this repository's own Python package, and installs it beside the others.
+    pub(crate) fn with_own_package(self, package: &Path, build: &Path) -> Result<Self, Error> {
+        let mut command = Command::new(&self.0);
+        command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+        command.args(["--no-deps", "--force-reinstall"]).arg(package);
+        command.env("CARGO_TARGET_DIR", build);
+        finish(&mut command, "passive_hopper could not be built and installed")?;
+        Ok(self)
+    }
+
     /// Runs a script with these arguments.
     pub(crate) fn run(&self, script: &str, arguments: &[&Path]) -> Result<(), Error> {
         let mut words = vec!["-c".to_owned(), script.to_owned()];
@@ -53,11 +63,13 @@ impl Python {
 
 /// Runs a program to its end. The last lines of its messages are part of the error.
 pub(crate) fn call(program: &Path, arguments: &[String], what: &str) -> Result<(), Error> {
+    finish(Command::new(program).args(arguments), what)
+}
+
+fn finish(command: &mut Command, what: &str) -> Result<(), Error> {
+    let program = PathBuf::from(command.get_program());
     let reason = |why: String| Error::Peers { reason: format!("{what} ({why})") };
-    let output = Command::new(program)
-        .args(arguments)
-        .output()
-        .map_err(|e| reason(format!("{}: {e}", program.display())))?;
+    let output = command.output().map_err(|e| reason(format!("{}: {e}", program.display())))?;
     if output.status.success() {
         return Ok(());
     }

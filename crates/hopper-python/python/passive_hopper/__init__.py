@@ -3,6 +3,8 @@
 All dynamics is one map of the lift-off speed, α′ = f(α; M). Lengths are in units of m₂g/k, times in units of 1/ω with
 ω² = k(1+M)/m₂, speeds in units of m₂gω/k. M = m₂/m₁ is the lower mass over the upper one.
 
+The modules :mod:`passive_hopper.hybrid` and :mod:`passive_hopper.labelling` are for any hybrid system, and for the basins of any labelling.
+
 >>> import numpy as np
 >>> from passive_hopper import LiftOffMap, alpha_star
 >>> m = LiftOffMap(0.2)
@@ -14,6 +16,7 @@ All dynamics is one map of the lift-off speed, α′ = f(α; M). Lengths are in 
 True
 """
 
+from . import hybrid, labelling
 from ._native import (
     Bounds,
     Crisis,
@@ -33,9 +36,11 @@ from ._native import (
     interval_basins,
     label_colour,
     label_name,
+    motion_arrays,
     trap,
 )
 from .datasets import basins
+from .motions import animate, motion
 from .plots import cobweb, plot_basins
 
 __all__ = [
@@ -49,15 +54,20 @@ __all__ = [
     "Trap",
     "UndecidedError",
     "alpha_star",
+    "animate",
     "basin_labels",
     "basins",
     "cobweb",
     "crisis",
     "fractions",
     "grounding",
+    "hybrid",
     "interval_basins",
     "label_colour",
     "label_name",
+    "labelling",
+    "motion",
+    "motion_arrays",
     "plot_basins",
     "trap",
 ]

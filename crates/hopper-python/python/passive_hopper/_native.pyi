@@ -18,6 +18,7 @@ class Landing:
 class Hop:
     speed: float
     next: float | None
+    next_error: float | None
     loss: float | None
     next_speed_squared: float
     sudden: int
@@ -82,6 +83,7 @@ class IntervalBasins:
     @property
     def probes(self) -> tuple[int, int]: ...
     def fraction(self, label: int) -> Bounds: ...
+    def tipping_to(self, after: IntervalBasins) -> dict[tuple[int, int], Bounds]: ...
     def label(self, alpha: float) -> int | None: ...
 
 @overload
@@ -110,3 +112,228 @@ def interval_basins(
 def fractions(
     mass_ratio: float, first: int = 1, last: int = 6, points: int = 10_000
 ) -> dict[str, float]: ...
+def motion_arrays(alpha: float, mass_ratio: float, hops: int = 10) -> dict[str, Any]: ...
+def motion_event_names() -> list[tuple[int, str]]: ...
+def animation_bytes(
+    alpha: float,
+    mass_ratio: float,
+    hops: int = 3,
+    form: str = "gif",
+    progress: Callable[[int, int], Any] | None = None,
+) -> bytes: ...
+RASTER_VERSION: int
+
+def basin_region(
+    M: tuple[float, float],
+    alpha: tuple[float, float],
+    shape: tuple[int, int],
+    columns: tuple[int, int],
+    threads: int | None = None,
+    progress: Callable[[int, int], Any] | None = None,
+) -> NDArray[np.uint16]: ...
+def first_window() -> tuple[float, float]: ...
+def pixel_middles(
+    window: tuple[tuple[float, float], tuple[float, float]], shape: tuple[int, int]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+def label_codes() -> dict[str, int]: ...
+
+class Interval:
+    value: float
+    lower: float
+    upper: float
+    def __contains__(self, number: float) -> bool: ...
+
+class BoxCount:
+    size: float
+    boxes: int
+    mixed: int
+    open: int
+    basin_entropy: float
+    boundary_entropy: float | None
+
+class LabelImage:
+    def __init__(self, labels: NDArray[np.uint16]) -> None: ...
+    def counts(self) -> dict[int, int]: ...
+    def fractions(self) -> dict[int, Interval]: ...
+    def fraction_bounds(self) -> dict[int, Bounds]: ...
+    def boxes(self, side: int) -> BoxCount: ...
+    def exceeds_ln_2(self) -> bool: ...
+    def far_from_other_boundaries(self, distance: int) -> float: ...
+
+class UncertaintyExponent:
+    exponent: Interval
+    follows_a_power_law: bool
+    fractions: list[tuple[float, Interval]]
+
+class Attractors:
+    def __init__(
+        self,
+        map: Callable[[NDArray[np.float64]], Sequence[float] | NDArray[np.float64] | None],
+        *,
+        region: Sequence[tuple[float, float]],
+        starts: Sequence[Sequence[float]],
+        cells: int = 100,
+        recurrences: int = 100,
+        locate: int = 1000,
+        budget: int = 100_000,
+        lost: int = 1000,
+        tests: int = 200,
+        escape: float | None = None,
+    ) -> None: ...
+    @property
+    def points(self) -> dict[int, NDArray[np.float64]]: ...
+    @property
+    def unmatched(self) -> list[tuple[list[float], str]]: ...
+    def labels(self, starts: Sequence[Sequence[float]]) -> NDArray[np.uint16]: ...
+
+def region_fractions(
+    label: Callable[..., NDArray[np.uint16]], window: Sequence[tuple[float, float]], count: int, seed: int
+) -> dict[int, Interval]: ...
+def uncertainty_exponent(
+    label: Callable[..., NDArray[np.uint16]],
+    window: Sequence[tuple[float, float]],
+    epsilons: Sequence[float],
+    count: int,
+    seed: int,
+) -> UncertaintyExponent: ...
+
+_Mode = Any
+_Vector = Sequence[float] | NDArray[np.float64]
+_State = NDArray[np.float64]
+_Reset = Callable[[_Mode, _State], tuple[_Mode, _Vector] | None]
+
+class QuasiPolynomial:
+    @staticmethod
+    def polynomial(coefficients: Sequence[float]) -> QuasiPolynomial: ...
+    @staticmethod
+    def sine(amplitude: float, omega: float) -> QuasiPolynomial: ...
+    @staticmethod
+    def cosine(amplitude: float, omega: float) -> QuasiPolynomial: ...
+    @staticmethod
+    def exponential(amplitude: float, rate: float) -> QuasiPolynomial: ...
+    def damped(self, rate: float) -> QuasiPolynomial: ...
+    def derivative(self) -> QuasiPolynomial: ...
+    def first_crossing(self, direction: str, horizon: float) -> float | None: ...
+    def __call__(self, time: float) -> float: ...
+    def __add__(self, other: QuasiPolynomial) -> QuasiPolynomial: ...
+    def __sub__(self, other: QuasiPolynomial) -> QuasiPolynomial: ...
+    def __neg__(self) -> QuasiPolynomial: ...
+    def __mul__(self, other: QuasiPolynomial | float) -> QuasiPolynomial: ...
+    def __rmul__(self, factor: float) -> QuasiPolynomial: ...
+
+class Guard:
+    name: str
+    def __init__(
+        self,
+        name: str,
+        value: Callable[[_State], float],
+        direction: Literal["rising", "falling", "either"],
+        *,
+        reset: _Reset | None = None,
+        role: Literal["switch", "observer", "terminal"] = "switch",
+        touch: Literal["error", "event", "ignore"] = "error",
+        modes: Sequence[_Mode] | None = None,
+        signal: Callable[[_Mode, _State], QuasiPolynomial | None] | None = None,
+        enclosure: Callable[[_Mode, _State, int, tuple[float, float]], tuple[float, float] | None] | None = None,
+    ) -> None: ...
+
+class Clock:
+    name: str
+    def __init__(
+        self,
+        name: str,
+        *,
+        times: Sequence[float] | Callable[[float], float | None] | None = None,
+        period: float | None = None,
+        first: float = 0.0,
+        reset: _Reset | None = None,
+        modes: Sequence[_Mode] | None = None,
+    ) -> None: ...
+
+class Event:
+    surface: str
+    time: float
+    time_error: float
+    at_time_limit: bool
+    jump: int
+    before: _State
+    next_mode: _Mode | None
+    after: _State | None
+    kind: Literal["crossing", "touch", "at start", "clock"]
+    certainty: Literal["exact", "certain", "interpolated", "sampled"]
+
+class Zeno:
+    time: float
+    time_error: float
+    state: _State
+    state_error: float
+    ratio: float
+    period: int
+    next_mode: _Mode | None
+    after: _State | None
+
+class Sliding:
+    surface: str
+    below: _Mode
+    above: _Mode
+    time: float
+    state: _State
+    rates: tuple[float, float]
+    field: _State | None
+
+class Arc:
+    @property
+    def mode(self) -> _Mode: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def jump(self) -> int: ...
+    @property
+    def start(self) -> _State: ...
+    @property
+    def duration(self) -> float: ...
+    @property
+    def end(self) -> Literal["event", "zeno", "sliding", "time limit", "never", "unfinished"]: ...
+    @property
+    def certainty(self) -> Literal["exact", "certain", "interpolated", "sampled"] | None: ...
+    @property
+    def event(self) -> Event | None: ...
+    @property
+    def zeno(self) -> Zeno | None: ...
+    @property
+    def sliding(self) -> Sliding | None: ...
+    def states(self, elapsed: ArrayLike) -> NDArray[np.float64]: ...
+
+class Execution:
+    def __iter__(self) -> Execution: ...
+    def __next__(self) -> Arc: ...
+    def run_until(self, time: float) -> Execution: ...
+    def trajectory(self, grid: ArrayLike) -> dict[str, Any]: ...
+    @property
+    def mode(self) -> _Mode: ...
+    @property
+    def state(self) -> _State: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def jump(self) -> int: ...
+    @property
+    def stop(self) -> str | None: ...
+
+class HybridSystem:
+    def __init__(
+        self,
+        *,
+        flow: Callable[[_Mode, _State, float], _Vector] | None = None,
+        field: Callable[[_Mode, _State], _Vector] | None = None,
+        guards: Sequence[Guard | Clock] = (),
+        rest: _Reset | None = None,
+        slide: Callable[[Sliding], tuple[_Mode, _Vector] | None] | None = None,
+        tolerance: float = 1e-10,
+        longest_step: float = ...,
+        check_interval: float = ...,
+        sampled: float | None = None,
+    ) -> None: ...
+    def run(
+        self, start: ArrayLike, *, time: float, mode: _Mode = None, events: int = 1_000_000, start_time: float = 0.0
+    ) -> Execution: ...

@@ -1,40 +1,106 @@
-"""Basins as an xarray.Dataset."""
+"""Basins as an xarray.Dataset, in memory or in a Zarr store on disk."""
+
+from __future__ import annotations
+
+import hashlib
+import operator
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 
+if TYPE_CHECKING:
+    import distributed
+    import xarray
 
-def basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), progress=None):
+
+def basins(
+    M: tuple[float, float] = (0.1, 1.0),
+    alpha: tuple[float, float] | None = None,
+    shape: tuple[int, int] = (512, 512),
+    progress: Callable[[int, int], Any] | None = None,
+    store: str | os.PathLike[str] | None = None,
+    client: distributed.Client | None = None,
+) -> xarray.Dataset:
     """The basins over a window of (M, α), as an ``xarray.Dataset`` with the dimensions ``M`` and ``alpha``.
 
-    The arguments are those of :func:`basin_labels`. The variable ``label`` has the attributes ``flag_values`` and
-    ``flag_meanings`` of the CF conventions.
+    ``alpha`` is the window of the paper, from α*_1 to α*_6, unless given. Each label is the fate of its pixel's middle. The variable
+    ``label`` has the attributes ``flag_values`` and ``flag_meanings`` of the CF conventions. ``progress(done, all)`` counts columns.
 
     >>> from passive_hopper import basins
     >>> found = basins(shape=(8, 8))
     >>> found["label"].dims
     ('M', 'alpha')
+
+    With ``store``, a folder such as ``"basins.zarr"``, the labels are written to it region by region, in the format Zarr 3, and the Dataset reads
+    them from there. A call that was interrupted, or killed, goes on where it was. A store of another job is refused. A store without
+    the attribute ``sha256`` is not finished.
+
+    With ``client``, a ``dask.distributed.Client``, the workers of its cluster compute and write the regions. They need the folder at the
+    same path. Workers may be lost: their regions are computed again.
     """
+    import_xarray("basins", "basin_labels gives the same as arrays.")
+    # Numbers of NumPy, and integers, are the same job as floats.
+    M = tuple(float(end) for end in M)
+    alpha = tuple(float(end) for end in (_native.first_window() if alpha is None else alpha))
+    shape = tuple(operator.index(side) for side in shape)
+    _native.pixel_middles((M, alpha), shape)
+    if store is not None:
+        from .stores import write_basins
+
+        return write_basins(store, (M, alpha, shape), client=client, progress=progress)
+    if client is not None:
+        raise ValueError("the workers of a client write into a store: give store='….zarr' as well")
+    _, _, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape, progress=progress)
+    import numpy
+
+    codes = numpy.unique(labels)
+    return dataset(M, alpha, shape, labels, codes, hashlib.sha256(labels).hexdigest())
+
+
+def import_xarray(name, other):
+    """xarray, or an ImportError that says what to install."""
     try:
         import xarray
     except ImportError as error:
-        raise ImportError(
-            "basins needs xarray: pip install 'passive-hopper[xarray]'. basin_labels gives the same as arrays."
-        ) from error
-    import numpy
+        raise ImportError(f"{name} needs xarray: pip install 'passive-hopper[xarray]'. {other}") from error
+    return xarray
 
-    ratios, speeds, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape, progress=progress)
-    codes = numpy.unique(labels)
-    meanings = [_native.label_name(int(code)).replace(" ", "_") for code in codes]
-    attributes = {
-        "long_name": "fate",
-        "flag_values": codes,
-        "flag_meanings": " ".join(meanings),
+
+def coordinates(M, alpha, shape):
+    """The coordinates of a raster: names, values and attributes."""
+    ratios, speeds = _native.pixel_middles((M, alpha), shape)
+    return {
+        "M": (ratios, {"long_name": "mass ratio m2/m1", "units": "1"}),
+        "alpha": (speeds, {"long_name": "lift-off speed", "units": "m2 g omega/k"}),
     }
+
+
+def job_attributes(M, alpha, shape):
+    """The attributes that say which job it is: the same for the same labels."""
+    return {
+        "Conventions": "CF-1.11",
+        "title": "basins of a passive hopper",
+        "source": f"passive_hopper {_native.__version__}",
+        "computation": int(_native.RASTER_VERSION),
+        "command": f"passive_hopper.basins(M={M!r}, alpha={alpha!r}, shape={shape!r})",
+    }
+
+
+def flag_attributes(codes):
+    """The attributes of labels, for the codes that occur."""
+    codes = sorted(int(code) for code in codes)
+    meanings = [_native.label_name(code).replace(" ", "_") for code in codes]
+    return {"long_name": "fate", "units": "1", "flag_values": codes, "flag_meanings": " ".join(meanings)}
+
+
+def dataset(M, alpha, shape, labels, codes, sha256):
+    """A raster in memory."""
+    import xarray
+
     return xarray.Dataset(
-        {"label": (("M", "alpha"), labels, attributes)},
-        coords={
-            "M": ("M", ratios, {"long_name": "mass ratio m2/m1", "units": "1"}),
-            "alpha": ("alpha", speeds, {"long_name": "lift-off speed", "units": "m2 g omega/k"}),
-        },
-        attrs={"source": f"passive_hopper {_native.__version__}", "title": "basins of a passive hopper"},
+        {"label": (("M", "alpha"), labels, flag_attributes(codes))},
+        coords={name: (name, *own) for name, own in coordinates(M, alpha, shape).items()},
+        attrs=job_attributes(M, alpha, shape) | {"sha256": sha256},
     )

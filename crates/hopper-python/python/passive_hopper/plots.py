@@ -1,6 +1,13 @@
 """Pictures with matplotlib."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from . import _native
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 def _matplotlib():
@@ -11,7 +18,7 @@ def _matplotlib():
     return matplotlib.pyplot
 
 
-def cobweb(mass_ratio, alpha, hops=30, ax=None):
+def cobweb(mass_ratio: float, alpha: float, hops: int = 30, ax: Axes | None = None) -> Axes:
     """Draws the map and the orbit from ``alpha`` as a cobweb; returns the axes."""
     import numpy
 
@@ -35,8 +42,14 @@ def cobweb(mass_ratio, alpha, hops=30, ax=None):
     return ax
 
 
-def plot_basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), ax=None):
-    """Draws the basins over a window of (M, α) with a legend; returns the axes."""
+def plot_basins(
+    M: tuple[float, float] = (0.1, 1.0),
+    alpha: tuple[float, float] | None = None,
+    shape: tuple[int, int] = (512, 512),
+    ax: Axes | None = None,
+    legend: bool = True,
+) -> Axes:
+    """Draws the basins over a window of (M, α), with a legend unless that is switched off; returns the axes."""
     import numpy
     from matplotlib.colors import to_rgb
     from matplotlib.patches import Patch
@@ -45,15 +58,16 @@ def plot_basins(M=(0.1, 1.0), alpha=None, shape=(512, 512), ax=None):
     ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
     ratios, speeds, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape)
     picture = numpy.empty(labels.T.shape + (3,))
-    legend = []
+    entries = []
     for code in (int(code) for code in numpy.unique(labels)):
         colour = _native.label_colour(code)
         picture[labels.T == code] = to_rgb(colour)
-        legend.append(Patch(facecolor=colour, edgecolor="0.3", linewidth=0.5, label=_native.label_name(code)))
+        entries.append(Patch(facecolor=colour, edgecolor="0.3", linewidth=0.5, label=_native.label_name(code)))
     half = [(ratios[-1] - ratios[0]) / max(len(ratios) - 1, 1) / 2, (speeds[-1] - speeds[0]) / max(len(speeds) - 1, 1) / 2]
     extent = (ratios[0] - half[0], ratios[-1] + half[0], speeds[0] - half[1], speeds[-1] + half[1])
     ax.imshow(picture, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
     ax.set_xlabel("mass ratio M")
     ax.set_ylabel(r"lift-off speed $\alpha$")
-    ax.figure.legend(handles=legend, loc="outside right upper", frameon=False)
+    if legend:
+        ax.figure.legend(handles=entries, loc="outside right upper", frameon=False)
     return ax

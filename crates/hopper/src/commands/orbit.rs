@@ -9,8 +9,8 @@ use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind, motion_table};
 use crate::streams::Streams;
 use hopper_basin::{Fates, HOP_BUDGET};
-use hopper_figures::{MapPlot, Motion, SECONDS_A_FRAME, draw_frame, draw_motion, frame_times};
-use journal_figures::{Svg, animated_gif, animated_png, render};
+use hopper_figures::{AnimationForm, MapPlot, Motion, draw_motion, frame_png, frame_times};
+use journal_figures::{Svg, render};
 use passive_hopper::{
     BoundedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio, index_below,
 };
@@ -50,9 +50,8 @@ const USUAL_HOPS: usize = 1000;
 /// The fewest hops of a picture unless --hops is given. An orbit that begins in a trap has its fate after none.
 const FEWEST_DRAWN: usize = 3;
 
-/// PNG pixels for each CSS pixel: of a figure for print, and of a frame for a screen.
+/// PNG pixels for each CSS pixel of a figure for print.
 const PRINT_SCALE: f64 = 2.5;
-const SCREEN_SCALE: f64 = 0.75;
 
 /// The help beside the options.
 pub(crate) const PAGE: Page = Page {
@@ -264,10 +263,8 @@ pub(crate) fn drawing(name: &str, format: Format, svg: &Svg) -> Result<Vec<u8>, 
 
 /// The animation of a motion.
 fn animation(motion: &Motion, times: &[f64], format: Format) -> Result<Vec<u8>, Error> {
-    let frame = |&time: &f64| Ok(render("frame", &draw_frame(motion, time), SCREEN_SCALE)?.png);
+    let frame = |&time: &f64| Ok(frame_png(motion, time)?);
     let frames = times.par_iter().map(frame).collect::<Result<Vec<_>, Error>>()?;
-    Ok(match format {
-        Format::Gif => animated_gif("animation", &frames, SECONDS_A_FRAME)?,
-        _ => animated_png("animation", &frames, SECONDS_A_FRAME)?,
-    })
+    let form = if format == Format::Gif { AnimationForm::Gif } else { AnimationForm::Apng };
+    Ok(hopper_figures::animation(&frames, form)?)
 }

@@ -1,0 +1,169 @@
+"""Basins of any labelling, and the attractors of any map.
+
+A labelling is a vectorised function: from arrays of coordinates to an array of integers. Basin n has the label n. The codes of the other labels are
+those of all files and figures of this package: :data:`UNDECIDED`, :data:`UNDECIDED_PRECISION`, :data:`UNDECIDED_MAP`, :data:`OUTSIDE`.
+
+>>> import numpy as np
+>>> from passive_hopper.labelling import label_image, region_fractions
+>>> disc = lambda x, y: x**2 + y**2 < 1
+>>> fractions = region_fractions(disc, [(-1, 1), (-1, 1)], count=10_000, seed=1)
+>>> np.pi / 4 in fractions[1]
+True
+>>> x, y = np.meshgrid(np.linspace(-1, 1, 256), np.linspace(-1, 1, 256), indexing="ij")
+>>> image = label_image(disc(x, y))
+>>> image.boxes(8).mixed
+124
+>>> image.exceeds_ln_2()
+False
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+from ._native import Attractors, BoxCount, Interval, LabelImage, UncertaintyExponent
+
+if TYPE_CHECKING:
+    import xarray
+    from numpy.typing import ArrayLike
+
+__all__ = [
+    "Attractors",
+    "BoxCount",
+    "Interval",
+    "LabelImage",
+    "OUTSIDE",
+    "UNDECIDED",
+    "UNDECIDED_MAP",
+    "UNDECIDED_PRECISION",
+    "UncertaintyExponent",
+    "basins_of",
+    "label_image",
+    "region_fractions",
+    "uncertainty_exponent",
+]
+
+_CODES = _native.label_codes()
+#: The fate is not known: a budget was used up, or no reason is given.
+UNDECIDED = _CODES["UNDECIDED"]
+#: The fate is not known, because the arithmetic does not decide it.
+UNDECIDED_PRECISION = _CODES["UNDECIDED_PRECISION"]
+#: The fate is not known, because the map could not be evaluated.
+UNDECIDED_MAP = _CODES["UNDECIDED_MAP"]
+#: The point is outside the region of interest. No measure counts it.
+OUTSIDE = _CODES["OUTSIDE"]
+
+#: Pixels that a labelling gets at a time: some megabytes of coordinates.
+_PIXELS_AT_A_TIME = 1 << 18
+
+
+def _labels(found, shape):
+    """An array of uint16 of this shape. Numbers that are no labels are errors, not wrapped."""
+    import numpy
+
+    labels = numpy.asarray(found)
+    if labels.dtype.kind not in "bui":
+        raise TypeError(f"labels are integers or booleans, not {labels.dtype}")
+    if labels.size and not (0 <= int(labels.min()) and int(labels.max()) <= 65535):
+        raise ValueError(f"labels are integers from 0 to 65535, not {labels.min()} to {labels.max()}")
+    if shape is not None and labels.shape != shape:
+        try:
+            labels = numpy.broadcast_to(labels, shape)
+        except ValueError:
+            raise ValueError(f"the labelling returned the shape {labels.shape} for points of the shape {shape}") from None
+    return numpy.ascontiguousarray(labels, dtype=numpy.uint16)
+
+
+def label_image(labels: ArrayLike | xarray.DataArray) -> LabelImage:
+    """The :class:`LabelImage` of a two-dimensional array of labels, with the axes (x, y): any integers from 0 to 65535, or booleans."""
+    labels = _labels(labels, None)
+    if labels.ndim != 2:
+        raise ValueError(f"an image of labels has two dimensions, not {labels.ndim}")
+    return LabelImage(labels)
+
+
+def basins_of(
+    label: Callable[..., Any],
+    window: Mapping[str, tuple[float, float]],
+    shape: tuple[int, int] = (512, 512),
+    names: Mapping[int, str] | None = None,
+    progress: Callable[[int, int], Any] | None = None,
+) -> xarray.Dataset:
+    """The labels of a window of the plane by any labelling, as an ``xarray.Dataset``.
+
+    ``label(x, y)`` gets two arrays of one shape, and returns the labels. ``window`` has the two coordinates with their ends, as
+    ``{"x": (-2, 2), "y": (-2, 2)}``; ``names`` names labels. Each label is that of its pixel's middle. ``progress(done, all)`` counts columns.
+
+    >>> from passive_hopper.labelling import basins_of
+    >>> found = basins_of(lambda x, y: x > y, {"x": (0, 1), "y": (0, 1)}, shape=(4, 4), names={1: "above"})
+    >>> found.label.dims, found.label.attrs["flag_meanings"]
+    (('x', 'y'), 'basin_0 above')
+    """
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError(
+            "basins_of needs xarray: pip install 'passive-hopper[xarray]'. A labelling of arrays needs label_image alone."
+        ) from error
+    import numpy
+
+    if len(window) != 2:
+        raise ValueError(f"a window has two coordinates with their ends, not {len(window)}")
+    (first, across), (second, up) = window.items()
+    xs, ys = _native.pixel_middles((across, up), shape)
+    labels = numpy.empty((len(xs), len(ys)), dtype=numpy.uint16)
+    width = max(1, _PIXELS_AT_A_TIME // len(ys))
+    for begin in range(0, len(xs), width):
+        end = min(begin + width, len(xs))
+        x, y = numpy.meshgrid(xs[begin:end], ys, indexing="ij")
+        labels[begin:end] = _labels(label(x, y), x.shape)
+        if progress is not None:
+            progress(end, len(xs))
+    codes = numpy.unique(labels)
+    names = {code: name.lower() for name, code in _CODES.items()} | (names or {})
+    meanings = [str(names.get(int(code), f"basin {code}")).replace(" ", "_") for code in codes]
+    attributes = {"long_name": "basin", "flag_values": codes, "flag_meanings": " ".join(meanings)}
+    return xarray.Dataset(
+        {"label": ((first, second), labels, attributes)},
+        coords={first: xs, second: ys},
+        attrs={"source": f"passive_hopper {_native.__version__}"},
+    )
+
+
+def region_fractions(
+    label: Callable[..., Any], window: Sequence[tuple[float, float]], count: int = 10_000, seed: int = 0
+) -> dict[int, Interval]:
+    """The fraction of each basin in a region of any dimension, with a 95 % interval: a dictionary from labels to :class:`Interval`.
+
+    ``window`` has the ends of each coordinate; ``label`` gets one array of coordinates for each, of ``count`` random points. Points with
+    the label :data:`OUTSIDE` are not counted. The same seed gives the same points.
+    """
+    return _native.region_fractions(_flat(label), list(window), count, seed)
+
+
+def uncertainty_exponent(
+    label: Callable[..., Any],
+    window: Sequence[tuple[float, float]],
+    epsilons: Sequence[float],
+    count: int = 100_000,
+    seed: int = 0,
+) -> UncertaintyExponent:
+    """The exponent of final-state uncertainty: the fraction of pairs of points at a distance ε with different labels is ∝ ε^exponent.
+
+    The dimension of the boundary is that of the space less the exponent. Points may lie outside the window by up to ε.
+
+    >>> from passive_hopper.labelling import uncertainty_exponent
+    >>> found = uncertainty_exponent(lambda x, y: x > 0.5, [(0, 1), (0, 1)], [0.1, 0.03, 0.01, 0.003])
+    >>> 1 in found.exponent and found.follows_a_power_law
+    True
+    """
+    return _native.uncertainty_exponent(_flat(label), list(window), list(epsilons), count, seed)
+
+
+def _flat(label):
+    def flat(*coordinates):
+        return _labels(label(*coordinates), coordinates[0].shape)
+
+    return flat

@@ -1,0 +1,98 @@
+"""The motion of both masses as an xarray.Dataset, and as an animation."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from . import _native
+from ._files import write_whole
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def motion(alpha: float, M: float = 0.2, hops: int = 10) -> xarray.Dataset:
+    """Both masses in time, from a gradual lift-off with speed ``alpha`` over some hops, as an ``xarray.Dataset``.
+
+    Positions are in units of m₂g/k, times in units of 1/ω, speeds in units of m₂gω/k, with ω² = k(1+M)/m₂. The upper mass stands at 1
+    when the contact force vanishes, the lower mass on the ground at 0. A landing has two samples at one time, before the collision and
+    after it. The variable ``event_kind`` marks gradual lift-offs, landings, and sudden lift-offs, at which the stretched spring pulls
+    the lower mass off the ground again at once.
+
+    >>> from passive_hopper import motion
+    >>> found = motion(7.0, M=0.2, hops=2)
+    >>> sorted(found.data_vars)
+    ['contact', 'event_kind', 'hop', 'lower_position', 'lower_velocity', 'upper_position', 'upper_velocity']
+    >>> bool((found.lower_position > -1e-12).all())
+    True
+
+    ``animate(found, "hopper.gif")`` draws it.
+    """
+    try:
+        import xarray
+    except ImportError as error:
+        raise ImportError(
+            "motion needs xarray: pip install 'passive-hopper[xarray]'. motion_arrays gives the same as arrays."
+        ) from error
+    import numpy
+
+    arrays = _native.motion_arrays(alpha, M, hops)
+    codes, names = zip(*_native.motion_event_names())
+    states = arrays["states"]
+    length, speed, time = "m2 g/k", "m2 g omega/k", "1/omega"
+
+    def column(k, name, units):
+        return ("time", numpy.ascontiguousarray(states[:, k]), {"long_name": name, "units": units})
+
+    return xarray.Dataset(
+        {
+            "upper_position": column(0, "position of the upper mass, y1", length),
+            "upper_velocity": column(1, "velocity of the upper mass", speed),
+            "lower_position": column(2, "position of the lower mass, y2", length),
+            "lower_velocity": column(3, "velocity of the lower mass", speed),
+            "hop": ("time", arrays["hops"], {"long_name": "gradual lift-offs before, without the first", "units": "1"}),
+            "contact": ("time", arrays["contact"], {"long_name": "whether the lower mass is on the ground"}),
+            "event_kind": (
+                "event_time",
+                arrays["event_kinds"],
+                {"flag_values": numpy.array(codes, dtype="uint8"), "flag_meanings": " ".join(names)},
+            ),
+        },
+        coords={
+            "time": ("time", arrays["times"], {"long_name": "time since the first lift-off", "units": time}),
+            "event_time": ("event_time", arrays["event_times"], {"long_name": "time of an event", "units": time}),
+        },
+        attrs={
+            "title": "motion of a passive hopper",
+            "source": f"passive_hopper {_native.__version__}",
+            "mass_ratio": float(M),
+            "alpha": float(alpha),
+            "hops": int(hops),
+            "grounded": int(arrays["grounded"]),
+        },
+    )
+
+
+def animate(
+    motion: xarray.Dataset,
+    path: str | os.PathLike[str],
+    progress: Callable[[int, int], Any] | None = None,
+) -> str | os.PathLike[str]:
+    """Draws a motion, from :func:`motion`, as an animation: a file ``….gif``, or ``….apng`` (animated PNG). Returns the path.
+
+    It is the drawing of the program ``hopper orbit --animate``: the hopper on the left, and a cursor on the curves of both masses.
+    ``progress(done, all)`` counts the frames.
+    """
+    ending = os.path.splitext(os.fspath(path))[1].removeprefix(".").lower()
+    form = "apng" if ending == "png" else ending
+    if form not in ("gif", "apng"):
+        raise ValueError(f"an animation is a file ….gif or ….apng, not {os.fspath(path)!r}")
+    try:
+        start = [motion.attrs[name] for name in ("alpha", "mass_ratio", "hops")]
+    except (AttributeError, KeyError) as error:
+        raise ValueError("animate needs the Dataset of motion(…), with its attributes alpha, mass_ratio and hops") from error
+    content = _native.animation_bytes(*start, form=form, progress=progress)
+    write_whole(path, content)
+    return path

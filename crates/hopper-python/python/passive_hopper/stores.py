@@ -1,0 +1,226 @@
+"""Rasters of basins in Zarr stores, region by region, by this process or by the workers of a Dask cluster.
+
+A region is a strip of columns, and one shard: one file, which appears under its name complete or not at all. A region whose file is there and can be
+decoded is finished; each part of it has a checksum. The same region has the same bytes, whoever computes it and however often. So
+processes and workers may be killed at any instant, and a region may be computed twice.
+"""
+
+import hashlib
+import os
+import shutil
+import tempfile
+import warnings
+from pathlib import Path
+
+from . import _native
+from .datasets import coordinates, flag_attributes, import_xarray, job_attributes
+
+#: Columns of a region. More make larger files and later progress; fewer make many small files. 64 columns of 16384 pixels are 2 MB.
+REGION = 64
+#: Pixels of a chunk along the speeds: a reader of a small window decodes chunks of 128 KB.
+CHUNK = 1024
+#: How often a region is given to the cluster again after its worker was lost. One that kills every worker is an error in the end.
+TRIALS = 20
+
+
+def write_basins(store, job, client=None, progress=None):
+    """The raster of a job (M, α, shape) in a store, as a lazy Dataset. What is finished there is kept."""
+    xarray = import_xarray("basins", "basin_labels gives the same as arrays.")
+    _import_zarr()
+    path = Path(os.path.abspath(os.fspath(store)))
+    _open_or_make(path, job)
+    columns = job[2][0]
+    regions = range(-(-columns // REGION))
+    found = {}
+    missing = []
+    for region in regions:
+        codes = _finished(path, job, region)
+        if codes is None:
+            missing.append(region)
+        else:
+            found[region] = codes
+    done = 0
+
+    def count(region, codes):
+        nonlocal done
+        found[region] = codes
+        if progress is not None:
+            done = min(columns, len(found) * REGION)
+            progress(done, columns)
+
+    if client is None:
+        for region in missing:
+            count(*_write_region(str(path), job, region, None))
+    else:
+        _by_cluster(client, path, job, missing, count)
+    _finish(path, job, regions, set().union(*found.values()))
+    return xarray.open_zarr(path, chunks=None if client is None else {}, consolidated=False)
+
+
+def _import_zarr():
+    try:
+        import zarr
+    except ImportError as error:
+        raise ImportError("a store needs zarr: pip install 'passive-hopper[zarr]' (Python 3.11 or newer)") from error
+    return zarr
+
+
+def _open_or_make(path, job):
+    """Makes the store of a job, complete or not at all; refuses a folder that is something else."""
+    zarr = _import_zarr()
+    wanted = job_attributes(*job)
+    if path.exists():
+        try:
+            attributes = dict(zarr.open_group(path, mode="r").attrs)
+        except (OSError, ValueError) as error:
+            raise FileExistsError(f"{path} is no Zarr store; give the name of a new folder") from error
+        for name in ("command", "computation"):
+            if attributes.get(name) != wanted[name]:
+                raise ValueError(
+                    f"{path} has another job: its {name} is {attributes.get(name)!r}, not {wanted[name]!r}; "
+                    "give the name of a new folder, or remove this one"
+                )
+        return
+    M, alpha, shape = job
+    values = coordinates(M, alpha, shape)
+    beside = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".tmp", dir=path.parent))
+    try:
+        group = zarr.create_group(beside, zarr_format=3, attributes=wanted)
+        for name, (numbers, attributes) in values.items():
+            group.create_array(name, data=numbers, dimension_names=(name,), attributes=attributes)
+        chunks = (min(REGION, shape[0]), min(CHUNK, shape[1]))
+        rows = -(-shape[1] // chunks[1]) * chunks[1]
+        group.create_array(
+            "label",
+            shape=shape,
+            dtype="uint16",
+            chunks=chunks,
+            shards=(chunks[0], rows),
+            compressors=[zarr.codecs.ZstdCodec(level=5, checksum=True)],
+            fill_value=_native.label_codes()["OUTSIDE"],
+            dimension_names=("M", "alpha"),
+            attributes=flag_attributes([]),
+        )
+        os.chmod(beside, 0o777 & ~_mask())
+        os.rename(beside, path)
+    except BaseException:
+        shutil.rmtree(beside, ignore_errors=True)
+        if path.exists():
+            # Another process has made the same store meanwhile, or something else: the next look tells.
+            return _open_or_make(path, job)
+        raise
+
+
+def _mask():
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
+
+
+def _labels(path, mode):
+    return _import_zarr().open_group(path, mode=mode)["label"]
+
+
+def _file(path, region):
+    """The file of a region, which is one shard."""
+    return Path(path) / "label" / "c" / str(region) / "0"
+
+
+def _columns(job, region):
+    return region * REGION, min((region + 1) * REGION, job[2][0])
+
+
+def _finished(path, job, region):
+    """The codes that occur in a region, if it is finished; None if not. A file that cannot be decoded is removed."""
+    import numpy
+
+    if not _file(path, region).is_file():
+        return None
+    begin, end = _columns(job, region)
+    try:
+        codes = set(numpy.unique(_labels(path, "r")[begin:end]).tolist())
+        # zarr takes an empty file for a missing one, and no fate of a hopper is outside.
+        if _native.label_codes()["OUTSIDE"] not in codes:
+            return codes
+    except (ValueError, RuntimeError, OSError):
+        pass
+    # A damaged file is computed again. zarr would read it before it is replaced.
+    _file(path, region).unlink()
+    return None
+
+
+def _write_region(path, job, region, threads):
+    """Computes and writes one region. It returns the region and the codes that occur, so that little travels between machines."""
+    import numpy
+
+    zarr = _import_zarr()
+    begin, end = _columns(job, region)
+    M, alpha, shape = job
+    labels = _native.basin_region(M, alpha, shape, (begin, end), threads=threads)
+    with zarr.config.set({"array.write_empty_chunks": True}):
+        _labels(path, "r+")[begin:end] = labels
+    return region, set(numpy.unique(labels).tolist())
+
+
+def _finish(path, job, regions, codes):
+    """Writes the attributes that a finished store has."""
+    digest = hashlib.sha256()
+    labels = _labels(path, "r+")
+    for region in regions:
+        begin, end = _columns(job, region)
+        digest.update(labels[begin:end])
+    labels.attrs.update(flag_attributes(codes))
+    for left in (path / "label" / "c").glob("*/*.partial"):
+        # A killed process leaves the file that it was writing.
+        left.unlink(missing_ok=True)
+    zarr = _import_zarr()
+    zarr.open_group(path, mode="r+").attrs["sha256"] = digest.hexdigest()
+    with warnings.catch_warnings():
+        # xarray asks for consolidated metadata, and zarr warns that its form may change. Both can read the store without.
+        warnings.simplefilter("ignore")
+        zarr.consolidate_metadata(path, zarr_format=3)
+
+
+def _task(path, job, region, version):
+    """The work of one task on a worker, by one thread."""
+    own = (_native.__version__, int(_native.RASTER_VERSION))
+    if own != version:
+        raise RuntimeError(f"a worker has passive_hopper {own}, and this process has {version}: install the same version on all")
+    return _write_region(path, job, region, 1)
+
+
+def _by_cluster(client, path, job, missing, count):
+    """Gives the missing regions to the workers, and again those whose worker is lost."""
+    from distributed import KilledWorker, as_completed
+    from distributed.client import FutureCancelledError
+
+    version = (_native.__version__, int(_native.RASTER_VERSION))
+    trials = {}
+
+    def submit(region):
+        trials[region] = trials.get(region, 0) + 1
+        return client.submit(_task, str(path), job, region, version, pure=False, key=f"basins-{path.name}-{region}-{os.urandom(8).hex()}")
+
+    submitted = {submit(region): region for region in missing}
+    futures = as_completed(list(submitted))
+    try:
+        for future in futures:
+            region = submitted.pop(future)
+            try:
+                count(*future.result())
+            except KilledWorker as error:
+                if trials[region] >= TRIALS:
+                    raise RuntimeError(f"region {region} has lost its worker {TRIALS} times; the others are kept in {path}") from error
+                again = submit(region)
+                submitted[again] = region
+                futures.add(again)
+            except FutureCancelledError as error:
+                raise RuntimeError(
+                    f"the scheduler of the cluster is gone, or has dropped region {region}; what is finished is kept in {path}, and the same call goes on"
+                ) from error
+    finally:
+        if submitted:
+            try:
+                client.cancel(list(submitted))
+            except Exception:  # the scheduler is gone: nothing is left to cancel
+                pass

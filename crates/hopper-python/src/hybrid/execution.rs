@@ -1,0 +1,187 @@
+//! Executions: iterators over arcs, which stay usable after an exception.
+
+use super::arcs::{HybridArc, certainty, kind};
+use super::callables::Callables;
+use super::model::Model;
+use super::names::{Mode, Surface};
+use super::vectors::{State, copied, numbers};
+use crate::arrays::shaped;
+use hybrid_system::{Checkpoint, Error, Execution as LibraryExecution, Limits, Stop};
+use nalgebra::DMatrix;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// The point that an execution has reached, and its limits.
+type At = (Checkpoint<Mode, Surface, State>, Limits);
+
+/// An execution of a hybrid system: an iterator over its arcs.
+///
+/// After an exception of a function, or Ctrl-C, it is where it was before the call: next() tries the same arc again.
+#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[derive(Debug)]
+pub(crate) struct Execution {
+    model: Arc<Model>,
+    /// `None` while a call is at work.
+    at: Mutex<Option<At>>,
+}
+
+impl Execution {
+    pub(crate) fn new(
+        py: Python<'_>,
+        model: Arc<Model>,
+        mode: Mode,
+        state: State,
+        (start_time, limits): (f64, Limits),
+    ) -> Self {
+        let callables = Callables::new(py, &model);
+        let execution = LibraryExecution::new(&callables, mode, state, limits);
+        let checkpoint = execution.starting_at(start_time).checkpoint();
+        Execution { at: Mutex::new(Some((checkpoint, limits))), model }
+    }
+
+    /// The result of some steps of the execution. An exception leaves it where it was.
+    fn steps<T>(
+        &self,
+        py: Python<'_>,
+        limits: impl FnOnce(Limits) -> Limits,
+        steps: impl FnOnce(&mut LibraryExecution<'_, Callables<'_, '_>>) -> Result<T, Error>,
+    ) -> PyResult<T> {
+        let taken = self.at.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let Some((checkpoint, before)) = taken else {
+            let text =
+                "the execution is at work: one of its own functions, or another thread, called it";
+            return Err(PyRuntimeError::new_err(text));
+        };
+        let limits = limits(before);
+        let callables = Callables::new(py, &self.model);
+        let mut execution = LibraryExecution::restore(&callables, checkpoint.clone(), limits);
+        let found = steps(&mut execution);
+        let after = execution.checkpoint();
+        let exception = callables.exception();
+        let at = if exception.is_some() { (checkpoint, before) } else { (after, limits) };
+        *self.at.lock().unwrap_or_else(PoisonError::into_inner) = Some(at);
+        match exception {
+            Some(exception) => Err(exception),
+            None => found.map_err(|error| self.model.exception(py, &error)),
+        }
+    }
+
+    fn seen<T>(&self, see: impl FnOnce(&Checkpoint<Mode, Surface, State>) -> T) -> PyResult<T> {
+        let at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
+        match at.as_ref() {
+            Some((checkpoint, _)) => Ok(see(checkpoint)),
+            None => Err(PyRuntimeError::new_err("the execution is at work")),
+        }
+    }
+}
+
+#[pymethods]
+impl Execution {
+    fn __iter__(own: Py<Self>) -> Py<Self> {
+        own
+    }
+
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<HybridArc>> {
+        let arc = self.steps(py, |limits| limits, |execution| execution.next().transpose())?;
+        Ok(arc.map(|arc| HybridArc::new(Arc::clone(&self.model), arc)))
+    }
+
+    /// Sets the limit on time, also after the execution has stopped at an earlier one. Returns the execution.
+    fn run_until(own: Py<Self>, py: Python<'_>, time: f64) -> PyResult<Py<Self>> {
+        let later = |limits| Limits { time, ..limits };
+        own.get().steps(py, later, |execution| {
+            let _ = execution.run_until(time);
+            Ok(())
+        })?;
+        Ok(own)
+    }
+
+    /// The rest of the execution as a dictionary of arrays, with states at the times of `grid`, which rises.
+    ///
+    /// Every arc has a row at its start and at its end: each event has the states before and after it. times, jumps, modes, states and on_grid
+    /// have one entry for each row. event_times, event_surfaces, event_modes, event_next_modes, event_before, event_after, event_kinds and
+    /// event_certainties have one for each event.
+    fn trajectory<'py>(
+        &self,
+        py: Python<'py>,
+        grid: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let grid = numbers(grid)?;
+        let found = self.steps(py, |limits| limits, |execution| execution.trajectory(&grid))?;
+        let name = |mode: &Mode| self.model.modes.name(py, *mode);
+        let rows = |matrix: &DMatrix<f64>| {
+            shaped(py, matrix.transpose().as_slice().to_vec(), &[matrix.nrows(), matrix.ncols()])
+        };
+        let (count, all) = (found.times.len(), PyDict::new(py));
+        all.set_item("times", shaped(py, found.times, &[count])?)?;
+        let jumps: Vec<u64> = found.jumps.iter().map(|&jump| jump as u64).collect();
+        all.set_item("jumps", shaped(py, jumps, &[count])?)?;
+        all.set_item("modes", found.modes.iter().map(name).collect::<Vec<_>>())?;
+        all.set_item("states", rows(&found.states)?)?;
+        all.set_item("on_grid", shaped(py, found.on_grid, &[count])?)?;
+        let events = found.events;
+        let number = events.times.len();
+        all.set_item("event_times", shaped(py, events.times, &[number])?)?;
+        let surfaces = events.surfaces.iter().map(|&surface| self.model.surface_name(surface));
+        all.set_item("event_surfaces", surfaces.collect::<Vec<_>>())?;
+        all.set_item("event_modes", events.modes.iter().map(name).collect::<Vec<_>>())?;
+        let next = events.next_modes.iter().map(|mode| mode.as_ref().map(name));
+        all.set_item("event_next_modes", next.collect::<Vec<_>>())?;
+        all.set_item("event_before", rows(&events.before)?)?;
+        all.set_item("event_after", rows(&events.after)?)?;
+        let kinds: Vec<_> = events.kinds.iter().map(|&of| kind(of)).collect();
+        all.set_item("event_kinds", kinds)?;
+        let certainties: Vec<_> = events.certainties.iter().map(|&of| certainty(of)).collect();
+        all.set_item("event_certainties", certainties)?;
+        Ok(all)
+    }
+
+    /// The mode in which the execution is.
+    #[getter]
+    fn mode(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        let mode = self.seen(Checkpoint::mode)?;
+        Ok(self.model.modes.name(py, mode))
+    }
+
+    /// The state at which it is.
+    #[getter]
+    fn state(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.seen(|checkpoint| copied(py, checkpoint.state()))
+    }
+
+    /// The time at which it is.
+    #[getter]
+    fn time(&self) -> PyResult<f64> {
+        self.seen(Checkpoint::time)
+    }
+
+    /// The number of events so far.
+    #[getter]
+    fn jump(&self) -> PyResult<usize> {
+        self.seen(Checkpoint::jump)
+    }
+
+    /// Why it ended: "time limit", "event limit", "terminal", "no further event", "zeno", "sliding", "unfinished" or "failed"; None while it goes on.
+    #[getter]
+    fn stop(&self) -> PyResult<Option<&'static str>> {
+        let name = |stop| match stop {
+            Stop::TimeLimit => "time limit",
+            Stop::EventLimit => "event limit",
+            Stop::Terminal => "terminal",
+            Stop::NoFurtherEvent => "no further event",
+            Stop::Zeno => "zeno",
+            Stop::Sliding => "sliding",
+            Stop::Unfinished => "unfinished",
+            Stop::Failed => "failed",
+        };
+        Ok(self.seen(Checkpoint::stop)?.map(name))
+    }
+
+    fn __repr__(&self) -> PyResult<String> {
+        let (time, jump, stop) = (self.time()?, self.jump()?, self.stop()?);
+        let stop = stop.map_or("None".into(), |stop| format!("{stop:?}"));
+        Ok(format!("Execution(time={time:?}, jump={jump}, stop={stop})"))
+    }
+}

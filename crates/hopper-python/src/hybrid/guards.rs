@@ -1,0 +1,190 @@
+//! The guards of a model, as a user gives them.
+
+use super::quasi_polynomial::direction_of;
+use super::vectors::numbers;
+use crate::errors::value_error;
+use hybrid_system::{Direction, PeriodicTimes, PresetTimes, Role, Touch};
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// What follows an event.
+#[derive(Debug)]
+pub(crate) enum After {
+    /// A function of mode and state.
+    Reset(Py<PyAny>),
+    /// Mode and state stay as they are.
+    Nothing,
+    /// The execution ends.
+    End,
+}
+
+/// A surface g(x) = 0, and what happens when a state crosses it.
+///
+/// name names its events. value(x) is g. direction is "rising" (g goes from negative to positive), "falling" or "either".
+/// reset(mode, x) returns the next mode and state as a pair, or None to end the execution.
+///
+/// role is "switch": the mode flows on one side only, and a reset is needed. "observer": the guard only watches. "terminal": its event ends
+/// the execution. touch says what happens where g comes within rounding of zero and goes back: "error", "event" or "ignore".
+/// modes is a list of the modes that have the guard; None for all.
+///
+/// Two optional functions make its crossings certain: signal(mode, x) returns g along the flow from x as a QuasiPolynomial, or None;
+/// enclosure(mode, x, order, times) returns bounds (low, high) on a derivative of g along the flow over the times (from, to), or None.
+/// Without them a guard of a closed-form flow is sampled, and one of an integrated flow is followed along the steps.
+#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[derive(Debug)]
+pub(crate) struct Guard {
+    /// The name.
+    #[pyo3(get)]
+    name: String,
+    pub(crate) value: Py<PyAny>,
+    pub(crate) direction: Direction,
+    pub(crate) role: Role,
+    pub(crate) touch: Touch,
+    pub(crate) after: After,
+    pub(crate) modes: Option<Vec<Py<PyAny>>>,
+    pub(crate) signal: Option<Py<PyAny>>,
+    pub(crate) enclosure: Option<Py<PyAny>>,
+}
+
+#[pymethods]
+impl Guard {
+    #[new]
+    #[pyo3(signature = (name, value, direction, *, reset = None, role = "switch", touch = "error", modes = None, signal = None,
+                        enclosure = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn new(
+        py: Python<'_>,
+        name: String,
+        value: Py<PyAny>,
+        direction: &str,
+        reset: Option<Py<PyAny>>,
+        role: &str,
+        touch: &str,
+        modes: Option<Vec<Py<PyAny>>>,
+        signal: Option<Py<PyAny>>,
+        enclosure: Option<Py<PyAny>>,
+    ) -> PyResult<Self> {
+        callable(py, "value", Some(&value))?;
+        callable(py, "reset", reset.as_ref())?;
+        callable(py, "signal", signal.as_ref())?;
+        callable(py, "enclosure", enclosure.as_ref())?;
+        let (role, after) = match (role, reset) {
+            ("switch", Some(reset)) => (Role::Switch, After::Reset(reset)),
+            ("observer", None) => (Role::Observer, After::Nothing),
+            ("observer", Some(reset)) => (Role::Observer, After::Reset(reset)),
+            ("terminal", None) => (Role::Switch, After::End),
+            ("switch", None) => {
+                return Err(PyValueError::new_err(format!(
+                    "guard {name:?} is a switch and needs reset=; a guard without one is role='observer' or role='terminal'"
+                )));
+            }
+            ("terminal", Some(_)) => {
+                return Err(PyValueError::new_err(format!(
+                    "guard {name:?} is terminal: its reset would never be used"
+                )));
+            }
+            (other, _) => {
+                return Err(PyValueError::new_err(format!(
+                    "a role is 'switch', 'observer' or 'terminal', not {other:?}"
+                )));
+            }
+        };
+        let touch = match touch {
+            "error" => Touch::Error,
+            "event" => Touch::Event,
+            "ignore" => Touch::Ignore,
+            other => {
+                let text = format!("a touch is 'error', 'event' or 'ignore', not {other:?}");
+                return Err(PyValueError::new_err(text));
+            }
+        };
+        let direction = direction_of(direction)?;
+        Ok(Guard { name, value, direction, role, touch, after, modes, signal, enclosure })
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Guard({:?})", self.name)
+    }
+}
+
+impl Guard {
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+/// The times of a clock.
+#[derive(Debug)]
+pub(crate) enum Times {
+    Preset(PresetTimes),
+    Periodic(PeriodicTimes),
+    /// A function from a time to the first event strictly after it, or None.
+    Function(Py<PyAny>),
+}
+
+/// Events at preset times.
+///
+/// name names them. reset(mode, x) is as that of a Guard; without it nothing changes. The times are one of: times, a rising sequence,
+/// or a function from a time to the next event strictly after it, or None; period, with the time of the first event in first.
+#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[derive(Debug)]
+pub(crate) struct Clock {
+    /// The name.
+    #[pyo3(get)]
+    name: String,
+    pub(crate) times: Times,
+    pub(crate) after: After,
+    pub(crate) modes: Option<Vec<Py<PyAny>>>,
+}
+
+#[pymethods]
+impl Clock {
+    #[new]
+    #[pyo3(signature = (name, *, times = None, period = None, first = 0.0, reset = None, modes = None))]
+    fn new(
+        py: Python<'_>,
+        name: String,
+        times: Option<Bound<'_, PyAny>>,
+        period: Option<f64>,
+        first: f64,
+        reset: Option<Py<PyAny>>,
+        modes: Option<Vec<Py<PyAny>>>,
+    ) -> PyResult<Self> {
+        callable(py, "reset", reset.as_ref())?;
+        let times = match (times, period) {
+            (Some(times), None) if times.is_callable() => Times::Function(times.unbind()),
+            (Some(times), None) => {
+                Times::Preset(PresetTimes::new(numbers(&times)?).map_err(value_error)?)
+            }
+            (None, Some(period)) => {
+                Times::Periodic(PeriodicTimes::new(first, period).map_err(value_error)?)
+            }
+            _ => {
+                let text = format!("clock {name:?} needs either times= or period=");
+                return Err(PyValueError::new_err(text));
+            }
+        };
+        Ok(Clock { name, times, after: reset.map_or(After::Nothing, After::Reset), modes })
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Clock({:?})", self.name)
+    }
+}
+
+impl Clock {
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+}
+
+/// TypeError unless an argument, if it is given, can be called.
+pub(crate) fn callable(py: Python<'_>, what: &str, object: Option<&Py<PyAny>>) -> PyResult<()> {
+    match object {
+        Some(object) if !object.bind(py).is_callable() => {
+            let found = object.bind(py).get_type().name()?;
+            Err(PyTypeError::new_err(format!("{what} must be a function, not {found}")))
+        }
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,28 @@
+//! How is a hybrid system given by Python callables, and run?
+//!
+//! ```text
+//!   guards, names ─► model ─► callables ─► arcs ─► execution ─► system
+//! ```
+//!
+//! A `model` is what a user has given to a `system`, with the `names` of its modes and its `guards`. During one call a `callables` object is
+//! the hybrid system of the library: it calls the functions, turns `vectors` to arrays of NumPy and back, and keeps the first exception.
+//! An `execution` is an iterator over `arcs`.
+
+mod arcs;
+mod callables;
+mod execution;
+mod guards;
+mod model;
+mod names;
+mod quasi_polynomial;
+mod sliding;
+mod system;
+mod vectors;
+
+pub(crate) use arcs::{Event, HybridArc, Zeno};
+pub(crate) use execution::Execution;
+pub(crate) use guards::{Clock, Guard};
+pub(crate) use quasi_polynomial::QuasiPolynomial;
+pub(crate) use sliding::Sliding;
+pub(crate) use system::HybridSystem;
+pub(crate) use vectors::vector;

@@ -1,0 +1,165 @@
+//! The functions of a hybrid system, with the guards of each mode.
+
+use super::guards::{After, Clock, Guard};
+use super::names::{Mode, Modes, Surface};
+use crate::errors::UndecidedError;
+use hybrid_system::{Error, Tolerances};
+use pyo3::exceptions::{PyArithmeticError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+
+/// A guard or a clock.
+#[derive(Debug)]
+pub(crate) enum Watched {
+    Guard(Py<Guard>),
+    Clock(Py<Clock>),
+}
+
+impl Watched {
+    pub(crate) fn name(&self) -> &str {
+        match self {
+            Watched::Guard(guard) => guard.get().name(),
+            Watched::Clock(clock) => clock.get().name(),
+        }
+    }
+
+    pub(crate) fn after(&self) -> &After {
+        match self {
+            Watched::Guard(guard) => &guard.get().after,
+            Watched::Clock(clock) => &clock.get().after,
+        }
+    }
+
+    fn modes(&self) -> Option<&[Py<PyAny>]> {
+        match self {
+            Watched::Guard(guard) => guard.get().modes.as_deref(),
+            Watched::Clock(clock) => clock.get().modes.as_deref(),
+        }
+    }
+
+    fn guard(&self, surface: Surface) -> hybrid_system::Guard<Surface> {
+        match self {
+            Watched::Guard(guard) => {
+                let Guard { direction, role, touch, .. } = *guard.get();
+                hybrid_system::Guard { surface, direction, role, touch }
+            }
+            Watched::Clock(_) => hybrid_system::Guard::clock(surface),
+        }
+    }
+}
+
+/// The functions of a user besides those of the guards.
+#[derive(Debug)]
+pub(crate) struct Functions {
+    pub(crate) flow: Option<Py<PyAny>>,
+    pub(crate) field: Option<Py<PyAny>>,
+    pub(crate) rest: Option<Py<PyAny>>,
+    pub(crate) slide: Option<Py<PyAny>>,
+}
+
+/// A model: the functions, the guards, and the names of the modes.
+#[derive(Debug)]
+pub(crate) struct Model {
+    pub(crate) functions: Functions,
+    pub(crate) tolerances: Tolerances,
+    pub(crate) watched: Vec<Watched>,
+    pub(crate) modes: Modes,
+    /// The guards of each mode that some guard names.
+    lists: Vec<Vec<hybrid_system::Guard<Surface>>>,
+    /// The guards of all other modes.
+    everywhere: Vec<hybrid_system::Guard<Surface>>,
+}
+
+impl Model {
+    /// The model with these guards and clocks.
+    ///
+    /// # Errors
+    /// TypeError for a guard that is neither; ValueError for two with one name.
+    pub(crate) fn new(
+        py: Python<'_>,
+        functions: Functions,
+        guards: &[Bound<'_, PyAny>],
+        tolerances: Tolerances,
+    ) -> PyResult<Self> {
+        let mut watched: Vec<Watched> = Vec::new();
+        for object in guards {
+            let own = if let Ok(guard) = object.cast::<Guard>() {
+                Watched::Guard(guard.clone().unbind())
+            } else if let Ok(clock) = object.cast::<Clock>() {
+                Watched::Clock(clock.clone().unbind())
+            } else {
+                let found = object.get_type().name()?;
+                let text = format!("guards are of Guard and Clock, not {found}");
+                return Err(PyTypeError::new_err(text));
+            };
+            if watched.iter().any(|other| other.name() == own.name()) {
+                let text =
+                    format!("two guards are named {:?}: an event could not be told", own.name());
+                return Err(PyValueError::new_err(text));
+            }
+            watched.push(own);
+        }
+        let modes = Modes::new(py);
+        for mode in watched.iter().filter_map(Watched::modes).flatten() {
+            modes.number(mode.bind(py))?;
+        }
+        let mut lists = vec![Vec::new(); modes.count()];
+        let mut everywhere = Vec::new();
+        for (number, own) in watched.iter().enumerate() {
+            let guard = own.guard(Surface(number));
+            match own.modes() {
+                None => {
+                    everywhere.push(guard);
+                    lists.iter_mut().for_each(|list| list.push(guard));
+                }
+                Some(named) => {
+                    for mode in named {
+                        let at = modes.number(mode.bind(py))?.0;
+                        // A mode that is named twice has the guard once.
+                        if lists[at].last().is_none_or(|last| last.surface != guard.surface) {
+                            lists[at].push(guard);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(Model { functions, tolerances, watched, modes, lists, everywhere })
+    }
+
+    /// The name of a guard.
+    pub(crate) fn surface_name(&self, surface: Surface) -> String {
+        self.watched.get(surface.0).map_or_else(String::new, |watched| watched.name().to_owned())
+    }
+
+    /// The guards of a mode.
+    pub(crate) fn guards(&self, mode: Mode) -> &[hybrid_system::Guard<Surface>] {
+        self.lists.get(mode.0).unwrap_or(&self.everywhere)
+    }
+
+    /// The exception of an error: UndecidedError where rounding hides what happens, ArithmeticError where a computation cannot go on,
+    /// ValueError for wrong input. Modes and guards have their names in the message.
+    pub(crate) fn exception(&self, py: Python<'_>, error: &Error) -> PyErr {
+        let mut text = error.to_string();
+        for number in 0..self.modes.count() {
+            let name = self.modes.name(py, Mode(number));
+            let shown = name.bind(py).repr().map_or_else(|_| "?".into(), |shown| shown.to_string());
+            text = text.replace(&format!("{:?}", Mode(number)), &shown);
+        }
+        for (number, watched) in self.watched.iter().enumerate() {
+            let shown = format!("{:?}", watched.name());
+            text = text.replace(&format!("{:?}", Surface(number)), &shown);
+        }
+        match error {
+            Error::Grazing { .. } | Error::UndecidedStart { .. } | Error::UndecidedSign { .. } => {
+                UndecidedError::new_err(text)
+            }
+            Error::StateNotFinite { .. }
+            | Error::FieldNotFinite { .. }
+            | Error::NotFinite { .. }
+            | Error::Integration { .. }
+            | Error::NoConvergence { .. }
+            | Error::TimelessChain { .. }
+            | Error::SlidingNotUnique { .. } => PyArithmeticError::new_err(text),
+            _ => PyValueError::new_err(text),
+        }
+    }
+}

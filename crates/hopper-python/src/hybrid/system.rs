@@ -1,0 +1,104 @@
+//! A hybrid system as a user gives it.
+
+use super::execution::Execution;
+use super::guards::callable;
+use super::model::{Functions, Model, Watched};
+use super::vectors::numbers;
+use crate::errors::value_error;
+use hybrid_system::{Error, Limits, Tolerances};
+use nalgebra::DVector;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// A hybrid system: a flow that is interrupted by events.
+///
+/// The motion is either flow(mode, x, t), the state after the time t ≥ 0 from x in closed form, or field(mode, x), the right-hand side of
+/// ẋ = f(x), which is integrated with this tolerance. (A flow may have a field as well, which sliding needs.) x is an array; a function returns a
+/// list, a tuple or an array. A mode is any hashable object. guards is a list of Guard and Clock.
+///
+/// rest(mode, x) returns the mode and the state after infinitely many events in finite time (Zeno), or None; slide(sliding) those on a
+/// surface at which the fields on both sides point. Without them the execution ends there.
+///
+/// sampled is the interval at which guards of a flow in closed form are looked at, unless they have a signal or an enclosure.
+/// longest_step and check_interval bound the steps of an integration, and the distance of two looks at its guards.
+///
+/// >>> from passive_hopper.hybrid import Guard, HybridSystem
+/// >>> ball = HybridSystem(
+/// ...     flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t],
+/// ...     guards=[Guard("floor", lambda x: x[0], "falling", reset=lambda mode, x: (mode, [0, -x[1] / 2]))],
+/// ...     sampled=0.01,
+/// ... )
+/// >>> [round(arc.event.time, 12) for arc in ball.run([0.5, 0], time=2.8) if arc.event]
+/// [1.0, 2.0, 2.5, 2.75]
+///
+/// An exception in a function ends the call with this exception.
+#[pyclass(frozen, module = "passive_hopper.hybrid")]
+#[derive(Debug)]
+pub(crate) struct HybridSystem {
+    model: Arc<Model>,
+    sampled: Option<f64>,
+}
+
+#[pymethods]
+impl HybridSystem {
+    #[new]
+    #[pyo3(signature = (*, flow = None, field = None, guards = Vec::new(), rest = None, slide = None, tolerance = 1e-10,
+                        longest_step = f64::INFINITY, check_interval = f64::INFINITY, sampled = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn new(
+        py: Python<'_>,
+        flow: Option<Py<PyAny>>,
+        field: Option<Py<PyAny>>,
+        guards: Vec<Bound<'_, PyAny>>,
+        rest: Option<Py<PyAny>>,
+        slide: Option<Py<PyAny>>,
+        tolerance: f64,
+        longest_step: f64,
+        check_interval: f64,
+        sampled: Option<f64>,
+    ) -> PyResult<Self> {
+        for (what, object) in
+            [("flow", &flow), ("field", &field), ("rest", &rest), ("slide", &slide)]
+        {
+            callable(py, what, object.as_ref())?;
+        }
+        if flow.is_none() && field.is_none() {
+            return Err(PyValueError::new_err("a hybrid system needs flow= or field="));
+        }
+        let tolerances =
+            Tolerances::both(tolerance).longest_step(longest_step).check_interval(check_interval);
+        let functions = Functions { flow, field, rest, slide };
+        let model = Model::new(py, functions, &guards, tolerances)?;
+        Ok(HybridSystem { model: Arc::new(model), sampled })
+    }
+
+    /// The execution from a state in a mode, up to a time and to a number of events: an iterator over its arcs.
+    #[pyo3(signature = (start, *, time, mode = None, events = 1_000_000, start_time = 0.0))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        start: &Bound<'_, PyAny>,
+        time: f64,
+        mode: Option<Bound<'_, PyAny>>,
+        events: usize,
+        start_time: f64,
+    ) -> PyResult<Execution> {
+        let state = DVector::from_vec(numbers(start)?);
+        if state.is_empty() {
+            return Err(PyValueError::new_err("a state has at least one number"));
+        }
+        if !start_time.is_finite() {
+            return Err(value_error(Error::BadLimit { what: "the start time", value: start_time }));
+        }
+        let mode = mode.unwrap_or_else(|| py.None().into_bound(py));
+        let mode = self.model.modes.number(&mode)?;
+        let limits = Limits { sampling_interval: self.sampled, ..Limits::new(time, events) };
+        Ok(Execution::new(py, Arc::clone(&self.model), mode, state, (start_time, limits)))
+    }
+
+    fn __repr__(&self) -> String {
+        let names: Vec<&str> = self.model.watched.iter().map(Watched::name).collect();
+        format!("HybridSystem(guards={names:?})")
+    }
+}

@@ -1,0 +1,177 @@
+//! The attractors of a map that is a function of Python.
+
+use crate::arrays::shaped;
+use crate::errors::value_error;
+use crate::interruptible::{Watch, in_background};
+use basin_of_attraction::{
+    Error, Hyperrectangle, Interval, Label, RecurrenceLimits, UnmatchedReason,
+};
+use numpy::PyArray1;
+use pyo3::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// A map of Python in a thread of its own. After an exception, or Ctrl-C, it has no more values.
+struct PythonMap {
+    function: Py<PyAny>,
+    exception: Mutex<Option<PyErr>>,
+    calls: AtomicUsize,
+}
+
+/// Calls between two moments at which other threads can have the interpreter's lock: less than a millisecond.
+const CALLS: usize = 256;
+
+impl PythonMap {
+    fn new(function: Py<PyAny>) -> Arc<Self> {
+        Arc::new(PythonMap { function, exception: Mutex::new(None), calls: AtomicUsize::new(0) })
+    }
+
+    fn image(&self, state: &[f64], watch: &Watch) -> Option<Vec<f64>> {
+        if watch.is_stopped() || self.lock().is_some() {
+            return None;
+        }
+        let call = |py: Python<'_>| {
+            // A function that is written in C never gives the lock away, and Ctrl-C would wait for it.
+            if self.calls.fetch_add(1, Ordering::Relaxed).is_multiple_of(CALLS) {
+                py.detach(std::thread::yield_now);
+            }
+            let found = self.function.bind(py).call1((PyArray1::from_slice(py, state),))?;
+            if found.is_none() {
+                return Ok(None);
+            }
+            let next = crate::hybrid::vector(&found, state.len(), "the map")?;
+            Ok(Some(next.as_slice().to_vec()))
+        };
+        let found: PyResult<Option<Vec<f64>>> = Python::attach(call);
+        found.unwrap_or_else(|error| {
+            self.lock().get_or_insert(error);
+            None
+        })
+    }
+
+    /// What was found, unless the map has raised an exception.
+    fn unless_raised<T>(&self, found: T) -> PyResult<T> {
+        self.lock().take().map_or(Ok(found), Err)
+    }
+
+    fn lock(&self) -> std::sync::MutexGuard<'_, Option<PyErr>> {
+        self.exception.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// The attractors of a map of several variables, found by recurrences to cells of a grid and tested as traps.
+///
+/// map(x) is a step: a map, a return map, or a flow over some time. It takes an array, and returns a list, a tuple or an array, or
+/// None where it has no value. region has the ends of each coordinate; starts is an array with one start a row. The basins have the labels 1, 2, … in
+/// the order in which the attractors are found; 0 is an orbit that passes the distance `escape` from the origin.
+///
+/// cells along every side of the region locate an attractor; an orbit of `recurrences` steps within visited cells is a candidate, which
+/// `tests` random orbits test. No orbit is longer than `budget` steps.
+///
+/// >>> from passive_hopper.labelling import Attractors
+/// >>> newton = lambda x: (x - (x ** 2 - 2) / (2 * x)) if x[0] else None
+/// >>> found = Attractors(newton, region=[(-3.1, 3)], starts=[[1.0], [-1.0]], tests=20)
+/// >>> [round(float(points[0, 0]), 6) for points in found.points.values()]
+/// [1.414214, -1.414214]
+/// >>> found.labels([[0.3], [-7.0]]).tolist()
+/// [1, 2]
+#[pyclass(frozen, module = "passive_hopper.labelling")]
+pub(crate) struct Attractors {
+    function: Py<PyAny>,
+    found: Arc<basin_of_attraction::Attractors>,
+}
+
+#[pymethods]
+impl Attractors {
+    #[new]
+    #[pyo3(signature = (map, *, region, starts, cells = 100, recurrences = 100, locate = 1000, budget = 100_000, lost = 1000, tests = 200,
+                        escape = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn new(
+        py: Python<'_>,
+        map: Py<PyAny>,
+        region: Vec<(f64, f64)>,
+        starts: Vec<Vec<f64>>,
+        cells: usize,
+        recurrences: usize,
+        locate: usize,
+        budget: usize,
+        lost: usize,
+        tests: usize,
+        escape: Option<f64>,
+    ) -> PyResult<Self> {
+        let limits = RecurrenceLimits { cells, recurrences, locate, budget, lost, tests, escape };
+        let side = |&(left, right): &(f64, f64)| Interval::new(left, right);
+        let sides = region.iter().map(side).collect::<Result<_, Error>>().map_err(value_error)?;
+        let region = Hyperrectangle::new(sides).map_err(value_error)?;
+        let own = PythonMap::new(map.clone_ref(py));
+        let step = Arc::clone(&own);
+        // Only one thread can call Python at a time. More of them would wait for each other at every step.
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().map_err(value_error)?;
+        let work = move |watch: &Watch| {
+            let image = |state: &[f64]| step.image(state, watch);
+            let search =
+                || basin_of_attraction::Attractors::search(&image, region, &starts, limits);
+            // The thread keeps the interpreter's lock from step to step: to take it anew takes longer than a step.
+            Ok::<_, Error>(pool.install(|| Python::attach(|_| search())))
+        };
+        let found = in_background(py, work, value_error, |_| Ok(()))?;
+        let found = own.unless_raised(found)?.map_err(value_error)?;
+        Ok(Attractors { function: map, found: Arc::new(found) })
+    }
+
+    /// The successive points of an orbit on each attractor, by label: arrays with one point a row.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> PyResult<BTreeMap<u16, Bound<'py, PyAny>>> {
+        let rows = |(label, points): (Label, Vec<Vec<f64>>)| {
+            let shape = [points.len(), points.first().map_or(0, Vec::len)];
+            Ok((label.code(), shaped(py, points.concat(), &shape)?))
+        };
+        self.found.positions().into_iter().map(rows).collect()
+    }
+
+    /// The starts whose orbits belong to no attractor, each with the reason: "budget", "left the region", "stopped" or "no trap".
+    #[getter]
+    fn unmatched(&self) -> Vec<(Vec<f64>, &'static str)> {
+        let reason = |reason| match reason {
+            UnmatchedReason::Budget => "budget",
+            UnmatchedReason::LeftRegion => "left the region",
+            UnmatchedReason::Stopped => "stopped",
+            UnmatchedReason::NoTrap => "no trap",
+        };
+        self.found.unmatched().iter().map(|own| (own.start.clone(), reason(own.reason))).collect()
+    }
+
+    /// The labels of starts, one a row: an array of uint16. A start that comes to no attractor is undecided.
+    fn labels<'py>(&self, py: Python<'py>, starts: Vec<Vec<f64>>) -> PyResult<Bound<'py, PyAny>> {
+        let count = starts.len();
+        let (own, found) = (PythonMap::new(self.function.clone_ref(py)), Arc::clone(&self.found));
+        let step = Arc::clone(&own);
+        let work = move |watch: &Watch| {
+            let image = |state: &[f64]| step.image(state, watch);
+            let label = |start: &Vec<f64>| found.label(&image, start).code();
+            let labels = || starts.iter().map(label).collect::<Vec<u16>>();
+            Ok::<_, Error>(Python::attach(|_| labels()))
+        };
+        let codes = in_background(py, work, value_error, |_| Ok(()))?;
+        shaped(py, own.unless_raised(codes)?, &[count])
+    }
+
+    fn __repr__(&self) -> String {
+        let (count, unmatched) = (self.found.attractors().len(), self.found.unmatched().len());
+        format!("Attractors({count} found, {unmatched} starts unmatched)")
+    }
+}
+
+/// The codes of labels that are no basins, by name.
+#[pyfunction]
+pub(crate) fn label_codes() -> BTreeMap<&'static str, u16> {
+    let codes = [
+        ("UNDECIDED", Label::UNDECIDED),
+        ("UNDECIDED_PRECISION", Label::UNDECIDED_PRECISION),
+        ("UNDECIDED_MAP", Label::UNDECIDED_MAP),
+        ("OUTSIDE", Label::OUTSIDE),
+    ];
+    codes.into_iter().map(|(name, label)| (name, label.code())).collect()
+}

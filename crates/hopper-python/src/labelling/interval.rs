@@ -1,0 +1,40 @@
+//! A number with an interval.
+
+use basin_of_attraction::{Bounds, ConfidenceInterval};
+use pyo3::prelude::*;
+
+/// A number, and an interval in which it lies: a 95 % confidence interval, or bounds. The source says which.
+#[pyclass(frozen, get_all, eq, module = "passive_hopper")]
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Interval {
+    /// The estimate. It need not be the middle.
+    value: f64,
+    /// The lower end.
+    lower: f64,
+    /// The upper end.
+    upper: f64,
+}
+
+#[pymethods]
+impl Interval {
+    pub(crate) fn __repr__(&self) -> String {
+        let Interval { value, lower, upper } = self;
+        format!("Interval(value={value:?}, lower={lower:?}, upper={upper:?})")
+    }
+
+    fn __contains__(&self, number: f64) -> bool {
+        self.lower <= number && number <= self.upper
+    }
+}
+
+impl From<ConfidenceInterval> for Interval {
+    fn from(ConfidenceInterval { value, lower, upper }: ConfidenceInterval) -> Self {
+        Interval { value, lower, upper }
+    }
+}
+
+impl From<Bounds> for crate::basins::Bounds {
+    fn from(Bounds { lower, upper }: Bounds) -> Self {
+        crate::basins::Bounds { lower, upper }
+    }
+}

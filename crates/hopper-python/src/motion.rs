@@ -1,0 +1,134 @@
+//! The motion of both masses, as arrays and as an animation.
+
+use crate::arrays::shaped;
+use crate::errors::value_error;
+use crate::interruptible::{Watch, in_background};
+use hopper_figures::{AnimationForm, MotionEvent, animation, frame_png, frame_times};
+use passive_hopper::{MassRatio, Phase};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict};
+use std::ops::ControlFlow;
+
+/// The events of a motion: the code in arrays, and the name.
+const EVENTS: [(MotionEvent, u8, &str); 3] = [
+    (MotionEvent::GradualLiftOff, 0, "gradual_lift_off"),
+    (MotionEvent::Landing, 1, "landing"),
+    (MotionEvent::SuddenLiftOff, 2, "sudden_lift_off"),
+];
+
+/// The motion over some hops as a dictionary of arrays: times (units of 1/ω), hops, contact (whether the lower mass is on the ground),
+/// states with the columns y₁, ẏ₁, y₂, ẏ₂ (units of m₂g/k and m₂gω/k), event_times and event_kinds; and grounded.
+///
+/// A landing has two samples at the same time, before the collision and after it. motion(…) is the same as an xarray.Dataset.
+#[pyfunction]
+#[pyo3(signature = (alpha, mass_ratio, hops = 10))]
+pub(crate) fn motion_arrays(
+    py: Python<'_>,
+    alpha: f64,
+    mass_ratio: f64,
+    hops: usize,
+) -> PyResult<Bound<'_, PyDict>> {
+    let work = move |_: &Watch| motion_of(alpha, mass_ratio, hops);
+    let motion = in_background(py, work, value_error, |_| Ok(()))?;
+    let samples = &motion.samples;
+    let count = samples.len();
+    let states = samples.iter().flat_map(|sample| {
+        let s = sample.state;
+        [s.upper_position, s.upper_velocity, s.lower_position, s.lower_velocity]
+    });
+    let code = |event: MotionEvent| EVENTS.iter().find(|own| own.0 == event).map(|own| own.1);
+    let kinds: Vec<u8> = motion.events.iter().filter_map(|&(_, event)| code(event)).collect();
+    let event_times: Vec<f64> = motion.events.iter().map(|&(time, _)| time).collect();
+    let events = event_times.len();
+    let found = PyDict::new(py);
+    let times: Vec<f64> = samples.iter().map(|sample| sample.time).collect();
+    found.set_item("times", shaped(py, times, &[count])?)?;
+    let hop_numbers: Vec<u64> = samples.iter().map(|sample| sample.hop as u64).collect();
+    found.set_item("hops", shaped(py, hop_numbers, &[count])?)?;
+    let contact: Vec<bool> = samples.iter().map(|s| s.phase == Phase::Contact).collect();
+    found.set_item("contact", shaped(py, contact, &[count])?)?;
+    found.set_item("states", shaped(py, states.collect(), &[count, 4])?)?;
+    found.set_item("event_times", shaped(py, event_times, &[events])?)?;
+    found.set_item("event_kinds", shaped(py, kinds, &[events])?)?;
+    found.set_item("grounded", motion.grounded)?;
+    Ok(found)
+}
+
+/// The meanings of event_kinds: pairs of a code and a name.
+#[pyfunction]
+pub(crate) fn motion_event_names() -> Vec<(u8, &'static str)> {
+    EVENTS.iter().map(|&(_, code, name)| (code, name)).collect()
+}
+
+/// The animation of a motion as the bytes of a file; `form` is "gif" or "apng". `progress(done, all)` counts the frames.
+#[pyfunction]
+#[pyo3(signature = (alpha, mass_ratio, hops = 3, form = "gif", progress = None))]
+pub(crate) fn animation_bytes<'py>(
+    py: Python<'py>,
+    alpha: f64,
+    mass_ratio: f64,
+    hops: usize,
+    form: &str,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let form = match form {
+        "gif" => AnimationForm::Gif,
+        "apng" => AnimationForm::Apng,
+        other => {
+            let text = format!("an animation is a gif or an apng file, not {other:?}");
+            return Err(PyValueError::new_err(text));
+        }
+    };
+    let first = move |_: &Watch| {
+        let motion = motion_of(alpha, mass_ratio, hops)?;
+        let times = frame_times(&motion)?;
+        Ok::<_, hopper_figures::Error>((motion, times))
+    };
+    let (motion, times) = in_background(py, first, value_error, |_| Ok(()))?;
+    let all = times.len();
+    let work = move |watch: &Watch| {
+        let frame = |k: usize| frame_png(&motion, times[k]).map_err(Failure::Figure);
+        let count = |_: usize| {
+            watch.finished(1);
+            if watch.is_stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let frames = basin_of_attraction::columns_in_parallel(times.len(), frame, count)?;
+        animation(&frames, form).map_err(Failure::Figure)
+    };
+    let bytes = in_background(py, work, value_error, |done| match &progress {
+        Some(progress) => progress.call1((done, all)).map(drop),
+        None => Ok(()),
+    })?;
+    Ok(PyBytes::new(py, &bytes))
+}
+
+/// Why an animation could not be made.
+#[derive(Debug)]
+enum Failure {
+    Figure(hopper_figures::Error),
+    Frames(basin_of_attraction::Error),
+}
+
+impl From<basin_of_attraction::Error> for Failure {
+    fn from(error: basin_of_attraction::Error) -> Self {
+        Failure::Frames(error)
+    }
+}
+
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::Figure(error) => error.fmt(f),
+            Failure::Frames(error) => error.fmt(f),
+        }
+    }
+}
+
+fn motion_of(
+    alpha: f64,
+    mass_ratio: f64,
+    hops: usize,
+) -> Result<hopper_figures::Motion, hopper_figures::Error> {
+    hopper_figures::Motion::new(MassRatio::new(mass_ratio)?, alpha, hops)
+}

@@ -1,0 +1,287 @@
+"""Hybrid systems given by Python functions."""
+
+import math
+import operator
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+from passive_hopper.hybrid import Clock, Guard, HybridSystem, QuasiPolynomial, UndecidedError
+
+
+def ball(restitution=0.5, **more):
+    """A ball under unit gravity. Dropped from ½ it lands after 1 with speed 1."""
+    floor = Guard("floor", lambda x: x[0], "falling", reset=lambda mode, x: (mode, [0, -restitution * x[1]]), **more)
+    return HybridSystem(
+        flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t],
+        guards=[floor],
+        rest=lambda mode, x: ("rest", [0, 0]) if mode is None else None,
+        sampled=0.01,
+    )
+
+
+def test_a_bouncing_ball_lands_at_the_times_of_its_series():
+    times = [arc.event.time for arc in ball().run([0.5, 0], time=2.8) if arc.event]
+    assert times == pytest.approx([1, 2, 2.5, 2.75], abs=1e-14)
+
+
+def test_infinitely_many_bounces_end_in_their_limit():
+    system = HybridSystem(
+        flow=lambda mode, x, t: [0, 0] if mode == "rest" else [x[0] + t * (x[1] - t / 2), x[1] - t],
+        guards=[
+            Guard(
+                "floor",
+                lambda x: x[0],
+                "falling",
+                modes=["air"],
+                reset=lambda mode, x: (mode, [0, -0.5 * x[1]]),
+                signal=lambda mode, x: QuasiPolynomial.polynomial([x[0], x[1], -0.5]),
+            )
+        ],
+        rest=lambda mode, x: ("rest", [0, 0]),
+    )
+    arcs = list(system.run([0.5, 0], mode="air", time=10))
+    zeno = next(arc.zeno for arc in arcs if arc.zeno)
+    # 1 + 2 (½ + ¼ + …) = 3.
+    assert abs(zeno.time - 3) <= zeno.time_error + 1e-15 and zeno.time_error < 1e-9
+    assert zeno.ratio == pytest.approx(0.5, abs=1e-6) and zeno.next_mode == "rest"
+    assert arcs[-1].mode == "rest" and arcs[-1].end == "time limit"
+    assert {arc.event.certainty for arc in arcs if arc.event} == {"certain"}
+
+
+def test_a_thermostat_switches_at_the_times_of_its_exponentials():
+    room = HybridSystem(
+        field=lambda heater, x: [30 - x[0]] if heater == "on" else [10 - x[0]],
+        guards=[
+            Guard("warm", lambda x: x[0] - 21, "rising", modes=["on"], reset=lambda heater, x: ("off", x)),
+            Guard("cold", lambda x: x[0] - 19, "falling", modes=["off"], reset=lambda heater, x: ("on", x)),
+        ],
+        tolerance=1e-12,
+    )
+    events = [arc.event for arc in room.run([15], mode="on", time=1.2) if arc.event]
+    assert [event.surface for event in events] == ["warm", "cold", "warm", "cold"]
+    # From 15 to 21 towards 30: ln(15/9); from 21 to 19 towards 10, and back: ln(11/9).
+    step = math.log(11 / 9)
+    assert [event.time for event in events] == pytest.approx([math.log(15 / 9) + k * step for k in range(4)], abs=1e-10)
+    assert {event.certainty for event in events} == {"interpolated"}
+
+
+def test_terminal_guards_observers_and_clocks():
+    system = HybridSystem(
+        flow=lambda mode, x, t: x + t,
+        guards=[
+            Guard("seen", lambda x: x[0] - 1, "rising", role="observer", signal=lambda m, x: QuasiPolynomial.polynomial([x[0] - 1, 1])),
+            Guard("end", lambda x: x[0] - 3, "rising", role="terminal", signal=lambda m, x: QuasiPolynomial.polynomial([x[0] - 3, 1])),
+            Clock("tick", period=0.75, first=0.5, reset=lambda mode, x: ("ticked", x)),
+            Clock("list", times=[0.25, 2.5]),
+            Clock("asked", times=lambda after: 1.5 if after < 1.5 else None),
+        ],
+    )
+    run = system.run([0.0], time=10)
+    events = [(arc.event.surface, arc.event.time) for arc in run]
+    assert events == [
+        ("list", 0.25), ("tick", 0.5), ("seen", 1.0), ("tick", 1.25), ("asked", 1.5), ("tick", 2.0), ("list", 2.5), ("tick", 2.75), ("end", 3.0),
+    ]  # fmt: skip
+    assert run.stop == "terminal" and run.mode == "ticked" and run.jump == 9
+
+
+def test_sliding_points_are_found_and_followed():
+    system = HybridSystem(
+        field=lambda side, x: {"left": [1.0], "right": [-1.0]}.get(side, [0.0]),
+        guards=[
+            Guard("switch", lambda x: x[0], "rising", modes=["left"], reset=lambda mode, x: ("right", x)),
+            Guard("back", lambda x: x[0], "falling", modes=["right"], reset=lambda mode, x: ("left", x)),
+        ],
+        slide=lambda sliding: ("slides", sliding.state),
+    )
+    run = system.run([-1.0], mode="left", time=5)
+    ends = [arc.end for arc in run]
+    assert "sliding" in ends and ends[-1] == "time limit" and run.mode == "slides"
+    assert run.state[0] == pytest.approx(0, abs=1e-12)
+
+
+def test_trajectories_are_arrays():
+    found = ball().run([0.5, 0], time=1.5).trajectory([0, 0.5, 1, 1.5])
+    assert found["times"].tolist() == [0, 0.5, 1, 1, 1.5]
+    assert found["jumps"].tolist() == [0, 0, 0, 1, 1]
+    assert found["states"].shape == (5, 2) and found["states"][:, 1] == pytest.approx([0, -0.5, -1, 0.5, 0])
+    assert found["event_times"].tolist() == [1] and found["event_after"].tolist() == [[0, 0.5]]
+    arc = next(iter(ball().run([0.5, 0], time=1.5)))
+    assert arc.states([0, 0.5]).tolist() == [[0.5, 0], [0.375, -0.5]]
+    with pytest.raises(ValueError, match="-1"):
+        arc.states([-1])
+
+
+def test_an_execution_goes_on_after_its_limit():
+    run = ball().run([0.5, 0], time=0)
+    for frame in range(1, 21):
+        for _ in run.run_until(0.125 * frame):
+            pass
+        assert run.state[0] >= 0 and run.time == 0.125 * frame
+    assert run.jump == 3
+
+
+class Mine(Exception):
+    pass
+
+
+@pytest.mark.parametrize("place", ["flow", "value", "reset", "signal", "enclosure", "next", "field"])
+def test_an_exception_of_a_function_passes_unchanged(place):
+    mine = Mine("with its text")
+    after = {"calls": 0}
+
+    def broken(*arguments):
+        after["calls"] += 1
+        raise mine
+
+    def at(name, function):
+        return broken if name == place else function
+
+    motion = {"field": at("field", lambda mode, x: [1.0])}
+    if place != "field":
+        motion = {"flow": at("flow", lambda mode, x, t: [x[0] + t])}
+    guard = Guard(
+        "one",
+        at("value", lambda x: x[0] - 1),
+        "rising",
+        reset=at("reset", lambda mode, x: (mode, [0.0])),
+        signal=broken if place == "signal" else None,
+        enclosure=broken if place == "enclosure" else None,
+    )
+    guards = [guard, Clock("tick", times=broken)] if place == "next" else [guard]
+    run = HybridSystem(guards=guards, sampled=0.1, **motion).run([0.0], time=3)
+    with pytest.raises(Mine) as caught:
+        for _ in run:
+            pass
+    assert caught.value is mine
+    assert after["calls"] == 1
+    # The execution is where it was before, and says the same again.
+    with pytest.raises(Mine):
+        next(run)
+
+
+def test_exceptions_of_rest_and_slide_pass_too():
+    def broken(*arguments):
+        raise Mine
+
+    system = HybridSystem(
+        flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t],
+        guards=[Guard("floor", lambda x: x[0], "falling", reset=lambda mode, x: (mode, [0, -0.5 * x[1]]),
+                      signal=lambda mode, x: QuasiPolynomial.polynomial([x[0], x[1], -0.5]))],
+        rest=broken,
+    )  # fmt: skip
+    with pytest.raises(Mine):
+        list(system.run([0.5, 0], time=10))
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+@pytest.mark.parametrize("value", [lambda x: x[0], operator.itemgetter(0)])
+def test_ctrl_c_ends_a_search(value):
+    def interrupt():
+        time.sleep(0.3)
+        os.kill(os.getpid(), signal.SIGINT)
+
+    system = HybridSystem(
+        flow=lambda mode, x, t: [x[0] + t],
+        guards=[Guard("never", value, "falling", reset=lambda mode, x: (mode, x))],
+        sampled=1e-3,
+    )
+    thread = threading.Thread(target=interrupt)
+    thread.start()
+    with pytest.raises(KeyboardInterrupt):
+        list(system.run([1.0], time=1e5))
+    thread.join()
+
+
+@pytest.mark.parametrize(
+    "arguments, error, part",
+    [
+        ({}, ValueError, "flow= or field="),
+        ({"flow": 3}, TypeError, "flow must be a function"),
+        ({"field": lambda m, x: [1.0, 2.0]}, ValueError, "field returned 2 numbers, and the state has 1"),
+        ({"flow": lambda m, x, t: "no"}, (TypeError, ValueError), None),
+        ({"field": lambda m, x: [math.nan]}, ArithmeticError, "not finite"),
+        ({"field": lambda m, x: [1.0], "tolerance": -1.0}, ValueError, "-1"),
+    ],
+)
+def test_wrong_models_are_told(arguments, error, part):
+    with pytest.raises(error, match=part):
+        guards = [Guard("one", lambda x: x[0] - 1, "rising", reset=lambda mode, x: (mode, [0.0]))]
+        list(HybridSystem(guards=guards, sampled=0.1, **arguments).run([0.0], time=3))
+
+
+def test_wrong_guards_are_told():
+    with pytest.raises(ValueError, match="needs reset="):
+        Guard("a", lambda x: x, "rising")
+    with pytest.raises(ValueError, match='"up"'):
+        Guard("a", lambda x: x, "up", role="observer")
+    with pytest.raises(ValueError, match="role"):
+        Guard("a", lambda x: x, "rising", role="king")
+    guard = Guard("a", lambda x: x[0], "rising", role="observer")
+    with pytest.raises(ValueError, match="two guards"):
+        HybridSystem(field=lambda m, x: x, guards=[guard, guard])
+    with pytest.raises(TypeError, match="int"):
+        HybridSystem(field=lambda m, x: x, guards=[3])
+    with pytest.raises(ValueError, match="times= or period="):
+        Clock("c")
+    with pytest.raises(ValueError, match="rise"):
+        Clock("c", times=[1.0, 0.5])
+    with pytest.raises(TypeError):
+        HybridSystem(field=lambda m, x: x).run([1.0], mode=[], time=1)
+    with pytest.raises(ValueError, match="at least one"):
+        HybridSystem(field=lambda m, x: x).run([], time=1)
+
+
+def test_messages_have_the_names_of_guards_and_modes():
+    guard = Guard("wall", lambda x: x[0], "rising", modes=["inside"], reset=lambda mode, x: (mode, x))
+    with pytest.raises(ValueError, match="\"wall\".*'inside'"):
+        list(HybridSystem(field=lambda m, x: [1.0], guards=[guard]).run([1.0], mode="inside", time=1))
+    grazing = Guard("top", lambda x: x[0] - 0.5, "rising", reset=lambda mode, x: (mode, x),
+                    signal=lambda mode, x: QuasiPolynomial.polynomial([x[0] - 0.5, x[1], -0.5]))  # fmt: skip
+    system = HybridSystem(flow=lambda m, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t], guards=[grazing])
+    with pytest.raises(UndecidedError, match="top"):
+        list(system.run([0.0, 1.0], time=2))
+
+
+def test_what_a_reset_returns_is_checked():
+    def run(found):
+        guards = [Guard("one", lambda x: x[0] - 1, "rising", reset=lambda mode, x: found)]
+        return list(HybridSystem(field=lambda m, x: [1.0], guards=guards).run([0.0], time=3))
+
+    assert run(None)[-1].event.after is None
+    for wrong in (3, [1.0], ("mode", [1.0, 2.0])):
+        with pytest.raises((TypeError, ValueError)):
+            run(wrong)
+
+
+def test_quasi_polynomials_are_functions():
+    q = QuasiPolynomial
+    height = q.polynomial([0, -4, 0.5]) + q.sine(5, 1)
+    assert height(2.0) == pytest.approx(-6 + 5 * math.sin(2), rel=1e-15)
+    assert (2 * height - height * 2 + height.derivative())(0.0) == pytest.approx(1)
+    assert (q.exponential(1, -1) * q.cosine(1, 3)).damped(1)(1.0) == pytest.approx(math.exp(-2) * math.cos(3))
+    assert q.polynomial([1]).first_crossing("either", 5) is None
+    with pytest.raises(ValueError):
+        height.first_crossing("rising", -1.0)
+
+
+def test_a_function_that_calls_its_own_execution_is_told():
+    holder = {}
+
+    def value(x):
+        next(holder["run"])
+
+    guards = [Guard("one", value, "rising", role="observer")]
+    holder["run"] = HybridSystem(field=lambda m, x: [1.0], guards=guards).run([0.0], time=1)
+    with pytest.raises(RuntimeError, match="at work"):
+        next(holder["run"])
+
+
+def test_states_are_copies():
+    arc = next(iter(ball().run([0.5, 0], time=1.5)))
+    arc.start[0] = 7
+    assert arc.start[0] == 0.5
+    assert np.array_equal(arc.event.before[1:], [-1.0])

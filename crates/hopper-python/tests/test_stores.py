@@ -1,0 +1,177 @@
+"""Rasters in Zarr stores: the same Dataset, whatever is killed."""
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import passive_hopper as hopper
+import pytest
+
+xarray = pytest.importorskip("xarray")
+pytest.importorskip("zarr", reason="stores need zarr")
+from passive_hopper import stores  # noqa: E402
+
+JOB = {"M": (0.15, 0.9), "alpha": (4.5, 12.0), "shape": (150, 80)}
+
+
+def files(store):
+    return {str(file.relative_to(store)): file.read_bytes() for file in sorted(store.rglob("*")) if file.is_file()}
+
+
+def test_a_store_gives_the_same_dataset(tmp_path):
+    memory = hopper.basins(**JOB)
+    calls = []
+    stored = hopper.basins(**JOB, store=tmp_path / "basins.zarr", progress=lambda *done: calls.append(done))
+    assert calls == [(64, 150), (128, 150), (150, 150)]
+    xarray.testing.assert_identical(memory, stored.load())
+    xarray.testing.assert_identical(memory, xarray.open_zarr(tmp_path / "basins.zarr").load())
+    assert memory.attrs["sha256"] == hashlib.sha256(memory.label.values).hexdigest()
+    assert memory.alpha.attrs["units"] == "m2 g omega/k" and "basins(M=(0.15, 0.9)" in memory.attrs["command"]
+    # A finished store is not computed again.
+    before = files(tmp_path / "basins.zarr")
+    hopper.basins(**JOB, store=tmp_path / "basins.zarr", progress=lambda *done: pytest.fail("computed again"))
+    assert files(tmp_path / "basins.zarr") == before
+    # Zarr 3, sharded and compressed: one file a region.
+    assert sum(name.startswith("label/c/") for name in before) == 3
+
+
+def test_the_labels_are_those_of_the_arrays(tmp_path):
+    stored = hopper.basins(**JOB, store=tmp_path / "basins.zarr")
+    ratios, speeds, labels = hopper.basin_labels(**JOB)
+    assert np.array_equal(stored.label, labels) and stored.label.dtype == labels.dtype
+    assert np.array_equal(stored.M, ratios) and np.array_equal(stored.alpha, speeds)
+
+
+@pytest.mark.parametrize("change", [{"shape": (150, 81)}, {"M": (0.15, 0.91)}, {"alpha": (4.5, 12.5)}])
+def test_another_job_is_refused_and_nothing_changes(tmp_path, change):
+    store = tmp_path / "basins.zarr"
+    hopper.basins(**JOB, store=store)
+    before = files(store)
+    with pytest.raises(ValueError, match="another job"):
+        hopper.basins(**(JOB | change), store=store)
+    assert files(store) == before
+
+
+def test_a_folder_that_is_no_store_is_refused(tmp_path):
+    (tmp_path / "basins.zarr").mkdir()
+    (tmp_path / "basins.zarr" / "mine.txt").write_text("mine")
+    with pytest.raises(FileExistsError, match="no Zarr store"):
+        hopper.basins(**JOB, store=tmp_path / "basins.zarr")
+    assert list(files(tmp_path)) == ["basins.zarr/mine.txt"]
+    with pytest.raises(OSError):
+        hopper.basins(**JOB, store=tmp_path / "no folder" / "basins.zarr")
+
+
+def test_a_damaged_region_is_computed_again(tmp_path):
+    store = tmp_path / "basins.zarr"
+    whole = hopper.basins(**JOB, store=store).load()
+    file = store / "label" / "c" / "1" / "0"
+    content = file.read_bytes()
+    for damage in (content[: len(content) // 2], b"", content[:100] + bytes([content[100] ^ 1]) + content[101:]):
+        file.write_bytes(damage)
+        calls = []
+        again = hopper.basins(**JOB, store=store, progress=lambda *done: calls.append(done))
+        assert len(calls) == 1
+        xarray.testing.assert_identical(whole, again.load())
+        assert file.read_bytes() == content
+
+
+def test_a_store_that_is_not_finished_says_so(tmp_path):
+    store = tmp_path / "basins.zarr"
+
+    def stop(done, all):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        hopper.basins(**JOB, store=store, progress=stop)
+    there = xarray.open_zarr(store, consolidated=False)
+    assert "sha256" not in there.attrs
+    xarray.testing.assert_identical(hopper.basins(**JOB), hopper.basins(**JOB, store=store).load())
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_a_process_that_is_killed_loses_nothing(tmp_path):
+    store = tmp_path / "basins.zarr"
+    job = {"M": (0.1, 0.4), "shape": (640, 1500)}
+    call = f"import passive_hopper; passive_hopper.basins(**{job!r}, store={str(store)!r}, progress=print)"
+    kills = 0
+    for delay in (0.0, 0.1, 0.3):
+        process = subprocess.Popen([sys.executable, "-u", "-c", call], stdout=subprocess.PIPE)
+        # After the first region of this call, or at its end.
+        process.stdout.readline()
+        time.sleep(delay)
+        process.send_signal(signal.SIGKILL)
+        kills += process.wait() == -signal.SIGKILL
+    assert kills > 0
+    assert hopper.basins(**job, store=store).attrs["sha256"] == hopper.basins(**job).attrs["sha256"]
+    assert not list(store.rglob("*.partial"))
+
+
+def test_a_process_holds_one_region_at_a_time(tmp_path, monkeypatch):
+    native, asked = stores._native.basin_region, []
+
+    def region(M, alpha, shape, columns, threads=None):
+        asked.append(columns)
+        return native(M, alpha, shape, columns, threads=threads)
+
+    monkeypatch.setattr(stores._native, "basin_region", region)
+    hopper.basins(**JOB, store=tmp_path / "basins.zarr")
+    assert asked == [(0, 64), (64, 128), (128, 150)]
+
+
+def test_a_client_needs_a_store():
+    with pytest.raises(ValueError, match="store="):
+        hopper.basins(**JOB, client=object())
+
+
+@pytest.fixture(scope="module")
+def client():
+    pytest.importorskip("distributed", reason="SKIPPED clusters: dask.distributed is not installed")
+    from distributed import Client
+    from kill_workers import cluster
+
+    with cluster() as workers, Client(workers) as client:
+        yield client
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_workers_that_are_killed_lose_nothing(tmp_path):
+    pytest.importorskip("distributed", reason="SKIPPED clusters: dask.distributed is not installed")
+    from kill_workers import JOB as LONG
+    from kill_workers import one_trial
+
+    alone = hopper.basins(**LONG).attrs["sha256"]
+    for seed in range(3):
+        found, killed, _ = one_trial(tmp_path, seed)
+        assert killed == 2 and found == alone
+        labels = xarray.open_zarr(tmp_path / f"trial_{seed}.zarr", chunks=None).label.values
+        assert hashlib.sha256(labels).hexdigest() == alone
+
+
+def test_the_dataset_of_a_cluster_is_lazy(client, tmp_path):
+    found = hopper.basins(**JOB, store=tmp_path / "basins.zarr", client=client)
+    assert found.label.chunks is not None
+    xarray.testing.assert_identical(found.compute(), hopper.basins(**JOB))
+
+
+def test_a_worker_of_another_version_is_told(client, tmp_path):
+    job = ((0.15, 0.9), (4.5, 12.0), (150, 80))
+    with pytest.raises(RuntimeError, match="same version"):
+        stores._task(str(tmp_path / "basins.zarr"), job, 0, ("0.0.0", 1))
+
+
+def test_an_error_of_a_worker_passes_through(client, tmp_path, monkeypatch):
+    store = tmp_path / "basins.zarr"
+    hopper.basins(**JOB, store=store)
+    # A folder in the place of a shard: no worker can write it.
+    file = store / "label" / "c" / "1" / "0"
+    file.unlink()
+    file.mkdir()
+    with pytest.raises(OSError):
+        hopper.basins(**JOB, store=store, client=client)
+    file.rmdir()
+    assert hopper.basins(**JOB, store=store, client=client).attrs["sha256"] == hopper.basins(**JOB).attrs["sha256"]
