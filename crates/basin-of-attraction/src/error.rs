@@ -209,6 +209,16 @@ pub enum Error {
         /// Sides of the region.
         expected: usize,
     },
+    /// Feature vectors without numbers, or of different lengths.
+    #[error(
+        "a feature vector of {dimension} numbers, and one of {expected}: all must have as many, and at least one"
+    )]
+    UnlikeFeatures {
+        /// Numbers of the vector.
+        dimension: usize,
+        /// Numbers of the first one.
+        expected: usize,
+    },
     /// More attractors than labels.
     #[error(
         "more than {most} attractors: the cells are finer than the attractors, so that parts of one count apart; take fewer cells"
