@@ -135,7 +135,7 @@ impl FeatureAttractors {
     ///
     /// # Errors
     /// [`Error::BadSearch`] for a radius or a distance that is not positive and finite, stretches without steps, and a budget that is too
-    /// small; [`Error::UnlikeFeatures`] for features of different lengths; [`Error::TooManySamples`] for more than 20 000 features, and
+    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none; [`Error::TooManySamples`] for more than 20 000 features, and
     /// stretches of more than 10⁷ steps; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),

@@ -36,8 +36,8 @@ impl FeatureGroups {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadSearch`] for a radius that is not positive and finite; [`Error::BadPoint`] and [`Error::UnlikeFeatures`] for templates that
-    /// are not finite or have different lengths; [`Error::NoBasin`] for a label that is no basin.
+    /// [`Error::BadSearch`] for a radius that is not positive and finite; [`Error::BadPoint`], [`Error::WrongDimension`] and [`Error::NoDimension`] for
+    /// templates that are not finite, of different lengths, or empty; [`Error::NoBasin`] for a label that is no basin.
     pub fn from_templates(templates: &[(Label, Vec<f64>)], radius: f64) -> Result<Self, Error> {
         check(templates.iter().map(|(_, vector)| vector), radius)?;
         match templates.iter().find(|(label, _)| !label.is_basin()) {
@@ -161,8 +161,11 @@ fn check<'a>(vectors: impl Iterator<Item = &'a Vec<f64>>, radius: f64) -> Result
     let mut expected = None;
     for vector in vectors {
         let (dimension, expected) = (vector.len(), *expected.get_or_insert(vector.len()));
-        if dimension != expected || dimension == 0 {
-            return Err(Error::UnlikeFeatures { dimension, expected });
+        if dimension == 0 {
+            return Err(Error::NoDimension);
+        }
+        if dimension != expected {
+            return Err(Error::WrongDimension { dimension, expected });
         }
         if let Some(coordinate) = vector.iter().position(|x| !x.is_finite()) {
             return Err(Error::BadPoint { coordinate, value: vector[coordinate] });
@@ -179,7 +182,7 @@ mod tests {
     /// `count` vectors around a point, each of an orbit of its own.
     fn around(centre: [f64; 2], count: u64, seed: u64) -> Vec<Vec<f64>> {
         let random = SplitMix64::from_seed(seed);
-        let at = |k: u64| (0..2).map(|i| centre[i as usize] + random.uniform(2 * k + i) - 0.5);
+        let at = |k: u64| (0..2).map(move |i| centre[i as usize] + random.uniform(2 * k + i) - 0.5);
         (0..count).map(|k| at(k).collect()).collect()
     }
 
@@ -238,8 +241,8 @@ mod tests {
             assert!(matches!(found(&[(a, vec![0.0])], radius), Err(Error::BadSearch { .. })));
         }
         let unlike = found(&[(a, vec![0.0]), (a, vec![0.0, 1.0])], 1.0);
-        assert_eq!(unlike, Err(Error::UnlikeFeatures { dimension: 2, expected: 1 }));
-        assert!(matches!(found(&[(a, vec![])], 1.0), Err(Error::UnlikeFeatures { .. })));
+        assert_eq!(unlike, Err(Error::WrongDimension { dimension: 2, expected: 1 }));
+        assert_eq!(found(&[(a, vec![])], 1.0), Err(Error::NoDimension));
         assert!(matches!(found(&[(a, vec![f64::NAN])], 1.0), Err(Error::BadPoint { .. })));
         let open = Label::UNDECIDED;
         assert_eq!(found(&[(open, vec![0.0])], 1.0), Err(Error::NoBasin { label: open }));

@@ -189,9 +189,9 @@ fn limits_and_features_that_mean_nothing_are_refused() {
     let unlike = |points: &[Vec<f64>]| vec![0.0; 1 + usize::from(points[0][0] > 0.0005)];
     let short = FeatureLimits { transient: 0, ..good };
     let error = FeatureAttractors::search(&map, &unlike, &points, short).unwrap_err();
-    assert_eq!(error, Error::UnlikeFeatures { dimension: 1, expected: 2 });
+    assert_eq!(error, Error::WrongDimension { dimension: 1, expected: 2 });
     let empty = FeatureAttractors::search(&map, &|_: &[Vec<f64>]| vec![], &points, good);
-    assert!(matches!(empty, Err(Error::UnlikeFeatures { .. })));
+    assert_eq!(empty, Err(Error::NoDimension));
     let nan = FeatureAttractors::search(&map, &|_: &[Vec<f64>]| vec![f64::NAN], &points, good);
     assert_eq!(nan.unwrap().unmatched().len(), 5);
     let none = FeatureAttractors::search(&map, &means, &[], good).unwrap();
