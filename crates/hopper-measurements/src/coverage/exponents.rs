@@ -176,8 +176,10 @@ mod tests {
     #[test]
     fn every_interval_of_an_exponent_covers_as_often_as_stated() {
         for row in measure(60).unwrap() {
-            // The fraction of uncertain starts near ε = 0.1 is not yet a power law: some trials show a drift and are refused.
-            assert!(row.given >= 40 && 60 * row.covered >= 48 * row.given, "{row:?}");
+            // The fraction of uncertain starts near ε = 0.1 is not yet a power law: some trials show a drift and are refused. Of the trials
+            // with 4 to 16 uncertain pairs at a distance a third have the 30 pairs that an exponent needs.
+            let least = if row.interval == "uncertainty_exponent" { 15 } else { 40 };
+            assert!(row.given >= least && 60 * row.covered >= 48 * row.given, "{row:?}");
         }
     }
 }
