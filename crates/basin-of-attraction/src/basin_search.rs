@@ -14,10 +14,10 @@ use rayon::prelude::*;
 /// The basins of `traps` in `window`: the traps, their preimages, the preimages of these, and so on.
 ///
 /// A trap is an interval that no orbit leaves. An interval on which the map has no value may be given as a trap too,
-/// with a label of its own. [`check_trap`] tests every trap: see [`trap_grounds`](IntervalBasins::trap_grounds).
+/// with a label of its own. [`check_trap`](crate::check_trap) tests every trap: see [`trap_grounds`](IntervalBasins::trap_grounds).
 ///
 /// `branches` must contain all monotone branches of the map in the window outside the traps. Where orbits leave
-/// the window and return, `branches` must also contain the branches outside it. [`check_branches`] tests those in the window at
+/// the window and return, `branches` must also contain the branches outside it. [`check_branches`](crate::check_branches) tests those in the window at
 /// 1000 random points. The caller guarantees the rest. The ends of the intervals are located to one ulp of the computed map. An orbit enters a
 /// trap once, so that intervals of different levels are disjoint.
 ///
@@ -36,7 +36,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// [`Error::OverlappingTraps`] if two traps have a point in common; [`Error::BadRefinement`] for limits that are negative or NaN;
-/// else as [`check_trap`] and [`check_branches`].
+/// else as [`check_trap`](crate::check_trap) and [`check_branches`](crate::check_branches).
 pub fn interval_basins(
     map: &(impl ScalarMap + Sync),
     traps: &[(Interval, Label)],
