@@ -6,7 +6,7 @@ use crate::fate::TrapSet;
 use crate::interval::{Interval, IntervalSet};
 use crate::interval_basins::{IntervalBasins, LabelledInterval, total_length};
 use crate::label::Label;
-use crate::probes::{check_branches, check_trap};
+use crate::probes::{check_given, check_intervals};
 use crate::refinement::{Refinement, StopReason};
 use crate::scalar_map::ScalarMap;
 use rayon::prelude::*;
@@ -14,10 +14,10 @@ use rayon::prelude::*;
 /// The basins of `traps` in `window`: the traps, their preimages, the preimages of these, and so on.
 ///
 /// A trap is an interval that no orbit leaves. An interval on which the map has no value may be given as a trap too,
-/// with a label of its own. [`check_trap`] tests every trap: see [`trap_grounds`](IntervalBasins::trap_grounds).
+/// with a label of its own. [`check_trap`](crate::check_trap) tests every trap: see [`trap_grounds`](IntervalBasins::trap_grounds).
 ///
 /// `branches` must contain all monotone branches of the map in the window outside the traps. Where orbits leave
-/// the window and return, `branches` must also contain the branches outside it. [`check_branches`] tests those in the window at
+/// the window and return, `branches` must also contain the branches outside it. [`check_branches`](crate::check_branches) tests those in the window at
 /// 1000 random points. The caller guarantees the rest. The ends of the intervals are located to one ulp of the computed map. An orbit enters a
 /// trap once, so that intervals of different levels are disjoint.
 ///
@@ -36,7 +36,7 @@ use rayon::prelude::*;
 ///
 /// # Errors
 /// [`Error::OverlappingTraps`] if two traps have a point in common; [`Error::BadRefinement`] for limits that are negative or NaN;
-/// else as [`check_trap`] and [`check_branches`].
+/// else as [`check_trap`](crate::check_trap) and [`check_branches`](crate::check_branches).
 pub fn interval_basins(
     map: &(impl ScalarMap + Sync),
     traps: &[(Interval, Label)],
@@ -44,16 +44,9 @@ pub fn interval_basins(
     window: Interval,
     refinement: Refinement,
 ) -> Result<IntervalBasins, Error> {
-    /// Random points at which the branches are tested. They miss a branch of 0.3 % of the window in 5 of 100 cases. More points
-    /// see narrower branches; each takes some 30 values of the map.
-    const POINTS: usize = 1000;
-    /// Seed of the points. Another one tests other points.
-    const SEED: u64 = 1;
     TrapSet::new(traps.to_vec())?;
-    let ground = |&(trap, _): &(Interval, Label)| check_trap(map, branches, trap);
-    let grounds = traps.iter().map(ground).collect::<Result<_, Error>>()?;
-    let trapped = IntervalSet::union(traps.iter().map(|&(trap, _)| trap).collect());
-    check_branches(map, branches, &trapped, window, POINTS, SEED)?;
+    let intervals: Vec<Interval> = traps.iter().map(|&(trap, _)| trap).collect();
+    let grounds = check_given(map, &intervals, branches, window)?;
     let found = interval_basins_from_known(map, traps, branches, window, refinement)?;
     Ok(IntervalBasins { grounds, ..found })
 }
@@ -80,8 +73,8 @@ pub fn interval_basins(
 /// ```
 ///
 /// # Errors
-/// [`Error::OverlappingTraps`] if two intervals have a point in common; [`Error::BadInterval`] for a window that is reversed or
-/// not finite; [`Error::BadRefinement`] for limits that are negative or NaN.
+/// [`Error::OverlappingTraps`] if two intervals have a point in common; [`Error::BadInterval`] for a window or a branch that is reversed
+/// or not finite; [`Error::BadRefinement`] for limits that are negative or NaN.
 pub fn interval_basins_from_known(
     map: &(impl ScalarMap + Sync),
     known: &[(Interval, Label)],
@@ -100,7 +93,7 @@ pub fn interval_basins_from_known(
     /// more nearly in the order of their length, in more rounds. The two numbers decide the order of the search only,
     /// and so the result only if a limit stops it.
     const THRESHOLD_STEP: f64 = 8.0;
-    Interval::new(window.left, window.right)?;
+    check_intervals(&[window], branches)?;
     refinement.check()?;
     TrapSet::new(known.to_vec())?;
     let trapped = IntervalSet::union(known.iter().map(|&(part, _)| part).collect());

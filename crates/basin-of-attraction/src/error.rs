@@ -201,12 +201,12 @@ pub enum Error {
         /// The largest number of sides.
         most: usize,
     },
-    /// A point of another dimension than the region.
-    #[error("a point of {dimension} coordinates in a region of {expected}: give one for each side")]
+    /// A point of another dimension than the region, or feature vectors of different lengths.
+    #[error("a point of {dimension} coordinates where {expected} are expected: give as many")]
     WrongDimension {
         /// Coordinates of the point.
         dimension: usize,
-        /// Sides of the region.
+        /// Coordinates of the others.
         expected: usize,
     },
     /// More attractors than labels.
@@ -217,8 +217,8 @@ pub enum Error {
         /// The largest number.
         most: usize,
     },
-    /// A region without coordinates.
-    #[error("a region has at least one side")]
+    /// A region, or a feature vector, without coordinates.
+    #[error("a region has at least one side, a feature vector at least one number")]
     NoDimension,
     /// So many pairs have an undecided point that their number decides the exponent.
     #[error(
@@ -230,6 +230,17 @@ pub enum Error {
         open: usize,
         /// Uncertain pairs.
         uncertain: usize,
+    },
+    /// So few uncertain pairs, or all of them at one distance, that they give no bound on the exponent.
+    #[error(
+        "{uncertain} uncertain pairs give no bound on the exponent: at least {fewest} are needed, at two distances or more; \
+         take more pairs, or larger distances"
+    )]
+    TooFewUncertainPairs {
+        /// Uncertain pairs.
+        uncertain: usize,
+        /// The smallest number accepted.
+        fewest: usize,
     },
     /// Points to which no power law can be fitted.
     #[error(

@@ -28,6 +28,7 @@
 //! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
 //! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
 //! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
+//! | [`FeatureAttractors`], [`FeatureGroups`] | the same by features of orbits, grouped by density or beside templates |
 //! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
 //! | [`match_attractors`], [`Matching`] | which attractors at two parameters are the same |
 //! | [`IntervalBasins::tipping_to`], [`Tipping`] | the probability that a state of basin a is in basin b after a change of parameters, with bounds |
@@ -73,12 +74,14 @@
 //! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
 //! proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities; T. Gasser,
 //! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood,
-//! OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by recurrences; G. Datseris, K. Luiz
+//! OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by recurrences and by features;
+//! M. Ester, H.-P. Kriegel, J. Sander, X. Xu, KDD 1996, 226, groups by density; G. Datseris, K. Luiz
 //! Rossi, A. Wagemakers, Chaos 33, 073151 (2023), fractions along a parameter; B. Kaszás, U. Feudel, T. Tél, Sci. Rep. 9, 8654
 //! (2019), tipping; L. Halekotte, U. Feudel, Sci. Rep. 10, 11783 (2020), minimal fatal shocks; J. D. Skufca, J. A. Yorke,
 //! B. Eckhardt, Phys. Rev. Lett. 96, 174101 (2006), edge tracking; P. J. Menck, J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89
 //! (2013), basin stability.
 
+mod attractor_features;
 mod attractor_match;
 mod basin_search;
 mod boundary_between;
@@ -92,6 +95,7 @@ mod entropy;
 mod error;
 mod fatal_shock;
 mod fate;
+mod feature_groups;
 mod fractions;
 mod fractions_along;
 mod golden_section;
@@ -121,10 +125,12 @@ mod split_mix;
 mod state_grid;
 mod tipping;
 mod uncertainty;
+mod uncertainty_fit;
 mod undecided_reason;
 mod value_image;
 mod wada;
 
+pub use attractor_features::{FeatureAttractor, FeatureAttractors, FeatureLimits};
 pub use attractor_match::{AttractorMatch, match_attractors};
 pub use basin_search::{interval_basins, interval_basins_from_known};
 pub use boundary_between::{BoundaryBracket, boundary_between};
@@ -140,6 +146,7 @@ pub use entropy::entropy;
 pub use error::Error;
 pub use fatal_shock::{FatalShock, ShockSearch, minimal_fatal_shock};
 pub use fate::{Fate, TrapSet, Traps, classify};
+pub use feature_groups::FeatureGroups;
 pub use fractions::{FractionRange, Fractions};
 pub use fractions_along::{
     CurveLimits, FractionsAlong, Matching, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
@@ -153,7 +160,7 @@ pub use ln_2_criterion::Ln2Criterion;
 pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
 pub use pixel_shares::PixelShares;
 pub use power_law::{NoInterval, PowerLaw, power_law};
-pub use preimage::preimage_levels;
+pub use preimage::{preimage_levels, preimage_levels_from_known};
 pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
 pub use probes::{TrapGround, check_branches, check_trap};
 pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};

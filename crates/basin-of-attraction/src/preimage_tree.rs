@@ -1,8 +1,10 @@
 //! The preimages of a trap as a tree, and the set of points that never enter the trap.
 
 use crate::branches::Branch;
+use crate::error::Error;
 use crate::interval::{Interval, IntervalSet};
 use crate::least_squares::fit_line;
+use crate::probes::{check_given, check_intervals};
 use crate::scalar_map::ScalarMap;
 
 /// An interval of the tree, mapped onto its parent by one branch.
@@ -57,7 +59,36 @@ pub enum ResidualSet {
 impl PreimageTree {
     /// Grows `depth` levels. It stops earlier at an empty level, or at a level that ends beyond a million nodes.
     ///
-    /// `branches` must contain all monotone branches of the map in the window.
+    /// `branches` must contain all monotone branches of the map in the window. The trap and the branches are tested as in
+    /// [`interval_basins`](crate::interval_basins).
+    ///
+    /// ```
+    /// use basin_of_attraction::{Branch, Interval, PreimageTree, ResidualSet};
+    /// // Under x + x² the orbits of (−1, 0) approach 0, and every level has two intervals.
+    /// let map = |x: f64| Some(x + x * x);
+    /// let left = Branch { domain: Interval::new(-1.0, -0.5)?, at_left: 0.0, at_right: -0.25 };
+    /// let right = Branch { domain: Interval::new(-0.5, 0.0)?, at_left: -0.25, at_right: 0.0 };
+    /// let (window, trap) = (Interval::new(-1.0, 0.0)?, Interval::new(-0.01, 0.0)?);
+    /// let tree = PreimageTree::grow(&map, &[left, right], trap, window, 60)?;
+    /// assert_eq!(tree.residual_set(), ResidualSet::Countable { power: 0.0 });
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`check_trap`](crate::check_trap) and [`check_branches`](crate::check_branches).
+    pub fn grow(
+        map: &impl ScalarMap,
+        branches: &[Branch],
+        trap: Interval,
+        window: Interval,
+        depth: usize,
+    ) -> Result<Self, Error> {
+        check_given(map, &[trap], branches, window)?;
+        Self::grow_from_known(map, branches, trap, window, depth)
+    }
+
+    /// The tree of an interval that the caller knows, such as a hole from which orbits escape, as [`grow`](Self::grow) finds it, without any
+    /// test. The caller knows that the branches are complete.
     ///
     /// ```
     /// use basin_of_attraction::{Branch, Interval, PreimageTree, ResidualSet};
@@ -65,21 +96,25 @@ impl PreimageTree {
     /// let tent = |x: f64| Some(if x < 0.5 { 3.0 * x } else { 3.0 * (1.0 - x) });
     /// let left = Branch { domain: Interval::new(0.0, 0.5)?, at_left: 0.0, at_right: 1.5 };
     /// let right = Branch { domain: Interval::new(0.5, 1.0)?, at_left: 1.5, at_right: 0.0 };
-    /// let (window, hole) = (Interval::new(0.0, 1.0)?, Interval::new(1.0 + 1e-12, 1.5)?);
-    /// let tree = PreimageTree::grow(&tent, &[left, right], hole, window, 12);
+    /// let (window, above) = (Interval::new(0.0, 1.0)?, Interval::new(1.0 + 1e-12, 1.5)?);
+    /// let tree = PreimageTree::grow_from_known(&tent, &[left, right], above, window, 12)?;
     /// let ResidualSet::Cantor { growth } = tree.residual_set() else { panic!() };
     /// assert!((growth - 2f64.ln()).abs() < 1e-12);
     /// # Ok::<(), basin_of_attraction::Error>(())
     /// ```
-    pub fn grow(
+    ///
+    /// # Errors
+    /// [`Error::BadInterval`] for an interval, a window or a branch that is reversed or not finite.
+    pub fn grow_from_known(
         map: &impl ScalarMap,
         branches: &[Branch],
         trap: Interval,
         window: Interval,
         depth: usize,
-    ) -> Self {
+    ) -> Result<Self, Error> {
         /// Bounds the memory: a node takes 48 bytes, and a level may have several times the nodes of the last.
         const MOST_NODES: usize = 1_000_000;
+        check_intervals(&[trap, window], branches)?;
         let trapped = IntervalSet::union(vec![trap]);
         let root = TreeNode { interval: trap, level: 0, parent: None, branch: 0 };
         let mut tree =
@@ -113,7 +148,7 @@ impl PreimageTree {
             }
             tree.starts.push(tree.nodes.len());
         }
-        tree
+        Ok(tree)
     }
 
     /// All nodes, level by level.
@@ -259,7 +294,8 @@ mod tests {
                 Branch { domain: Interval { left: right, right: 1.0 }, at_left: ends.0, at_right: ends.1 },
             ];
             let gap = Interval { left, right };
-            let tree = PreimageTree::grow(&map, &branches, gap, Interval { left: 0.0, right: 1.0 }, 8);
+            let unit = Interval { left: 0.0, right: 1.0 };
+            let tree = PreimageTree::grow_from_known(&map, &branches, gap, unit, 8).unwrap();
             prop_assert_eq!(tree.counts(), (0..=8).map(|k| 1 << k).collect::<Vec<usize>>());
             let fraction = left + (1.0 - right);
             for (level, length) in tree.lengths().into_iter().enumerate() {
@@ -279,6 +315,27 @@ mod tests {
             let cantor = matches!(tree.residual_set(), ResidualSet::Cantor { .. });
             prop_assert!(cantor);
         }
+    }
+
+    #[test]
+    fn traps_that_are_none_missing_branches_and_reversed_windows_are_refused() {
+        let halve = |x: f64| Some(0.5 * x);
+        let unit = Interval { left: 0.0, right: 1.0 };
+        let whole = Branch { domain: unit, at_left: 0.0, at_right: 0.5 };
+        let half =
+            Branch { domain: Interval { left: 0.0, right: 0.5 }, at_left: 0.0, at_right: 0.25 };
+        let (trap, none) = (Interval { left: 0.0, right: 0.1 }, Interval { left: 0.2, right: 0.3 });
+        let grown = |branch: Branch, trap, window| {
+            PreimageTree::grow(&halve, &[branch], trap, window, 5).map(|tree| tree.levels())
+        };
+        assert_eq!(grown(whole, trap, unit), Ok(6));
+        assert!(matches!(grown(whole, none, unit), Err(Error::NotATrap { .. })));
+        assert!(matches!(grown(half, trap, unit), Err(Error::BranchMissed { at: 0.5.., .. })));
+        let reversed = Interval { left: 1.0, right: f64::NAN };
+        assert!(matches!(grown(whole, trap, reversed), Err(Error::BadInterval { .. })));
+        assert!(matches!(grown(whole, reversed, unit), Err(Error::BadInterval { .. })));
+        let known = PreimageTree::grow_from_known(&halve, &[whole], trap, reversed, 5);
+        assert!(matches!(known, Err(Error::BadInterval { .. })));
     }
 
     #[test]

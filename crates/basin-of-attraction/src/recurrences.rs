@@ -56,12 +56,15 @@ impl Default for RecurrenceLimits {
 pub enum UnmatchedReason {
     /// The budget of steps was used up.
     Budget,
+    /// The features of the orbit are beside those of too few others, or of two groups.
+    NoGroup,
     /// The orbit stayed outside the region.
     LeftRegion,
     /// The map has no value at a point of the orbit, or one that is not finite.
     Stopped,
     /// The orbit keeps to a few cells, but orbits that start in or beside these cells do not come to them and stay: the cells are a slow
-    /// passage, or the attractor is too close to the boundary of its basin for this grid.
+    /// passage, or the attractor is too close to the boundary of its basin for this grid. The same for a group of features and orbits from
+    /// beside it.
     NoTrap,
 }
 

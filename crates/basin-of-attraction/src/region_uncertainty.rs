@@ -7,6 +7,7 @@ use crate::label::Label;
 use crate::sampling::check_count;
 use crate::split_mix::SplitMix64;
 use crate::uncertainty::check_perturbation;
+use crate::uncertainty_fit::{ExponentFit, ScaleCount, fit_exponent};
 use rayon::prelude::*;
 
 /// Pairs of points at a distance ε, counted by their labels.
@@ -133,13 +134,23 @@ impl UncertaintyExponent {
 
 /// The uncertainty exponent from independent pairs at several distances.
 ///
-/// With k uncertain pairs of n, ln(k/n) has the variance (1 − k/n)/k to leading order. The exponent is the slope of the line through
-/// (ln ε, ln(k/n)) with these weights, and its variance follows from them. No assumption about the scatter is made.
+/// The interval contains all exponents at which the score of the binomial likelihood is within 1.96 of its standard deviations. It allows for chance,
+/// and no assumption about the scatter is made. Open pairs are counted in the worst way for each end.
+///
+/// ```
+/// use basin_of_attraction::{Hyperrectangle, Interval, Label, uncertainty_exponent};
+/// let square = Hyperrectangle::new(vec![Interval::new(0.0, 1.0)?; 2])?;
+/// let disc = |x: &[f64]| Label::from(x[0] * x[0] + x[1] * x[1] < 0.5);
+/// // The boundary is smooth, of dimension 1 in the plane.
+/// let found = uncertainty_exponent(&square, &[0.001, 0.01, 0.1], 20_000, 1, disc)?;
+/// assert!(found.exponent.covers(1.0) && found.exponent.half_width() < 0.1);
+/// # Ok::<(), basin_of_attraction::Error>(())
+/// ```
 ///
 /// # Errors
-/// [`Error::BadFit`] for fewer than three different distances, and if one of them has fewer than ten uncertain pairs, of which ln(k/n)
-/// would not be nearly normal: take more pairs or larger distances. [`Error::TooManyOpenPairs`] if open pairs are more than a
-/// tenth of the uncertain ones. Else as [`uncertain_pairs`].
+/// [`Error::BadFit`] for fewer than three different distances; [`Error::TooFewUncertainPairs`] for fewer than thirty uncertain pairs at all distances together, and if
+/// their numbers give no bound on the exponent: take more pairs or larger distances. [`Error::TooManyOpenPairs`] if open pairs are
+/// more than a tenth of the uncertain ones at all distances together. Else as [`uncertain_pairs`].
 pub fn uncertainty_exponent(
     region: &Hyperrectangle,
     epsilons: &[f64],
@@ -147,14 +158,11 @@ pub fn uncertainty_exponent(
     seed: u64,
     label: impl Fn(&[f64]) -> Label + Sync,
 ) -> Result<UncertaintyExponent, Error> {
-    /// With k uncertain pairs the logarithm of their number is skewed by about 1/√k standard deviations, and its mean is
-    /// wrong by 1/(2k). Ten leave a bias of 5 %, less than the 30 % of its standard error.
-    const FEWEST: usize = 10;
-    /// Open pairs change ln(k/n) by up to their share of the uncertain ones. Ten per cent over one decade change the exponent by
-    /// 0.04 at most.
+    /// With fewer uncertain pairs the score is not nearly normal. The sum of all numbers says next to nothing about the exponent, so that this
+    /// condition selects no samples of a certain slope; a condition on the number at each distance would.
+    const FEWEST: usize = 30;
+    /// With more open pairs the ends of the interval say what the budget of the labelling was.
     const MOST_OPEN: f64 = 0.1;
-    /// The two-sided 95 % quantile of the normal distribution.
-    const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
     let mut epsilons = epsilons.to_vec();
     epsilons.sort_by(f64::total_cmp);
     epsilons.dedup();
@@ -162,34 +170,29 @@ pub fn uncertainty_exponent(
         return Err(Error::BadFit { points: epsilons.len() });
     }
     let seeds = SplitMix64::from_seed(seed);
-    let pairs = |(k, &epsilon): (u64, &f64)| {
-        let found = uncertain_pairs(region, epsilon, count, seeds.bits(k), &label)?;
-        if found.uncertain < FEWEST {
-            return Err(Error::BadFit { points: found.uncertain });
-        }
-        if found.open as f64 > MOST_OPEN * found.uncertain as f64 {
-            return Err(Error::TooManyOpenPairs { open: found.open, uncertain: found.uncertain });
-        }
-        Ok(found)
-    };
+    let pairs =
+        |(k, &epsilon): (u64, &f64)| uncertain_pairs(region, epsilon, count, seeds.bits(k), &label);
     let counts: Vec<PairCount> = (0..).zip(&epsilons).map(pairs).collect::<Result<_, Error>>()?;
-    // x = ln ε, y = ln(k/n), and the weight 1/variance. If all pairs are uncertain, half a pair less keeps the weight finite.
-    let point = |found: &PairCount| {
-        let (k, n) = (found.uncertain as f64, found.pairs as f64);
-        let variance = (n - k).max(0.5) / (n * k);
-        (pxfm::f_log(found.epsilon), pxfm::f_log(k / n), 1.0 / variance)
+    let [uncertain, open] = [|found: &PairCount| found.uncertain, |found: &PairCount| found.open]
+        .map(|of| counts.iter().map(of).sum::<usize>());
+    if open as f64 > MOST_OPEN * uncertain as f64 {
+        return Err(Error::TooManyOpenPairs { open, uncertain });
+    }
+    let scales: Vec<ScaleCount> = counts.iter().map(scale_count).collect();
+    let fit = fit_exponent(&scales).filter(|_| uncertain >= FEWEST);
+    let Some(ExponentFit { exponent, chi_squared }) = fit else {
+        return Err(Error::TooFewUncertainPairs { uncertain, fewest: FEWEST });
     };
-    let points: Vec<(f64, f64, f64)> = counts.iter().map(point).collect();
-    let weight: f64 = points.iter().map(|p| p.2).sum();
-    let mean_x = points.iter().map(|p| p.2 * p.0).sum::<f64>() / weight;
-    let mean_y = points.iter().map(|p| p.2 * p.1).sum::<f64>() / weight;
-    let spread: f64 = points.iter().map(|p| p.2 * (p.0 - mean_x).powi(2)).sum();
-    let slope = points.iter().map(|p| p.2 * (p.0 - mean_x) * (p.1 - mean_y)).sum::<f64>() / spread;
-    let deviation = |p: &(f64, f64, f64)| p.1 - mean_y - slope * (p.0 - mean_x);
-    let chi_squared = points.iter().map(|p| p.2 * deviation(p) * deviation(p)).sum();
-    let half = NORMAL_QUANTILE / spread.sqrt();
-    let exponent = ConfidenceInterval { value: slope, lower: slope - half, upper: slope + half };
-    Ok(UncertaintyExponent { exponent, chi_squared, degrees: points.len() - 2, counts })
+    Ok(UncertaintyExponent { exponent, chi_squared, degrees: counts.len() - 2, counts })
+}
+
+fn scale_count(found: &PairCount) -> ScaleCount {
+    ScaleCount {
+        log_scale: pxfm::f_log(found.epsilon),
+        pairs: found.pairs as f64,
+        uncertain: found.uncertain as f64,
+        open: found.open as f64,
+    }
 }
 
 #[cfg(test)]
@@ -267,11 +270,11 @@ mod tests {
         assert!(fraction.lower < 0.01 && fraction.upper > 0.24);
         assert!(matches!(
             uncertainty_exponent(&cube(2), &[0.1, 0.01, 0.001], 10_000, 1, label),
-            Err(Error::TooManyOpenPairs { .. } | Error::BadFit { .. })
+            Err(Error::TooManyOpenPairs { .. })
         ));
         let one = |_: &[f64]| Label::from(0);
         let error = uncertainty_exponent(&cube(1), &[0.1, 0.01, 0.001], 1000, 1, one);
-        assert_eq!(error, Err(Error::BadFit { points: 0 }));
+        assert_eq!(error, Err(Error::TooFewUncertainPairs { uncertain: 0, fewest: 30 }));
         assert!(uncertain_pairs(&cube(1), f64::NAN, 10, 1, one).is_err());
         assert!(uncertain_pairs(&cube(1), 0.1, usize::MAX, 1, one).is_err());
     }

@@ -73,7 +73,7 @@ fn the_middle_third_leaves_a_cantor_set() {
         Branch { domain: interval(2.0 * THIRD, 1.0), at_left: 0.0, at_right: 1.0 },
     ];
     let gap = interval(THIRD, 2.0 * THIRD);
-    let tree = PreimageTree::grow(&map, &branches, gap, interval(0.0, 1.0), 12);
+    let tree = PreimageTree::grow_from_known(&map, &branches, gap, interval(0.0, 1.0), 12).unwrap();
     for (level, (count, length)) in tree.counts().into_iter().zip(tree.lengths()).enumerate() {
         assert_eq!(count, 1 << level);
         assert!((length - (2.0f64 / 3.0).powi(level as i32) / 3.0).abs() < 1e-12);
@@ -105,7 +105,7 @@ fn a_fixed_point_that_attracts_from_one_side_leaves_a_countable_set() {
         Branch { domain: interval(-0.5, 0.0), at_left: -0.25, at_right: 0.0 },
     ];
     let trap = interval(-0.01, 0.0);
-    let tree = PreimageTree::grow(&map, &branches, trap, interval(-1.0, 0.0), 60);
+    let tree = PreimageTree::grow(&map, &branches, trap, interval(-1.0, 0.0), 60).unwrap();
     assert_eq!(tree.residual_set(), ResidualSet::Countable { power: 0.0 });
     // Every node is mapped into its parent.
     for node in tree.nodes().iter().skip(1) {

@@ -235,7 +235,7 @@ fn the_residual_set_of_the_preimage_tree_is_countable() {
     for (top, power) in [(3, 1.0), (4, 2.0)] {
         let window = Interval::new(alpha_star(1), alpha_star(top)).unwrap();
         let branches = hopper_basin::branches(&fates, 1, top, 400).unwrap();
-        let tree = PreimageTree::grow(&fates, &branches, trap, window, 40);
+        let tree = PreimageTree::grow(&fates, &branches, trap, window, 40).unwrap();
         let ResidualSet::Countable { power: found } = tree.residual_set() else {
             panic!("{:?} of {:?}, {}", tree.residual_set(), tree.counts(), tree.complete_levels())
         };

@@ -166,9 +166,8 @@ pub fn known_kinks(from: u64, to: u64) -> Result<Vec<f64>, Error> {
     Ok(all)
 }
 
-/// Distance of a mass ratio from its kink, in ln M. At the kink itself rounding decides whether the trap ends there, and the fates of
-/// the speeds beyond are slow: at M = 1/M_c(4) those of 64 000 speeds were not all found in six minutes. From here to the kink fractions
-/// change by less than 10⁻³.
+/// Distance of a mass ratio from its kink, in ln M. At the kink itself rounding decides whether the hump falls through. From here to the kink
+/// fractions change by less than 10⁻³.
 const ASIDE: f64 = 1e-9;
 
 /// The basin fractions on [α*_`from`, α*_`to`] over a range of mass ratios: [`hump_fractions`] at mass ratios so close together that

@@ -10,7 +10,8 @@ use basin_of_attraction::{Interval, IntervalSet, preimage_levels};
 /// trap after exactly k hops (paper, Sec. VI A).
 ///
 /// # Errors
-/// As [`branches`].
+/// As [`branches`] and [`preimage_levels`], which tests the trap and the branches: for M > 0.9056 a branch that was missed shows itself there
+/// as a rule.
 pub fn basin_levels(
     fates: &Fates,
     n: u64,
@@ -28,5 +29,5 @@ pub fn basin_levels(
         let own = branches.iter().filter_map(|branch| branch.preimage(fates, &level));
         level.right = own.filter(|p| p.left < level.right).fold(level.right, |r, p| r.max(p.right));
     }
-    Ok(preimage_levels(fates, &branches, level, depth))
+    Ok(preimage_levels(fates, &branches, level, depth)?)
 }

@@ -216,7 +216,7 @@ impl Hump {
     }
 
     /// The touch of α*_n. For the first humps it is computed once and stored, because every trap needs it.
-    fn touch_of_fixed_point(&self) -> Result<Touch, Error> {
+    pub(crate) fn touch_of_fixed_point(&self) -> Result<Touch, Error> {
         static FIRST: [OnceLock<Touch>; KEPT_TOUCHES] = [const { OnceLock::new() }; KEPT_TOUCHES];
         let slot = usize::try_from(self.n).ok().and_then(|n| FIRST.get(n));
         if let Some(&touch) = slot.and_then(OnceLock::get) {

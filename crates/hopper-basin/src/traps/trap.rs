@@ -58,9 +58,14 @@ const SIDES_ULPS: f64 = 48.0;
 const OFFSET_ULPS: f64 = 10.0;
 
 /// Smallest |4μW − 1| at an edge for which Lemma 77 of docs/theory.md gives a bound. Nearer to the touch the rounding of W and
-/// the curvature of the difference are no small part of its slope. A larger value gives up the bound of more traps, all of
-/// them at mass ratios some ulps above a crisis.
+/// the curvature of the difference are no small part of its slope. An edge so near belongs to a μ within [`NEAR_TOUCH`], where
+/// [`certain_offset`] gives the bound.
 const SMALLEST_SLOPE: f64 = 1e-12;
+
+/// Relative distance of μ from the μ_c of the touch, up to which the computed numbers do not tell whether f falls to α*_n: μ_c has a relative
+/// error of 100ε at most (docs/theory.md, Lemma 77). A larger value makes the part of a trap that is left unclear, a 10⁻⁷ of it, wider like
+/// its root, at more mass ratios beside a crisis.
+const NEAR_TOUCH: f64 = 256.0 * f64::EPSILON;
 
 /// Bound on the error of the offset δ at which f falls to α*_n, if the exact offset is below δ (docs/theory.md, Lemma 77).
 ///
@@ -77,6 +82,17 @@ fn crossing_error(hump: &Hump, mu: f64, t: f64) -> f64 {
     let sides = delta * (alpha + hump.star.value());
     let slope = 2.0 * alpha * (4.0 * mu * w - 1.0).abs();
     f64::EPSILON * (SIDES_ULPS * sides / slope + OFFSET_ULPS * delta)
+}
+
+/// An offset up to which all are in the trap, for every μ within [`NEAR_TOUCH`] of `touch`.
+///
+/// (α² − α*_n²)/Γ² falls up to the touch (docs/theory.md, Theorem 29), so that Δ becomes shorter as μ grows: the trap of a larger μ lies in
+/// all of these traps. At twice the distance the edge has a slope, and Lemma 77 bounds its error.
+fn certain_offset(hump: &Hump, touch: f64) -> Result<f64, Error> {
+    let mu = touch * (1.0 + 2.0 * NEAR_TOUCH);
+    let inside = |t: f64| hump.delta(t) - crossing_error(hump, mu, t);
+    // Without a fall no offset is certain.
+    Ok(hump.first_fall(mu)?.map_or(0.0, inside))
 }
 
 /// Bound on the error of an edge that is given by a closed form, relative to Δ (docs/theory.md, Lemma 76).
@@ -110,7 +126,8 @@ pub struct Trap {
     /// Δ_n, the length of the trap.
     pub delta: f64,
     /// Bound on the error of `delta`: some ulps, times the condition number of the edge, which is large for mass
-    /// ratios next to a [crisis](crate::crisis). All offsets from 0 to `delta` − `error` are in the trap.
+    /// ratios next to a [crisis](crate::crisis). Some ulps beside a crisis it is the distance to the other end that the trap may have. All
+    /// offsets from 0 to `delta` − `error` are in the trap.
     pub error: f64,
     /// Why the trap ends there.
     pub edge: TrapEdge,
@@ -145,7 +162,7 @@ impl Trap {
             error: CLOSED_FORM_ERROR * delta,
             edge,
         };
-        Ok(match hump.first_fall(mu)? {
+        let found = match hump.first_fall(mu)? {
             Some(t) => Trap {
                 error: crossing_error(&hump, mu, t),
                 ..trap(hump.delta(t), TrapEdge::Crossing)
@@ -154,7 +171,18 @@ impl Trap {
                 trap(distance_to_next(n), TrapEdge::NextFixedPoint)
             }
             None => trap(contact_length(n), TrapEdge::ContactEnd),
-        })
+        };
+        let touch = hump.touch_of_fixed_point()?.mu;
+        if (mu - touch).abs() > NEAR_TOUCH * touch {
+            return Ok(found);
+        }
+        // The exact map may fall below α*_n next to the touch, or stay above it up to the end of the contact part.
+        let error = found.delta - certain_offset(&hump, touch)?;
+        let edge = match found.edge {
+            TrapEdge::NextFixedPoint => TrapEdge::ContactEnd,
+            edge => edge,
+        };
+        Ok(Trap { error, edge, ..found })
     }
 
     /// Whether `alpha` > 0 certainly lies in the trap.

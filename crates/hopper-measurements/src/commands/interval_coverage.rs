@@ -1,7 +1,7 @@
 //! `interval-coverage`: how often does every interval of `basin-of-attraction` contain the true number?
 
 use crate::coverage::tally::Row;
-use crate::coverage::{boundaries, exponents, proportions, table};
+use crate::coverage::{boundaries, exponents, interval_bounds, proportions, table};
 use crate::error::Error;
 use crate::text::replace_block;
 use repository_tools::{Folder, read, repository, say};
@@ -20,9 +20,13 @@ pub struct Options {
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
     let &Options { trials, bless } = options;
-    let rows =
-        [proportions::measure(trials)?, exponents::measure(trials)?, boundaries::measure(trials)?]
-            .concat();
+    let rows = [
+        proportions::measure(trials)?,
+        exponents::measure(trials)?,
+        boundaries::measure(trials)?,
+        interval_bounds::measure(trials)?,
+    ]
+    .concat();
     let text = table::markdown(&rows)?;
     say(text.trim_end())?;
     if bless {

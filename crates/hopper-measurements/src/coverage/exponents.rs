@@ -3,7 +3,10 @@
 use super::known_sets::{cantor_boxes, cantor_dimension, cube_boxes, tent_label};
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
-use basin_of_attraction::{Interval, SplitMix64, power_law, uncertain_fraction};
+use basin_of_attraction::{
+    Hyperrectangle, Interval, Label, SplitMix64, power_law, uncertain_fraction,
+    uncertainty_exponent,
+};
 
 /// Replicates of a trial.
 const REPLICATES: u64 = 8;
@@ -88,6 +91,45 @@ fn offset(size: f64, bits: u64) -> f64 {
     -size * SplitMix64::from_seed(bits).uniform(0)
 }
 
+/// Uncertainty exponents from pairs: of boundaries with an exact law, with few pairs and with many distances, of a basin that is riddled, and of
+/// the tent map's Cantor set, whose law oscillates less than the interval is long.
+fn from_pairs(trials: u64) -> Result<Vec<Row>, Error> {
+    let (left, right) = (Interval::new(-1.0, 1.0)?, Interval::new(0.0, 1.0)?);
+    let (line, unit) = (Hyperrectangle::try_from(left)?, Hyperrectangle::try_from(right)?);
+    let square = Hyperrectangle::new(vec![left; 2])?;
+    let point = |x: &[f64]| Label::from(x[0] > 0.1);
+    // Every point has a label of its own random bit.
+    let riddled = |x: &[f64]| {
+        let seed = x.iter().fold(0, |seed, x| SplitMix64::from_seed(x.to_bits() ^ seed).bits(1));
+        Label::from(seed % 2 == 0)
+    };
+    let tent = |x: &[f64]| tent_label(3.0, x[0]);
+    let third = cantor_dimension((1.0 / 3.0, 1.0 / 3.0));
+    type Labelling<'a> = &'a (dyn Fn(&[f64]) -> Label + Sync);
+    let scenes: [(&str, &Hyperrectangle, Range, usize, f64, Labelling<'_>); 7] = [
+        ("a point, 12 to 48 uncertain pairs", &line, Range(0.1, 0.602, 3), 240, 1.0, &point),
+        ("a point, 4 to 16 uncertain pairs", &line, Range(0.04, 0.602, 3), 200, 1.0, &point),
+        ("a point, 0.5 to 20 uncertain pairs", &line, Range(1e-3, 1.602, 20), 1000, 1.0, &point),
+        ("a point", &line, Range(0.015, 1.301, 40), 2000, 1.0, &point),
+        ("a line in the square", &square, Range(0.02, 1.301, 5), 3000, 1.0, &point),
+        ("riddled square", &square, Range(1e-8, 6.0, 4), 500, 0.0, &riddled),
+        ("tent map of slope 3", &unit, Range(1e-6, 3.0, 4), 1000, 1.0 - third, &tent),
+    ];
+    let row =
+        |(name, region, range, pairs, exponent, label): (_, &_, Range, _, _, Labelling<'_>)| {
+            let scales: Vec<f64> = (0..range.2).map(|k| range.scale(k)).collect();
+            let scene = format!("{name}, {pairs} pairs at {} distances", scales.len());
+            repeat("uncertainty_exponent", scene, Promise::Probable, trials, |seed| {
+                match uncertainty_exponent(region, &scales, pairs, seed, label) {
+                    Ok(found) => Ok(Some(Trial::of(found.exponent, exponent))),
+                    Err(basin_of_attraction::Error::TooFewUncertainPairs { .. }) => Ok(None),
+                    Err(error) => Err(error.into()),
+                }
+            })
+        };
+    scenes.into_iter().map(row).collect()
+}
+
 /// All exponents.
 pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
     let third = 1.0 / 3.0;
@@ -122,6 +164,7 @@ pub(crate) fn measure(trials: u64) -> Result<Vec<Row>, Error> {
         let name = format!("pairs on the tent map of slope {slope}");
         found.extend(Set { name: &name, exponent, value: &value }.rows(&ranges, trials)?);
     }
+    found.extend(from_pairs(trials)?);
     Ok(found)
 }
 
@@ -133,8 +176,10 @@ mod tests {
     #[test]
     fn every_interval_of_an_exponent_covers_as_often_as_stated() {
         for row in measure(60).unwrap() {
-            // The fraction of uncertain starts near ε = 0.1 is not yet a power law: some trials show a drift and are refused.
-            assert!(row.given >= 40 && 60 * row.covered >= 48 * row.given, "{row:?}");
+            // The fraction of uncertain starts near ε = 0.1 is not yet a power law: some trials show a drift and are refused. Of the trials
+            // with 4 to 16 uncertain pairs at a distance a third have the 30 pairs that an exponent needs.
+            let least = if row.interval == "uncertainty_exponent" { 15 } else { 40 };
+            assert!(row.given >= least && 60 * row.covered >= 48 * row.given, "{row:?}");
         }
     }
 }

@@ -1,14 +1,16 @@
-//! Intervals of proportions: of plain trials, of basin fractions, and of pairs of starts.
+//! Intervals of proportions: of plain trials, of basin fractions, of tipping, and of pairs of starts.
 
 use super::known_sets::cantor_label;
 use super::tally::{Promise, Row, Trial, repeat};
 use crate::error::Error;
 use basin_of_attraction::{
-    ConfidenceInterval, Hyperrectangle, Interval, Label, SplitMix64, low_discrepancy_fractions,
-    proportion_interval, random_fractions, region_fractions, uncertain_fraction, uncertain_pairs,
+    ConfidenceInterval, Grid, Hyperrectangle, Interval, Label, SplitMix64,
+    low_discrepancy_fractions, proportion_interval, random_fractions, random_tipping, raster,
+    region_fractions, stratified_fractions, stratified_points, uncertain_fraction, uncertain_pairs,
     wilson_interval,
 };
 use std::collections::BTreeMap;
+use std::ops::ControlFlow::Continue;
 
 const ONE: Label = Label::numbered::<1>();
 
@@ -108,7 +110,7 @@ fn fractions(trials: u64) -> Result<Vec<Row>, Error> {
     Ok(rows)
 }
 
-/// Basin fractions and uncertain pairs of regions, and uncertain starts of the line.
+/// Basin fractions and uncertain pairs of regions, tipping, fractions of images, and uncertain starts of the line.
 fn regions(trials: u64) -> Result<Vec<Row>, Error> {
     const POINTS: usize = 1000;
     let mut rows = Vec::new();
@@ -123,6 +125,55 @@ fn regions(trials: u64) -> Result<Vec<Row>, Error> {
             Trial::of_proportion(found, truth, POINTS).map(Some)
         })?);
     }
+    let line = Hyperrectangle::try_from(side)?;
+    let right_of = |place: f64| move |x: &[f64]| Label::from(x[0] > place);
+    rows.push(repeat(
+        "TippingCounts::probability",
+        format!("a boundary that moves, N = {POINTS}"),
+        Promise::Probable,
+        trials,
+        |seed| {
+            let counts = random_tipping(&line, POINTS, seed, right_of(0.4), right_of(0.5))?;
+            let found = counts.probability(ONE, Label::from(0))?;
+            Ok(found.map(|found| Trial::of(found, 1.0 / 6.0)))
+        },
+    )?);
+    rows.push(repeat(
+        "stratified_fractions",
+        format!("one interval, N = {POINTS}"),
+        Promise::Probable,
+        trials,
+        |seed| {
+            let points = stratified_points(side, POINTS, seed)?;
+            let labels: Vec<Label> = points.iter().map(|&x| Label::from(x > 0.3)).collect();
+            Trial::of_proportion(
+                of_label(&stratified_fractions(&labels)?, ONE, POINTS)?,
+                0.35,
+                POINTS,
+            )
+            .map(Some)
+        },
+    )?);
+    rows.push(repeat(
+        "LabelImage::fractions_as_random_points",
+        "pixels of random labels, 40 × 25".to_owned(),
+        Promise::Probable,
+        trials,
+        |seed| {
+            let random = SplitMix64::from_seed(seed);
+            let label = |x: &f64, y: f64| {
+                Label::from(random.uniform(x.to_bits() ^ y.to_bits().rotate_left(17)) < 0.07)
+            };
+            let grid = Grid { x: side, y: side, columns: 40, rows: 25 };
+            let image = raster(grid, |x| x, label, |_| Continue(()))?;
+            Trial::of_proportion(
+                of_label(&image.fractions_as_random_points()?, ONE, POINTS)?,
+                0.07,
+                POINTS,
+            )
+            .map(Some)
+        },
+    )?);
     // A line x = 0 is crossed by ε/π of the pairs in a square of side 2.
     for epsilon in [0.1, 0.001] {
         let square = Hyperrectangle::new(vec![side; 2])?;

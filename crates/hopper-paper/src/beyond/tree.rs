@@ -39,11 +39,11 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     let window = Interval::new(alpha_star(FROM), alpha_star(TO))?;
     let trap = Interval::new(fates.trap(1)?.fixed_point.value(), fates.trap(1)?.right())?;
     let all = branches(&fates, FROM, TO, 400)?;
-    let tree = PreimageTree::grow(&fates, &all, trap, window, GROWN);
+    let tree = PreimageTree::grow(&fates, &all, trap, window, GROWN)?;
     // On the first two humps the tree can be grown to level 60. This is enough to distinguish a power of the level from
     // doubling.
     let lower = Interval::new(alpha_star(1), alpha_star(3))?;
-    let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60);
+    let deep = PreimageTree::grow(&fates, &branches(&fates, 1, 3, 400)?, trap, lower, 60)?;
     let growth = match deep.residual_set() {
         ResidualSet::Countable { power } => {
             let levels = deep.complete_levels();

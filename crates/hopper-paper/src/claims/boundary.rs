@@ -64,7 +64,7 @@ pub(super) fn printed_tree(map: &impl Map) -> Result<PreimageTree, Error> {
     // On the first branch the map rises from α*_1, falls through α*_1 at the edge of the trap, and its values in the
     // trap are the trap's own.
     let image = |alpha: f64| map(alpha, mass_ratio).ok().flatten();
-    Ok(PreimageTree::grow(&image, &branches, trap, window, DEPTH))
+    Ok(PreimageTree::grow_from_known(&image, &branches, trap, window, DEPTH)?)
 }
 
 /// Largest power of the level for which the growth counts as that of a countable rest on two humps. The number of

@@ -146,7 +146,7 @@ fn cantor_tree() -> Result<PreimageTree, Error> {
     let left = Branch { domain: Interval::new(0.0, 0.5)?, at_left: 0.0, at_right: 1.5 };
     let right = Branch { domain: Interval::new(0.5, 1.0)?, at_left: 1.5, at_right: 0.0 };
     let (window, hole) = (Interval::new(0.0, 1.0)?, Interval::new(1.0 + 1e-12, 1.5)?);
-    Ok(PreimageTree::grow(&tent, &[left, right], hole, window, 12))
+    Ok(PreimageTree::grow_from_known(&tent, &[left, right], hole, window, 12)?)
 }
 
 /// The ends of the intervals of Cantor's construction on hump n, after 13 steps.
