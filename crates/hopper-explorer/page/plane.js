@@ -1,11 +1,8 @@
 // The canvas: tiles of the plane, axes, the pin. It asks for coarse tiles first, then for fine ones, and gives up what is out of view.
 import { MARGIN, inner, paintAxes, planeAxes } from "./axes.js";
 import { state, say } from "./state.js";
-import { SIZE, TileStore, keyOf, needed, windowOf } from "./tiles.js";
+import { COARSE, SIZE, TileStore, keyOf, needed, windowOf } from "./tiles.js";
 import { place, toX } from "./view.js";
-
-/** Levels between the first, coarse picture and the fine one. */
-const COARSE = 2;
 
 export class Plane {
   constructor(canvas, pool, legend) {
@@ -40,23 +37,25 @@ export class Plane {
     const centre = { x: (state.view.x[0] + state.view.x[1]) / 2, alpha: (state.view.alpha[0] + state.view.alpha[1]) / 2 };
     const focus = this.focus ?? centre;
     const pixels = this.#pixels();
-    const coarse = needed(state.view, state.layer, pixels, COARSE, focus);
-    const fine = needed(state.view, state.layer, pixels, 0, focus);
-    const wanted = [...coarse, ...fine].filter((tile) => !this.store.has(tile));
-    const keys = new Set(wanted.map(keyOf));
+    const missing = needed(state.view, state.layer, pixels, focus).filter((tile) => !this.store.isFine(tile));
+    const coarse = missing.filter((tile) => !this.store.isCoarse(tile)).map((tile) => ({ ...tile, pixels: COARSE }));
+    const wanted = [...coarse, ...missing.map((tile) => ({ ...tile, pixels: SIZE }))];
+    const nameOf = (tile) => `${keyOf(tile)}/${tile.pixels}`;
+    const keys = new Set(wanted.map(nameOf));
     for (const [key, id] of this.asked) {
       if (!keys.has(key)) { this.asked.delete(key); this.pool.stop(id); }
     }
     // Two in work for each worker: the queue stays short, and follows the view.
     const free = 2 * this.pool.members.length - this.asked.size;
-    wanted.filter((tile) => !this.asked.has(keyOf(tile))).slice(0, Math.max(free, 0)).forEach((tile) => this.#ask(tile));
+    const fresh = wanted.filter((tile) => !this.asked.has(nameOf(tile)));
+    fresh.slice(0, Math.max(free, 0)).forEach((tile) => this.#ask(tile, nameOf(tile)));
+    this.drawable = coarse.length === 0;
     this.idle = wanted.length === 0;
     if (this.idle) this.canvas.dispatchEvent(new Event("complete"));
   }
 
-  async #ask(tile) {
-    const key = keyOf(tile);
-    const promise = this.pool.ask("tile", windowOf(tile));
+  async #ask(tile, key) {
+    const promise = this.pool.ask("tile", windowOf(tile, tile.pixels));
     this.asked.set(key, promise.id);
     try {
       const found = await promise;
@@ -111,7 +110,7 @@ function paintTiles(context, plane, box) {
   const ratio = window.devicePixelRatio || 1;
   const pixels = { width: box.width * ratio, height: box.height * ratio };
   const snap = (value) => Math.round(value * ratio) / ratio;
-  for (const tile of needed(state.view, state.layer, pixels, 0, { x: 0, alpha: 0 })) {
+  for (const tile of needed(state.view, state.layer, pixels, { x: 0, alpha: 0 })) {
     const picture = plane.store.best(tile);
     if (!picture) continue;
     const { x, alpha } = windowOf(tile);

@@ -3,6 +3,8 @@ import { Refusal } from "./core.js";
 
 /** Milliseconds without a word after which a worker is replaced. A strip that takes longer is given up after a second try. */
 const SILENCE = 15000;
+/** The same for a worker whose job is not wanted any more. */
+const STOPPING = 1500;
 
 export class Pool {
   constructor(module, count) {
@@ -56,6 +58,11 @@ export class Pool {
     for (const member of this.members) {
       const silent = performance.now() - member.heard > SILENCE;
       if (member.job && silent) this.#replace(member);
+      else if (member.job?.stopped && performance.now() - member.job.stopped > STOPPING) {
+        member.job.done({ stopped: true });
+        member.job = null;
+        this.#replace(member);
+      }
     }
   }
 
@@ -87,6 +94,8 @@ export class Pool {
       return;
     }
     const member = this.members.find(({ job }) => job?.id === id);
-    member?.worker.postMessage({ stop: id });
+    if (!member) return;
+    member.job.stopped ??= performance.now();
+    member.worker.postMessage({ stop: id });
   }
 }

@@ -1,6 +1,10 @@
 // Which tiles a view needs, and the tiles that are there. A tile is a dyadic part of the plane: its ends are exact doubles.
 
 export const SIZE = 256;
+/** Pixels of the first, coarse picture of a tile each way: a sixteenth of the work. */
+export const COARSE = 64;
+/** A coarser tile whose picture is as good as the first one. */
+const AS_GOOD = 2;
 /** Tiles that are kept: 256 kB each. A view of 4K has 160. */
 const KEPT = 320;
 /** Levels above its own in which a picture for a missing tile is looked for. */
@@ -18,10 +22,10 @@ export function windowOf({ layer, logarithmic, lx, la, i, j }, pixels = SIZE) {
   return { layer, logarithmic, x, alpha, columns: pixels, rows: pixels };
 }
 
-/** The tiles of a view at a distance of some levels, the nearest to a point first. */
-export function needed(view, layer, { width, height }, coarser, focus) {
-  const lx = level(view.x, width) - coarser;
-  const la = level(view.alpha, height) - coarser;
+/** The tiles of a view, the nearest to a point first. */
+export function needed(view, layer, { width, height }, focus) {
+  const lx = level(view.x, width);
+  const la = level(view.alpha, height);
   const range = ([low, high], l) => [Math.floor(low * 2 ** l), Math.ceil(high * 2 ** l) - 1];
   const [i0, i1] = range(view.x, lx);
   const [j0, j1] = range(view.alpha, la);
@@ -45,10 +49,22 @@ export class TileStore {
     return found;
   }
 
-  has(tile) { return this.tiles.has(keyOf(tile)); }
+  /** Whether the fine picture is there, or none can be had. */
+  isFine(tile) {
+    const found = this.tiles.get(keyOf(tile));
+    return found !== undefined && (!found.bitmap || found.bitmap.width === SIZE);
+  }
+
+  /** Whether there is something to show until the fine picture comes. */
+  isCoarse(tile) {
+    const { up } = this.best(tile) ?? { up: Infinity };
+    return up <= AS_GOOD;
+  }
 
   put(tile, picture) {
-    this.tiles.get(keyOf(tile))?.bitmap?.close();
+    const before = this.tiles.get(keyOf(tile));
+    before?.bitmap?.close();
+    this.tiles.delete(keyOf(tile));
     this.tiles.set(keyOf(tile), picture);
     for (const [key, oldest] of this.tiles) {
       if (this.tiles.size <= KEPT) break;
@@ -67,7 +83,7 @@ export class TileStore {
       const size = found.bitmap.width * part;
       const left = (tile.i * part - parent.i) * found.bitmap.width;
       const top = (parent.j + 1 - (tile.j + 1) * part) * found.bitmap.height;
-      return { bitmap: found.bitmap, left, top, size, exact: up === 0 };
+      return { bitmap: found.bitmap, left, top, size, up };
     }
     return null;
   }

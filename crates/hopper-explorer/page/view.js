@@ -2,7 +2,7 @@
 
 /** The smallest height of a window of doubles: below it, neighbouring pixels would be the same double. */
 const ULPS_A_PIXEL = 8;
-const SMALLEST_M = 2 ** -1000;
+const SMALLEST_M = 2 ** -30;
 
 export const toX = (view, m) => (view.logarithmic ? Math.log2(m) : m);
 export const toM = (view, x) => (view.logarithmic ? 2 ** x : x);
@@ -40,7 +40,8 @@ export function tooFine([low, high], pixels = 1000) {
 
 /** The view, or what of it is in the model; an axis that would be too fine or too wide stays as it was. */
 export function bounded(view, before) {
-  const x = axis(view.x, before.x, view.logarithmic ? [-40, 40] : [0, 1e6]);
+  // For larger M a hop has thousands of sudden lift-offs, and a tile takes minutes.
+  const x = axis(view.x, before.x, view.logarithmic ? [-30, 14] : [0, 2 ** 14]);
   const alpha = axis(view.alpha, before.alpha, [0, 2e5]);
   return { ...view, x, alpha };
 }
