@@ -22,7 +22,7 @@ export function gestures(canvas, { zoom, move, click, hover, box }) {
     const turned = (event.deltaY || event.deltaX) * (event.deltaMode === 1 ? 30 : 1);
     // Pinching a touchpad is a wheel with Ctrl, in smaller steps.
     const factor = Math.exp(turned * WHEEL * (event.ctrlKey ? 5 : 1));
-    zoom(at(event), event.altKey ? 1 : factor, event.shiftKey ? 1 : factor);
+    zoom(at(event), event.shiftKey ? 1 : factor, event.altKey ? 1 : factor);
   }, { passive: false });
 
   canvas.addEventListener("pointerdown", (event) => {

@@ -1,5 +1,6 @@
 // The address of a view. Doubles are written with all their digits, so that a link gives the same bits.
 import { state } from "./state.js";
+import { isView } from "./view.js";
 
 const LAYERS = ["fate", "hops", "coverage"];
 
@@ -25,8 +26,9 @@ export function read(hash) {
     if (name === "lin" || name === "log") {
       const all = doubles(value, 4);
       const [left, right, bottom, top] = all ?? [];
-      good = all !== null && left < right && bottom < top && bottom >= 0 && (name === "log" || left >= 0);
-      if (good) fields.view = { logarithmic: name === "log", x: [left, right], alpha: [bottom, top] };
+      const view = { logarithmic: name === "log", x: [left, right], alpha: [bottom, top] };
+      good = all !== null && isView(view);
+      if (good) fields.view = view;
     } else if (name === "layer") {
       good = LAYERS.includes(value);
       if (good) fields.layer = LAYERS.indexOf(value);

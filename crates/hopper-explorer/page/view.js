@@ -40,10 +40,18 @@ export function tooFine([low, high], pixels = 1000) {
 
 /** The view, or what of it is in the model; an axis that would be too fine or too wide stays as it was. */
 export function bounded(view, before) {
-  // For larger M a hop has thousands of sudden lift-offs, and a tile takes minutes.
-  const x = axis(view.x, before.x, view.logarithmic ? [-30, 14] : [0, 2 ** 14]);
-  const alpha = axis(view.alpha, before.alpha, [0, 2e5]);
-  return { ...view, x, alpha };
+  const { x, alpha } = limits(view);
+  return { ...view, x: axis(view.x, before.x, x), alpha: axis(view.alpha, before.alpha, alpha) };
+}
+
+// For larger M a hop has thousands of sudden lift-offs, and a tile takes minutes.
+const limits = ({ logarithmic }) => ({ x: logarithmic ? [-30, 14] : [0, 2 ** 14], alpha: [0, 2e5] });
+
+/** Whether a view is in the model, and not too fine. */
+export function isView(view) {
+  const { x, alpha } = limits(view);
+  const good = ([low, high], [least, most]) => low >= least && low < high && high <= most && !tooFine([low, high]);
+  return good(view.x, x) && good(view.alpha, alpha);
 }
 
 function axis([low, high], before, [least, most]) {
