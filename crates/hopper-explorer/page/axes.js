@@ -3,7 +3,7 @@ import { superscript, star, ticks } from "./numbers.js";
 import { place } from "./view.js";
 
 /** Room for labels, in CSS pixels. */
-export const MARGIN = { left: 62, bottom: 44, right: 10, top: 8 };
+export const MARGIN = { left: 62, bottom: 44, right: 20, top: 8 };
 
 export const inner = ({ width, height }) => ({
   width: Math.max(width - MARGIN.left - MARGIN.right, 1),

@@ -4,12 +4,12 @@ import * as dialogs from "./dialogs.js";
 import { gestures } from "./gestures.js";
 import { keys } from "./keys.js";
 import { keep, read } from "./link.js";
-import { isHeld, showMap, windowOf } from "./map_panel.js";
+import { hideMap, isHeld, showMap, windowOf } from "./map_panel.js";
 import { measure, play, showMotion, start as startMotion, stateAt, step } from "./motion_panel.js";
 import { parse, pretty, show } from "./numbers.js";
 import { Plane } from "./plane.js";
 import { showCircle, showIntervals } from "./circle_panel.js";
-import { showError, showFate, showOrbit, showPin } from "./point_panel.js";
+import { showError, showFate, showNothing, showOrbit, showPin } from "./point_panel.js";
 import { Pool } from "./pool.js";
 import { snippets } from "./same.js";
 import * as files from "./save.js";
@@ -92,7 +92,13 @@ let round = 0;
 async function showPoint() {
   const mine = ++round;
   showPin();
-  if (!state.pin) return;
+  if (!state.pin) {
+    showNothing();
+    showMotion(null);
+    hideMap();
+    ["circle", "intervals"].forEach((id) => byId(id).querySelector("div").replaceChildren());
+    return;
+  }
   const { m, alpha } = state.pin;
   try {
     const found = await desk.ask("point", m, alpha, ORBIT);

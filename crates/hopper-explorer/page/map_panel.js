@@ -13,6 +13,8 @@ export function windowOf({ speeds, grounded }) {
   return [grounded || from < 0.3 * high ? 0 : from, high + 0.1 * Math.max(high - low, 1e-3 * high)];
 }
 
+export const hideMap = () => { drawing = null; panel.replaceChildren(); };
+
 export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }, window) {
   drawing = new Drawing({ x: window, y: window, height: 400, xName: "α", yName: "f(α; M)",
     title: `The map at M = ${massRatio} with the orbit from ${speeds[0]}: ${fate.name}` });

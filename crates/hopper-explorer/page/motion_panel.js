@@ -46,9 +46,10 @@ let stage = null;
 const count = () => (samples ? (samples.length - 1) / FIELDS : 0);
 const field = (k, which) => samples[1 + FIELDS * k + which];
 
-/** The samples of a motion, as they came from the core. */
+/** The samples of a motion, as they came from the core; null for none. */
 export function showMotion(found) {
   samples = found;
+  if (!samples) { play(false); stage = null; ["stage", "now"].forEach((id) => part(id).replaceChildren()); return; }
   time = Math.min(time, field(count() - 1, 0));
   draw();
 }

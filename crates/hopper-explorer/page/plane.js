@@ -1,7 +1,7 @@
 // The canvas: tiles of the plane, axes, the pin. It asks for coarse tiles first, then for fine ones, and gives up what is out of view.
 import { MARGIN, inner, paintAxes, planeAxes } from "./axes.js";
 import { state, say } from "./state.js";
-import { COARSE, SIZE, TileStore, keyOf, needed, windowOf } from "./tiles.js";
+import { COARSE, COVERAGE, FATE, SIZE, TileStore, keyOf, needed, windowOf } from "./tiles.js";
 import { place, toX } from "./view.js";
 
 export class Plane {
@@ -39,7 +39,8 @@ export class Plane {
     const pixels = this.#pixels();
     const missing = needed(state.view, state.layer, pixels, focus).filter((tile) => !this.store.isFine(tile));
     const coarse = missing.filter((tile) => !this.store.isCoarse(tile)).map((tile) => ({ ...tile, pixels: COARSE }));
-    const wanted = [...coarse, ...missing.map((tile) => ({ ...tile, pixels: SIZE }))];
+    const quick = state.layer === COVERAGE ? coarse.map((tile) => ({ ...tile, layer: FATE })).filter((tile) => !this.store.isCoarse(tile)) : [];
+    const wanted = [...quick, ...coarse, ...missing.map((tile) => ({ ...tile, pixels: SIZE }))];
     const nameOf = (tile) => `${keyOf(tile)}/${tile.pixels}`;
     const keys = new Set(wanted.map(nameOf));
     for (const [key, id] of this.asked) {
@@ -49,7 +50,7 @@ export class Plane {
     const free = 2 * this.pool.members.length - this.asked.size;
     const fresh = wanted.filter((tile) => !this.asked.has(nameOf(tile)));
     fresh.slice(0, Math.max(free, 0)).forEach((tile) => this.#ask(tile, nameOf(tile)));
-    this.drawable = coarse.length === 0;
+    this.drawable = (state.layer === COVERAGE ? quick : coarse).length === 0;
     this.idle = wanted.length === 0;
     if (this.idle) this.canvas.dispatchEvent(new Event("complete"));
   }

@@ -6,7 +6,7 @@ const panel = document.getElementById("point");
 panel.innerHTML = `<h2>A point</h2>
   <div class="numbers"><label for="pin-m"><i>M</i></label><input id="pin-m" inputmode="decimal" autocomplete="off">
   <label for="pin-alpha"><i>α</i></label><input id="pin-alpha" inputmode="decimal" autocomplete="off"></div>
-  <div id="fate" aria-live="polite"><p class="soft">Click the plane, or press Enter, to pin a point.</p></div>`;
+  <div id="fate" aria-live="polite"></div>`;
 const [m, alpha] = ["pin-m", "pin-alpha"].map((id) => document.getElementById(id));
 
 for (const input of [m, alpha]) {
@@ -15,6 +15,12 @@ for (const input of [m, alpha]) {
     if (numbers.every((number) => number > 0)) change({ pin: { m: numbers[0], alpha: numbers[1] }, depth: null });
     else if (input.value.trim()) say(`“${input.value}” is not a positive number. Examples: 0.2 or 0,2 or 2e-1.`);
   });
+}
+
+/** The panel before a point is pinned. */
+export function showNothing() {
+  document.getElementById("fate").innerHTML = `<p class="soft">Click the plane, or press Enter, to pin a point.</p>`;
+  document.querySelector("#orbit div").replaceChildren();
 }
 
 export function showPin() {
@@ -50,7 +56,11 @@ export function showError(text) {
   document.getElementById("fate").replaceChildren(line);
 }
 
-export function showOrbit({ orbit, errors, grounded }) {
+/** Hops that are listed after the fate is known. */
+const AFTER = 4;
+
+export function showOrbit({ orbit, errors, grounded, hops }) {
+  const listed = orbit.slice(0, Math.max(hops, 1) + AFTER);
   const row = (hop, k) => `<tr><td>${k}</td><td>${show(hop.speed, 10)}</td><td>${k < errors.length ? show(errors[k], 2) : "–"}</td>` +
     `<td>${hop.sudden}</td><td>${show(hop.energyLoss, 5)}</td><td>${show(hop.slope, 5)}</td></tr>` +
     (hop.sudden > 0 ? hop.landings.map((landing, at) =>
@@ -58,5 +68,5 @@ export function showOrbit({ orbit, errors, grounded }) {
       `<td>${show(landing.energyLoss, 5)}</td><td></td></tr>`).join("") : "");
   document.querySelector("#orbit div").innerHTML =
     `<div class="wide"><table><thead><tr><th>hop</th><th>α</th><th>error ≤</th><th>sudden</th><th>energy lost</th><th>∂α′/∂α</th></tr></thead>` +
-    `<tbody>${orbit.map(row).join("")}</tbody></table></div>${grounded ? "<p>The last hop ends on the ground.</p>" : ""}`;
+    `<tbody>${listed.map(row).join("")}</tbody></table></div>${grounded ? "<p>The last hop ends on the ground.</p>" : '<p class="soft">And so on.</p>'}`;
 }

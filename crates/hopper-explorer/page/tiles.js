@@ -3,6 +3,8 @@
 export const SIZE = 256;
 /** Pixels of the first, coarse picture of a tile each way: a sixteenth of the work. */
 export const COARSE = 64;
+/** Numbers of layers. */
+export const [FATE, COVERAGE] = [0, 2];
 /** A coarser tile whose picture is as good as the first one. */
 const AS_GOOD = 2;
 /** Tiles that are kept: 256 kB each. A view of 4K has 160. */
@@ -55,9 +57,9 @@ export class TileStore {
     return found !== undefined && (!found.bitmap || found.bitmap.width === SIZE);
   }
 
-  /** Whether there is something to show until the fine picture comes. */
+  /** Whether there is something of this layer to show until the fine picture comes. */
   isCoarse(tile) {
-    const { up } = this.best(tile) ?? { up: Infinity };
+    const { up } = this.#best(tile) ?? { up: Infinity };
     return up <= AS_GOOD;
   }
 
@@ -73,8 +75,10 @@ export class TileStore {
     }
   }
 
-  /** The picture of a tile, or the part of a coarser one that covers it. */
-  best(tile) {
+  /** The picture of a tile, or the part of a coarser one that covers it. Coverage, which takes longer, has fates until it comes. */
+  best(tile) { return this.#best(tile) ?? (tile.layer === COVERAGE ? this.#best({ ...tile, layer: FATE }) : null); }
+
+  #best(tile) {
     for (let up = 0; up <= ANCESTORS; up++) {
       const part = 2 ** -up;
       const parent = { ...tile, lx: tile.lx - up, la: tile.la - up, i: Math.floor(tile.i * part), j: Math.floor(tile.j * part) };
