@@ -77,7 +77,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
 }
 
 /// Ends with an error in an older node.
-const NEW_ENOUGH: &str = "process.exit(process.versions.node.split('.')[0] < 20)";
+const NEW_ENOUGH: &str = "process.exit(Number(process.versions.node.split('.')[0]) >= 20 ? 0 : 1)";
 
 fn cargo_command(words: &[&str]) -> Command {
     let mut command = Command::new(cargo());

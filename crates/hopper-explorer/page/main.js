@@ -103,6 +103,7 @@ async function showPoint() {
   try {
     const found = await desk.ask("point", m, alpha, ORBIT);
     if (mine !== round) return;
+    shown = found;
     showFate(found);
     showOrbit(found);
     const window = isHeld() && shownWindow ? shownWindow : windowOf(found);
@@ -119,11 +120,20 @@ async function showPoint() {
   }
 }
 let shownWindow = null;
+let shown = null; // the last answer about a point
+
+let chosen = null; // the fixed point of the circle, if the reader chose one
+byId("circle-n").onchange = ({ target }) => {
+  const n = parse(target.value);
+  chosen = Number.isInteger(n) && n >= 1 ? n : null;
+  showPoint();
+};
 
 async function slowPanels(mine, m, n) {
+  byId("circle-n").value = chosen ?? n;
   const fill = async (id, text) => { const found = await text; if (mine === round) byId(id).querySelector("div").innerHTML = found; };
   const tell = (id) => (error) => { byId(id).querySelector("div").textContent = error.message; };
-  if (byId("circle").open) fill("circle", well.ask("circle", m, n).then((found) => showCircle(found, colorOf))).catch(tell("circle"));
+  if (byId("circle").open) fill("circle", well.ask("circle", m, chosen ?? n).then((found) => showCircle(found, colorOf))).catch(tell("circle"));
   if (byId("intervals").open) fill("intervals", well.ask("intervals", m, 1, Math.min(Math.max(n, 5) + 1, 12)).then((found) => showIntervals(found, m, colorOf))).catch(tell("intervals"));
 }
 
@@ -169,6 +179,7 @@ const saveDialog = () => dialogs.save([
   ["PNG", async () => files.download(await files.png(plane, deep), "hopper.png")],
   ["SVG", async () => files.download(await files.svg(plane, deep), "hopper.svg")],
   ["CSV", async () => files.download(await files.csv(pool, desk, deep), "hopper.csv")],
+  ["the orbit as CSV", async () => files.download(files.orbitCsv(shown, deep), "hopper-orbit.csv")],
   ["the map as SVG", async () => savePanel("map")],
   ["the motion as SVG", async () => savePanel("stage")],
 ]);

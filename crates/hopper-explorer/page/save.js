@@ -62,6 +62,15 @@ export async function csv(pool, desk, deep) {
   return new Blob([lines.join("\n"), "\n"], { type: "text/csv" });
 }
 
+/** The orbit of the pinned point, hop by hop. */
+export function orbitCsv(found, deep) {
+  if (!state.pin || !found) throw new Error("pin a point first");
+  const rows = found.orbit.map((hop, k) =>
+    [k, hop.speed, found.errors[k] ?? "", hop.sudden, hop.flightTime, hop.energyLoss, hop.slope ?? "", hop.massRatioSlope ?? ""].join(","));
+  const head = "hop,speed,error,sudden_lift_offs,flight_time,energy_loss,slope,mass_ratio_slope";
+  return new Blob([[`# ${parameters(deep)}`, `# ${address()}`, head, ...rows].join("\n"), "\n"], { type: "text/csv" });
+}
+
 /** Hands a file to the reader. */
 export function download(blob, name) {
   const link = document.createElement("a");

@@ -262,6 +262,10 @@ onPage("files hold the picture and its parameters", "#lin=0.1,0.3,4.5,9&pin=0.2,
   assert.ok(svg.startsWith("<svg") && svg.includes("<desc>") && svg.includes("M from 0.1 to 0.3") && svg.includes("data:image/png"));
   const parsed = await page.evaluate((svg) => new DOMParser().parseFromString(svg, "image/svg+xml").querySelector("parsererror")?.textContent ?? "", svg);
   assert.equal(parsed, "");
+  const orbit = (await take("the orbit as CSV")).toString().split("\n");
+  assert.equal(Number(orbit[4].split(",")[1]), native.points[0].speeds[1]);
+  const map = (await take("the map as SVG")).toString();
+  assert.ok(map.includes("<desc>") && !map.includes("var(--"));
   const csv = (await take("CSV")).toString().trim().split("\n");
   assert.equal(csv.length, 3 + 256 * 256);
   const [m, alpha, label] = csv[3 + 1000].split(",").map(Number);
