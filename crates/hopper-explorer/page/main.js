@@ -22,7 +22,10 @@ const ORBIT = 60;
 /** Below this height of the window an edge inside it is looked for, to change to its chart. */
 const EDGE_HEIGHT = 1e-8;
 
-const module = await WebAssembly.compileStreaming(fetch("core.wasm"));
+const module = await WebAssembly.compileStreaming(fetch("core.wasm")).catch((error) => {
+  say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
+  throw error;
+});
 const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
 const pool = new Pool(module, Math.min(workers, 16));
 const desk = new Pool(module, 1);  // panels
@@ -89,8 +92,17 @@ function leaveDepth() {
 
 // Panels. An answer that is no longer wanted is not shown.
 let round = 0;
+let [busy, again] = [false, false];
+/** One point at a time: while α is dragged, the points between two answers are passed over. */
 async function showPoint() {
-  const mine = ++round;
+  if (busy) { again = true; return; }
+  busy = true;
+  await showPointNow(++round);
+  busy = false;
+  if (again) { again = false; showPoint(); }
+}
+
+async function showPointNow(mine) {
   showPin();
   if (!state.pin) {
     showNothing();
@@ -102,21 +114,20 @@ async function showPoint() {
   const { m, alpha } = state.pin;
   try {
     const found = await desk.ask("point", m, alpha, ORBIT);
-    if (mine !== round) return;
     shown = found;
     showFate(found);
     showOrbit(found);
     const window = isHeld() && shownWindow ? shownWindow : windowOf(found);
     shownWindow = window;
     const [map, motion] = await Promise.all([desk.ask("map", m, ...window, 120), desk.ask("motion", m, alpha, state.hops)]);
-    if (mine !== round) return;
     showMap(map, found, window);
     showMotion(motion);
     await measure();
     canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
     slowPanels(mine, m, Math.max(found.trap?.n ?? 1, found.below, 1));
   } catch (error) {
-    if (mine === round) { showError(error.message); say(error.message); }
+    showError(error.message);
+    say(error.message);
   }
 }
 let shownWindow = null;
@@ -130,6 +141,7 @@ byId("circle-n").onchange = ({ target }) => {
 };
 
 async function slowPanels(mine, m, n) {
+  if (isHeld()) return; // the end of the drag asks again
   byId("circle-n").value = chosen ?? n;
   const fill = async (id, text) => { const found = await text; if (mine === round) byId(id).querySelector("div").innerHTML = found; };
   const tell = (id) => (error) => { byId(id).querySelector("div").textContent = error.message; };
