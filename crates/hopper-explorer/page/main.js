@@ -124,7 +124,7 @@ async function showPointNow(mine) {
     showMotion(motion);
     await measure();
     canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
-    slowPanels(mine, m, Math.max(found.trap?.n ?? 1, found.below, 1));
+    slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
   } catch (error) {
     showError(error.message);
     say(error.message);

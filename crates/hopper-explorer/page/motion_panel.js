@@ -46,12 +46,11 @@ let stage = null;
 const count = () => (samples ? (samples.length - 1) / FIELDS : 0);
 const field = (k, which) => samples[1 + FIELDS * k + which];
 
-/** The samples of a motion, as they came from the core; null for none. */
+/** The samples of a motion, as they came from the core; null for none. `measure` draws them. */
 export function showMotion(found) {
   samples = found;
   if (!samples) { play(false); stage = null; ["stage", "now"].forEach((id) => part(id).replaceChildren()); return; }
   time = Math.min(time, field(count() - 1, 0));
-  draw();
 }
 
 export function start(asked) { desk = asked; part("hops").value = state.hops; }
@@ -176,6 +175,7 @@ part("hops").onchange = ({ target }) => {
   else say("The motion shows 1 to 99 hops.");
 };
 
+/** Finds the units, and draws. */
 export async function measure() {
   const chosen = part("hopper").value;
   part("own").hidden = chosen !== "my own";
