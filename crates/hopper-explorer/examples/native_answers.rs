@@ -19,8 +19,11 @@ const POINTS: [(f64, f64); 10] = [
     (0.175, 17.4),
 ];
 
-/// Windows of each layer: layer, logarithmic, M or log₂ M, α, pixels.
-const WINDOWS: [(u32, bool, [f64; 2], [f64; 2], usize); 5] = [
+/// Layer, logarithmic, M or log₂ M, α, pixels.
+type Scene = (u32, bool, [f64; 2], [f64; 2], usize);
+
+/// Windows of each layer.
+const WINDOWS: [Scene; 5] = [
     (0, false, [0.0, 1.0], [4.0, 20.0], 256),
     (0, false, [0.17, 0.18], [17.0, 17.8], 256),
     (0, true, [-4.0, 4.0], [4.0, 12.0], 128),

@@ -113,15 +113,16 @@ async function showPointNow(mine) {
   }
   const { m, alpha } = state.pin;
   try {
+    const moving = desk.ask("motion", m, alpha, state.hops);
+    moving.catch(() => {}); // its refusal is shown below
     const found = await desk.ask("point", m, alpha, ORBIT);
     shown = found;
     showFate(found);
     showOrbit(found);
     const window = isHeld() && shownWindow ? shownWindow : windowOf(found);
     shownWindow = window;
-    const [map, motion] = await Promise.all([desk.ask("map", m, ...window, 120), desk.ask("motion", m, alpha, state.hops)]);
-    showMap(map, found, window);
-    showMotion(motion);
+    showMap(await desk.ask("map", m, ...window, 120), found, window);
+    showMotion(await moving);
     await measure();
     canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
     slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));

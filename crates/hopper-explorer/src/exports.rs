@@ -29,7 +29,6 @@ fn doubles(answer: Result<Vec<f64>, Refusal>) -> u32 {
 
 /// Columns `from`..`to` of a tile: the pixels, then the values as 32-bit integers, the lowest byte first.
 #[unsafe(no_mangle)]
-#[expect(clippy::too_many_arguments, reason = "a page passes numbers, and no structures")]
 pub(crate) extern "C" fn tile(
     layer: u32,
     logarithmic: u32,
