@@ -84,7 +84,7 @@ const memory = () => {
   const rows = out.split("\n").filter((row) => /chrom/i.test(row) && /--type=renderer/.test(row));
   return rows.reduce((sum, row) => sum + Number(row.trim().split(/\s+/)[0]), 0) / 1000;
 };
-const minutes = Number(process.env.EXPLORER_MINUTES ?? 3);
+const minutes = Number(process.env.EXPLORER_MINUTES ?? 6);
 const points = [];
 let seed = 1;
 const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
