@@ -1,8 +1,10 @@
 //! The commands: one table of names, and the programs that run them.
 
 use crate::check_builds;
+use crate::check_explorer;
 use crate::check_python;
 use crate::error::Error;
+use crate::explore;
 use crate::process::become_program;
 use crate::regenerate;
 use crate::repository::repository;
@@ -31,7 +33,7 @@ const BASINS: Option<Program> = Some(("hopper", Some("basins")));
 type Program = (&'static str, Option<&'static str>);
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 16] = [
+const TASKS: [Task; 18] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -46,6 +48,11 @@ const TASKS: [Task; 16] = [
         name: "basin-raster",
         about: "Compute the basins over any window: the command `hopper basins`",
         program: BASINS,
+    },
+    Task {
+        name: "explore",
+        about: "Build the browser explorer of the basins, and serve it on the loopback address",
+        program: None,
     },
     Task {
         name: "beyond-paper",
@@ -107,6 +114,11 @@ const TASKS: [Task; 16] = [
         about: "Build the Python package and run its tests: needs Python and package indices",
         program: None,
     },
+    Task {
+        name: "check-explorer",
+        about: "Test the explorer in a headless Chromium: needs node, npm and Chromium",
+        program: None,
+    },
     Task { name: "tidy", about: "Check the repository's rules", program: None },
 ];
 
@@ -139,8 +151,11 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     if let Some((package, name)) = task.program {
         return run_program(package, name.unwrap_or(task.name), arguments);
     }
-    if task.name == "regenerate" {
-        return regenerate::run(arguments);
+    match task.name {
+        "regenerate" => return regenerate::run(arguments),
+        "explore" => return explore::run(arguments),
+        "check-explorer" => return check_explorer::run(arguments),
+        _ => {}
     }
     match arguments.first().map(|argument| argument.to_string_lossy()) {
         None if task.name == "check-builds" => check_builds::run(),

@@ -19,6 +19,8 @@ pub(crate) enum Error {
     File { path: PathBuf, source: std::io::Error },
     /// Python, its virtual environment or its packages are missing.
     Python { program: PathBuf, reason: String },
+    /// The explorer could not be built, served or tested.
+    Explorer(String),
     /// Builds failed; each has been printed with the compiler's messages.
     Builds(usize),
     /// The workspace's manifest promises no oldest Rust.
@@ -47,6 +49,7 @@ impl fmt::Display for Error {
                  index, or name another interpreter with PYTHON=/path/to/python3",
                 program.display()
             ),
+            Error::Explorer(reason) => write!(f, "the explorer: {reason}"),
             Error::Builds(count) => write!(f, "{count} builds failed"),
             Error::NoRustVersion => {
                 write!(f, "Cargo.toml has no rust-version; write the oldest Rust that is supported")

@@ -4,13 +4,17 @@
 //! is part of a program in `crates/`; `cargo xtask` builds that program and becomes it.
 
 mod check_builds;
+mod check_explorer;
 mod check_python;
 mod commands;
 mod error;
+mod explore;
+mod explorer_build;
 mod process;
 mod python_environment;
 mod regenerate;
 mod repository;
+mod static_server;
 mod tidy;
 
 use std::process::ExitCode;

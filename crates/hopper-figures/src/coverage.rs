@@ -31,6 +31,13 @@ pub fn draw_coverage(window: &Window, raster: &ShareRaster) -> Result<Svg, Error
 /// [`Error::Figure`] for a raster without pixels.
 pub fn coverage_png(name: &str, raster: &ShareRaster) -> Result<Vec<u8>, Error> {
     let grid = raster.grid();
+    Ok(rgb_png(name, grid.columns, grid.rows, &coverage_pixels(raster))?)
+}
+
+/// Red, green and blue of every pixel, the highest row first. A small undecided part takes the mixture of the decided part; a larger
+/// one is yellow.
+pub fn coverage_pixels(raster: &ShareRaster) -> Vec<u8> {
+    let grid = raster.grid();
     let mut pixels = Vec::with_capacity(3 * grid.columns * grid.rows);
     for row in (0..grid.rows).rev() {
         for column in 0..grid.columns {
@@ -42,7 +49,7 @@ pub fn coverage_png(name: &str, raster: &ShareRaster) -> Result<Vec<u8>, Error> 
             pixels.extend(mixed(parts.map(part)));
         }
     }
-    Ok(rgb_png(name, grid.columns, grid.rows, &pixels)?)
+    pixels
 }
 
 /// The part of a pixel without a label.

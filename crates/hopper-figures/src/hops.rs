@@ -20,7 +20,7 @@ const STEPS: usize = 64;
 pub fn draw_hops(window: &Window, grid: &Grid, hops: &[u64]) -> Result<Svg, Error> {
     let largest = hops.iter().copied().max().unwrap_or(0);
     let rows = hops.chunks(grid.columns.max(1)).rev();
-    let pixels: Vec<u8> = rows.flatten().flat_map(|&count| color(place(count, largest))).collect();
+    let pixels: Vec<u8> = rows.flatten().flat_map(|&count| hop_color(count, largest)).collect();
     let image = rgb_png(window.name, grid.columns, grid.rows, &pixels)?;
     let mut svg = Svg::new(580.0, 560.0);
     let frame = Frame::linear(66.0, 44.0, 490.0, 460.0, window.mass_ratio, window.alpha);
@@ -56,6 +56,17 @@ fn scale(svg: &mut Svg, (left, top): (f64, f64), width: f64, largest: u64) -> Re
         }
     }
     Ok(())
+}
+
+/// The colour of a number of hops, on the scale from no hops to `largest`.
+///
+/// ```
+/// use hopper_figures::hop_color;
+/// assert_eq!(hop_color(0, 1000), [255, 247, 188]);
+/// assert_eq!(hop_color(1000, 1000), [23, 9, 58]);
+/// ```
+pub fn hop_color(count: u64, largest: u64) -> [u8; 3] {
+    color(place(count, largest))
 }
 
 /// The place of a number on the scale, from 0 to 1.

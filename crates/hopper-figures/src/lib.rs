@@ -5,8 +5,8 @@
 //! | [`draw_basins`], [`Window`] | a raster of fates with axes, legend and the frame of an inset |
 //! | [`label_png`], [`legend`] | its pixels alone; its legend alone |
 //! | [`draw_shares`], [`share_png`], [`share_pixels`], [`share_words`] | a raster whose pixels cover several fates |
-//! | [`draw_coverage`], [`coverage_png`], [`undecided_share`] | the same over (M, α), with undecided parts |
-//! | [`draw_hops`] | a raster of numbers of hops, with axes and scale |
+//! | [`draw_coverage`], [`coverage_png`], [`coverage_pixels`], [`undecided_share`] | the same over (M, α), with undecided parts |
+//! | [`draw_hops`], [`hop_color`] | a raster of numbers of hops, with axes and scale; one of its colours |
 //! | [`fate_colors`] | the colour and the name of every fate |
 //! | [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
 //! | [`MapPlot`] | the map with its fixed points and traps, and the cobweb of an orbit |
@@ -42,10 +42,10 @@ mod shares;
 
 pub use animation::{AnimationForm, animation, frame_png};
 pub use basins::{Inset, PIXELS, Window, draw_basins, label_png, legend};
-pub use coverage::{coverage_png, draw_coverage, undecided_share};
+pub use coverage::{coverage_pixels, coverage_png, draw_coverage, undecided_share};
 pub use error::Error;
 pub use graph::{cuts, cuts_between, graph_pieces};
-pub use hops::draw_hops;
+pub use hops::{draw_hops, hop_color};
 pub use machine::{draw_block, draw_ground, draw_spring};
 pub use map_plot::MapPlot;
 pub use motion::{Motion, MotionEvent, Sample};

@@ -17,7 +17,7 @@ pub(super) enum CrateClass {
 }
 
 /// Every crate in `crates/`, with its class and the reason for it.
-const CLASSES: [(&str, CrateClass, &str); 16] = [
+const CLASSES: [(&str, CrateClass, &str); 17] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
     ("basin-of-attraction", Computing, "random points come from a seed argument"),
@@ -36,6 +36,11 @@ const CLASSES: [(&str, CrateClass, &str); 16] = [
     ("hopper", Program, "the program for users: it reads, prints and writes"),
     ("repository-tools", Program, "the file and terminal access that the programs share"),
     ("hopper-paper", Program, "writes figures and reports, and says what holds"),
+    (
+        "hopper-explorer",
+        Computing,
+        "a front for the browser: it converts, and computes nothing itself",
+    ),
     ("hopper-python", Computing, "a front for Python: it converts, and computes nothing itself"),
     ("hopper-measurements", Program, "looks at clocks, and says what it measured"),
 ];

@@ -1,0 +1,47 @@
+// The core: numbers in, bytes or JSON out. The only file that touches WebAssembly.
+
+/** A question that the libraries refuse, with their text. */
+export class Refusal extends Error {}
+
+export class Core {
+  constructor(module) {
+    this.exports = new WebAssembly.Instance(module, {}).exports;
+  }
+
+  #answer(status) {
+    const { memory, answer_place, answer_length } = this.exports;
+    // A view of the memory is valid until it grows: the bytes are copied.
+    const bytes = new Uint8Array(memory.buffer, answer_place(), answer_length()).slice();
+    if (status === 0) return bytes;
+    throw new Refusal(new TextDecoder().decode(bytes));
+  }
+
+  #json(status) {
+    return JSON.parse(new TextDecoder().decode(this.#answer(status)));
+  }
+
+  /** Columns from..to of a tile: pixels for an image, and one value for each pixel. */
+  tile({ layer, logarithmic, x, alpha, columns, rows }, from, to) {
+    const status = this.exports.tile(layer, Number(logarithmic), ...x, ...alpha, columns, rows, from, to);
+    const bytes = this.#answer(status);
+    const size = 4 * (to - from) * rows;
+    return { pixels: new Uint8ClampedArray(bytes.buffer, 0, size), values: new Uint32Array(bytes.buffer, size) };
+  }
+
+  /** The mass ratios of the columns of a tile, then the speeds of its rows from below. */
+  places({ logarithmic, x, alpha, columns, rows }) {
+    return new Float64Array(this.#answer(this.exports.places(Number(logarithmic), ...x, ...alpha, columns, rows)).buffer);
+  }
+
+  legend() { return this.#json(this.exports.legend()); }
+  point(m, alpha, hops) { return this.#json(this.exports.point(m, alpha, hops)); }
+  map(m, from, to, points) { return this.#json(this.exports.map(m, from, to, points)); }
+  motion(m, alpha, hops) { return new Float64Array(this.#answer(this.exports.motion(m, alpha, hops)).buffer); }
+  units(m, mass, stiffness, gravity) { return this.#json(this.exports.units(m, mass, stiffness, gravity)); }
+  circle(m, n) { return this.#json(this.exports.circle(m, n)); }
+  intervals(m, first, last) { return this.#json(this.exports.intervals(m, first, last)); }
+  openDepth(m, alpha) { return this.#json(this.exports.open_depth(m, alpha)); }
+  depthFrame(depth, columns, rows) {
+    return new Uint8ClampedArray(this.#answer(this.exports.depth_frame(depth, columns, rows)).buffer);
+  }
+}

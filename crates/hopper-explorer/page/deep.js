@@ -1,0 +1,88 @@
+// The deep view: the chart of a boundary point, at any scale. The boundary point stays in the middle.
+import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
+import { change, say, state } from "./state.js";
+import { pretty, show } from "./numbers.js";
+
+/** Pixels of the first and of the last frame, each way. */
+const QUICK = 48;
+const FINE = 256;
+/** Frames that are kept. */
+const KEPT = 48;
+/** Depths at which the chart is left for the plane, and the deepest one. */
+export const SHALLOWEST = 5.5;
+export const DEEPEST = 9000;
+
+export class Deep {
+  constructor(plane, desk) {
+    this.plane = plane;
+    this.desk = desk;
+    this.frames = [];
+    this.busy = false;
+  }
+
+  /** Opens the boundary point next to a speed; null if there is none. */
+  async open(m, alpha, depth) {
+    const about = await this.desk.ask("openDepth", m, alpha);
+    this.frames.forEach(({ bitmap }) => bitmap.close());
+    this.frames = [];
+    change({ depth: { m, alpha: about.alpha, depth, about } });
+    return about;
+  }
+
+  /** Zooms by a factor about the boundary point; true if the plane is to be shown again. */
+  zoom(factor) {
+    const depth = Math.min(state.depth.depth - Math.log10(factor), DEEPEST);
+    change({ depth: { ...state.depth, depth } });
+    return depth < SHALLOWEST;
+  }
+
+  /** Asks for the frames of the present depth: a quick one, then a fine one. */
+  async request() {
+    if (this.busy || !state.depth) return;
+    const { depth, about } = state.depth;
+    const here = this.frames.filter((frame) => frame.depth === depth);
+    const pixels = here.length === 0 ? QUICK : here.some((frame) => frame.pixels === FINE) ? 0 : FINE;
+    if (pixels === 0) { this.plane.canvas.dispatchEvent(new Event("complete")); return; }
+    this.busy = true;
+    try {
+      const data = await this.desk.ask("depthFrame", depth, pixels, pixels);
+      const bitmap = await createImageBitmap(new ImageData(data, pixels, pixels));
+      if (state.depth?.about === about) this.frames.push({ depth, pixels, bitmap });
+      while (this.frames.length > KEPT) this.frames.shift().bitmap.close();
+    } catch (error) {
+      say(`No picture at this depth: ${error.message}`);
+      this.frames.push({ depth, pixels: FINE, bitmap: await createImageBitmap(new ImageData(1, 1)) });
+    }
+    this.busy = false;
+    this.plane.refresh();
+    this.request();
+  }
+
+  paint(context, box) {
+    const { depth } = state.depth;
+    const middle = { left: MARGIN.left + box.width / 2, top: MARGIN.top + box.height / 2 };
+    // The wider a frame, the earlier it is drawn; a fine one after a quick one of the same depth.
+    const sorted = [...this.frames].sort((a, b) => a.depth - b.depth || a.pixels - b.pixels);
+    for (const frame of sorted) {
+      const size = 10 ** (depth - frame.depth);
+      if (size < 0.02 || size > 1000) continue;
+      context.imageSmoothingEnabled = false;
+      const [width, height] = [box.width * size, box.height * size];
+      context.drawImage(frame.bitmap, middle.left - width / 2, middle.top - height / 2, width, height);
+    }
+    for (const [color, width] of [["#fff", 4], ["#000", 1.6]]) {
+      context.strokeStyle = color;
+      context.lineWidth = width;
+      context.beginPath(); context.arc(middle.left, middle.top, 7, 0, 2 * Math.PI); context.stroke();
+    }
+  }
+
+  axes(size) { return deepAxes(state.depth.depth, state.depth.about.slant, size); }
+
+  /** The view in words. */
+  words() {
+    const { depth, about } = state.depth;
+    return `Half height ${powerOfTen(-depth)} about p = ${show(about.alpha, 12)} at M = ${show(about.massRatio, 8)}: a boundary point that ` +
+      `comes to the fixed point ${pretty(`α*_${about.n}`)} in ${about.hops} hops`;
+  }
+}

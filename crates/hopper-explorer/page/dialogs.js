@@ -1,0 +1,41 @@
+// The three dialogs: help, link, files.
+import { KEYS } from "./keys.js";
+import { write } from "./link.js";
+import { say, state } from "./state.js";
+
+const dialog = document.getElementById("dialog");
+
+function open(title, content) {
+  dialog.innerHTML = `<h2 id="dialog-title">${title}</h2>${content}<div class="row"><button id="close" autofocus>Close</button></div>`;
+  dialog.querySelector("#close").onclick = () => dialog.close();
+  if (!dialog.open) dialog.showModal();
+}
+
+export function help() {
+  const rows = KEYS.map(([key, what]) => `<tr><td><kbd>${key}</kbd></td><td>${what}</td></tr>`).join("");
+  open("Keys and gestures", `<p>Wheel or pinch: zoom to the cursor. With <kbd>Shift</kbd> only α, with <kbd>Alt</kbd> only M. Drag: move.
+    <kbd>Shift</kbd> and drag: a box. Click: pin a point.</p><table>${rows}</table>
+    <p class="soft">All pictures are computed here, by the Rust libraries of the project. Nothing is sent anywhere.</p>`);
+}
+
+export function share() {
+  const address = `${location.origin}${location.pathname}${write(state)}`;
+  open("A link to exactly this view", `<input class="link" readonly aria-label="Link"><div class="row"><button id="copy">Copy</button></div>`);
+  dialog.querySelector(".link").value = address;
+  dialog.querySelector("#copy").onclick = async () => {
+    dialog.querySelector(".link").select();
+    try { await navigator.clipboard.writeText(address); say("The link is copied."); } catch { say("Copy the marked link with Ctrl-C."); }
+  };
+}
+
+/** `files` are pairs of a name and a function that saves. */
+export function save(files) {
+  open("Save what is seen", `<p class="soft">Each file holds its parameters and the link to this view.</p>
+    <div class="row">${files.map(([name], k) => `<button data-file="${k}">${name}</button>`).join("")}</div><p id="saved" aria-live="polite"></p>`);
+  dialog.querySelectorAll("[data-file]").forEach((button) => {
+    button.onclick = async () => {
+      const saved = dialog.querySelector("#saved");
+      try { await files[Number(button.dataset.file)][1](); saved.textContent = "Saved."; } catch (error) { saved.textContent = `Not saved: ${error.message}.`; }
+    };
+  });
+}

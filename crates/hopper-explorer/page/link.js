@@ -1,0 +1,57 @@
+// The address of a view. Doubles are written with all their digits, so that a link gives the same bits.
+import { state } from "./state.js";
+import { isView } from "./view.js";
+
+const LAYERS = ["fate", "hops", "coverage"];
+
+export function write({ view, layer, pin, hops, depth }) {
+  const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`, `layer=${LAYERS[layer]}`];
+  if (pin) parts.push(`pin=${pin.m},${pin.alpha}`, `hops=${hops}`);
+  if (depth) parts.push(`depth=${depth.m},${depth.alpha},${depth.depth}`);
+  return `#${parts.join("&")}`;
+}
+
+const doubles = (text, count) => {
+  const all = text.split(",").map((part) => (part.trim() === "" ? NaN : Number(part)));
+  return all.length === count && all.every(Number.isFinite) ? all : null;
+};
+
+/** The fields of an address, and the parts that make no sense. */
+export function read(hash) {
+  const fields = {};
+  const wrong = [];
+  for (const part of hash.replace(/^#/, "").split("&").filter(Boolean)) {
+    const [name, value = ""] = part.split("=", 2);
+    let good = false;
+    if (name === "lin" || name === "log") {
+      const all = doubles(value, 4);
+      const [left, right, bottom, top] = all ?? [];
+      const view = { logarithmic: name === "log", x: [left, right], alpha: [bottom, top] };
+      good = all !== null && isView(view);
+      if (good) fields.view = view;
+    } else if (name === "layer") {
+      good = LAYERS.includes(value);
+      if (good) fields.layer = LAYERS.indexOf(value);
+    } else if (name === "pin") {
+      const all = doubles(value, 2);
+      good = all !== null && all[0] > 0 && all[1] > 0;
+      if (good) fields.pin = { m: all[0], alpha: all[1] };
+    } else if (name === "hops") {
+      good = /^\d{1,2}$/.test(value) && Number(value) >= 1;
+      if (good) fields.hops = Number(value);
+    } else if (name === "depth") {
+      const all = doubles(value, 3);
+      good = all !== null && all[0] > 0 && all[1] > 0 && all[2] >= 0;
+      if (good) fields.depth = { m: all[0], alpha: all[1], depth: all[2] };
+    }
+    if (!good) wrong.push(part.slice(0, 40));
+  }
+  return { fields, wrong };
+}
+
+let timer = 0;
+/** Keeps the address up to date, some times a second. */
+export function keep() {
+  clearTimeout(timer);
+  timer = setTimeout(() => history.replaceState(null, "", write(state)), 200);
+}

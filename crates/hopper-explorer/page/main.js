@@ -1,0 +1,310 @@
+// Puts the parts together: state in, pictures and panels out.
+import { Deep, SHALLOWEST } from "./deep.js";
+import * as dialogs from "./dialogs.js";
+import { gestures } from "./gestures.js";
+import { keys } from "./keys.js";
+import { keep, read } from "./link.js";
+import { hideMap, isHeld, showMap, windowOf } from "./map_panel.js";
+import { measure, play, showMotion, start as startMotion, stateAt, step } from "./motion_panel.js";
+import { parse, pretty, show } from "./numbers.js";
+import { Plane } from "./plane.js";
+import { showCircle, showIntervals } from "./circle_panel.js";
+import { showError, showFate, showNothing, showOrbit, showPin } from "./point_panel.js";
+import { Pool } from "./pool.js";
+import { snippets } from "./same.js";
+import * as files from "./save.js";
+import { change, listen, say, state } from "./state.js";
+import { stops } from "./tour.js";
+import { at, moved, toM, tooFine, withLogarithm, zoomed } from "./view.js";
+
+/** Hops of the orbit in the panels. */
+const ORBIT = 60;
+/** Below this height of the window an edge inside it is looked for, to change to its chart. */
+const EDGE_HEIGHT = 1e-8;
+
+const module = await WebAssembly.compileStreaming(fetch("core.wasm")).catch((error) => {
+  say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
+  throw error;
+});
+const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
+const pool = new Pool(module, Math.min(workers, 16));
+const desk = new Pool(module, 1);  // panels
+const well = new Pool(module, 1);  // the deep view and slow panels
+const legend = await desk.ask("legend");
+const canvas = document.getElementById("canvas");
+const plane = new Plane(canvas, pool, legend);
+const deep = new Deep(plane, well);
+const [left, right, bottom, top] = legend.home;
+const home = { logarithmic: false, x: [left, right], alpha: [bottom - 0.2, top] };
+const colors = new Map();
+legend.fates.forEach(({ label, color }) => colors.set(label, color));
+const lastColor = legend.fates.filter(({ label }) => label < 100).at(-1).color;
+const colorOf = (label) => colors.get(label) ?? (label < 65000 ? lastColor : colors.get(65535));
+
+const byId = (id) => document.getElementById(id);
+const centre = () => ({ left: plane.box.width / 2, top: plane.box.height / 2 });
+const pointAt = (where) => at(state.view, where.left, where.top, plane.box);
+
+function zoom(where, factorX, factorAlpha) {
+  plane.focus = null;
+  if (state.depth) { if (deep.zoom(factorAlpha === 1 ? factorX : factorAlpha)) leaveDepth(); return; }
+  const focus = pointAt(where);
+  plane.focus = focus;
+  const next = zoomed(state.view, focus, factorX, factorAlpha);
+  change({ view: next });
+  const height = next.alpha[1] - next.alpha[0];
+  if (factorAlpha < 1 && (height < EDGE_HEIGHT || tooFine(next.alpha))) lookForEdge(focus);
+}
+
+let looking = 0;
+/** In a small window: the boundary point nearest to the cursor. If it is inside, the view changes to its chart. */
+function lookForEdge(focus) {
+  clearTimeout(looking);
+  looking = setTimeout(async () => {
+    const { view } = state;
+    const height = view.alpha[1] - view.alpha[0];
+    try {
+      const about = await well.ask("openDepth", toM(view, focus.x), focus.alpha);
+      if (state.view !== view || Math.abs(about.alpha - focus.alpha) > height) return;
+      await deep.open(about.massRatio, about.alpha, -Math.log10(height / 2));
+    } catch (error) { say(`The zoom ends where doubles do: ${error.message}`); }
+  }, 150);
+}
+
+async function openDepth(m, alpha, depth) {
+  say("Looking for the edge …");
+  try { await deep.open(m, alpha, depth); } catch (error) { say(error.message); }
+}
+
+function deepHere() {
+  if (state.depth) return leaveDepth();
+  const focus = state.pin ?? { m: toM(state.view, pointAt(centre()).x), alpha: pointAt(centre()).alpha };
+  openDepth(focus.m, focus.alpha, Math.max(-Math.log10((state.view.alpha[1] - state.view.alpha[0]) / 2), SHALLOWEST + 0.5));
+}
+
+function leaveDepth() {
+  const { about, depth } = state.depth;
+  const half = 10 ** -Math.min(Math.max(depth, 2), 7);
+  const x = [about.massRatio - half, about.massRatio + half];
+  const view = withLogarithm({ logarithmic: false, x, alpha: [about.alpha - half, about.alpha + half] }, state.view.logarithmic);
+  change({ depth: null, view });
+}
+
+// Panels. An answer that is no longer wanted is not shown.
+let round = 0;
+let [busy, again] = [false, false];
+/** One point at a time: while α is dragged, the points between two answers are passed over. */
+async function showPoint() {
+  if (busy) { again = true; return; }
+  busy = true;
+  await showPointNow(++round);
+  busy = false;
+  if (again) { again = false; showPoint(); }
+}
+
+async function showPointNow(mine) {
+  showPin();
+  if (!state.pin) {
+    showNothing();
+    showMotion(null);
+    hideMap();
+    ["circle", "intervals"].forEach((id) => byId(id).querySelector("div").replaceChildren());
+    return;
+  }
+  const { m, alpha } = state.pin;
+  try {
+    const moving = desk.ask("motion", m, alpha, state.hops);
+    moving.catch(() => {}); // its refusal is shown below
+    const found = await desk.ask("point", m, alpha, ORBIT);
+    shown = found;
+    showFate(found);
+    showOrbit(found);
+    const window = isHeld() && shownWindow ? shownWindow : windowOf(found);
+    shownWindow = window;
+    showMap(await desk.ask("map", m, ...window, 120), found, window);
+    showMotion(await moving);
+    await measure();
+    canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
+    slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
+  } catch (error) {
+    showError(error.message);
+    say(error.message);
+  }
+}
+let shownWindow = null;
+let shown = null; // the last answer about a point
+
+let chosen = null; // the fixed point of the circle, if the reader chose one
+byId("circle-n").onchange = ({ target }) => {
+  const n = parse(target.value);
+  chosen = Number.isInteger(n) && n >= 1 ? n : null;
+  showPoint();
+};
+
+async function slowPanels(mine, m, n) {
+  if (isHeld()) return; // the end of the drag asks again
+  byId("circle-n").value = chosen ?? n;
+  const fill = async (id, text) => { const found = await text; if (mine === round) byId(id).querySelector("div").innerHTML = found; };
+  const tell = (id) => (error) => { byId(id).querySelector("div").textContent = error.message; };
+  if (byId("circle").open) fill("circle", well.ask("circle", m, chosen ?? n).then((found) => showCircle(found, colorOf))).catch(tell("circle"));
+  if (byId("intervals").open) fill("intervals", well.ask("intervals", m, 1, Math.min(Math.max(n, 5) + 1, 12)).then((found) => showIntervals(found, m, colorOf))).catch(tell("intervals"));
+}
+
+function showSame() {
+  const box = byId("same").querySelector("div");
+  box.replaceChildren(...Object.entries(snippets()).flatMap(([name, code]) => {
+    const [title, text, copy] = ["p", "pre", "button"].map((tag) => document.createElement(tag));
+    title.textContent = name;
+    text.textContent = code;
+    copy.textContent = "Copy";
+    copy.onclick = () => navigator.clipboard.writeText(code).then(() => say("Copied."), () => say("The browser does not allow copying; mark the text."));
+    return [title, text, copy];
+  }));
+}
+
+function showLegend() {
+  const swatch = ({ color, name }) => `<span><i class="swatch" style="background:${color}"></i>${pretty(name.split(":")[0])}</span>`;
+  const scale = legend.hops.map(({ color }) => color).join(",");
+  byId("legend").innerHTML = state.layer === 1 && !state.depth
+    ? `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale})"></span> ${legend.hops.at(-1).hops} hops until the fate is known</span>`
+    : legend.fates.map(swatch).join("") + (state.layer === 2 || state.depth ? "<span>mixed by shares</span>" : "");
+}
+
+// The tour.
+const tour = stops(legend);
+let stop = -1;
+function goTo(next) {
+  stop = next;
+  byId("stop").hidden = stop < 0 || stop >= tour.length;
+  if (byId("stop").hidden) { stop = -1; return; }
+  const { title, text, fields, open, depth } = tour[stop];
+  byId("stop").innerHTML = `<h2>${stop + 1} of ${tour.length}. ${title}</h2><p>${text}</p><div class="row">
+    <button data-go="-1"${stop === 0 ? " disabled" : ""}>Previous</button><button data-go="1">${stop === tour.length - 1 ? "End" : "Next"}</button><button data-go="end">Close</button></div>`;
+  byId("stop").querySelectorAll("[data-go]").forEach((button) => {
+    button.onclick = () => goTo(button.dataset.go === "end" ? -1 : stop + Number(button.dataset.go));
+  });
+  if (open) byId(open).open = true;
+  change({ ...fields });
+  if (depth) openDepth(depth.m, depth.alpha, depth.depth);
+}
+
+const saveDialog = () => dialogs.save([
+  ["PNG", async () => files.download(await files.png(plane, deep), "hopper.png")],
+  ["SVG", async () => files.download(await files.svg(plane, deep), "hopper.svg")],
+  ["CSV", async () => files.download(await files.csv(pool, desk, deep), "hopper.csv")],
+  ["the orbit as CSV", async () => files.download(files.orbitCsv(shown, deep), "hopper-orbit.csv")],
+  ["the map as SVG", async () => savePanel("map")],
+  ["the motion as SVG", async () => savePanel("stage")],
+]);
+function savePanel(id) {
+  const drawing = byId(id).querySelector("svg");
+  if (!drawing) throw new Error("pin a point first");
+  const style = getComputedStyle(document.documentElement);
+  const colored = drawing.outerHTML.replace(/var\((--\w+)\)/g, (_, name) => style.getPropertyValue(name)).replace("<svg ", `<svg color="#000" `)
+    .replace("</title>", `</title><desc>${files.parameters(deep)}</desc>`);
+  files.download(new Blob([colored], { type: "image/svg+xml" }), `hopper-${id}.svg`);
+}
+
+const pan = (x, alpha) => {
+  const { view } = state;
+  if (state.depth) return say("The deep view keeps the boundary point in its middle. Esc leaves it.");
+  change({ view: moved(view, x * (view.x[1] - view.x[0]), alpha * (view.alpha[1] - view.alpha[0])) });
+};
+const goHome = () => change({ view: withLogarithm(home, state.view.logarithmic), depth: null });
+const setLayer = (layer) => () => change({ layer });
+const setLogarithmic = (logarithmic) => change({ view: withLogarithm(state.view, logarithmic) });
+const pinCentre = () => { const { x, alpha } = pointAt(centre()); change({ pin: { m: toM(state.view, x), alpha } }); };
+const scale = (x, alpha) => () => zoom(centre(), x, alpha);
+
+gestures(canvas, {
+  zoom,
+  move: (byLeft, byTop) => pan(-byLeft / plane.box.width, byTop / plane.box.height),
+  click: (where) => {
+    if (state.depth) return change({ pin: { m: state.depth.about.massRatio, alpha: state.depth.about.alpha } });
+    const { x, alpha } = pointAt(where);
+    const m = toM(state.view, x);
+    if (m > 0 && alpha > 0) change({ pin: { m, alpha } });
+  },
+  hover,
+  box: (from, to, done, large) => {
+    plane.draw();
+    if (state.depth) return;
+    if (!done) return plane.context.strokeRect(62 + from.left, 8 + from.top, to.left - from.left, to.top - from.top);
+    if (!large) return;
+    const [a, b] = [pointAt(from), pointAt(to)];
+    const sorted = (one, other) => [Math.min(one, other), Math.max(one, other)];
+    change({ view: { ...state.view, x: sorted(a.x, b.x), alpha: sorted(a.alpha, b.alpha) } });
+  },
+});
+
+let hovering = false;
+/** The fate under the cursor. */
+async function hover(where) {
+  if (hovering || state.depth) return;
+  const { x, alpha } = pointAt(where);
+  const m = toM(state.view, x);
+  if (!(m > 0 && alpha > 0)) return;
+  hovering = true;
+  try {
+    const { fate, hops } = await desk.ask("point", m, alpha, 0);
+    say(`M = ${show(m, 8)}, α = ${show(alpha, 10)}: ${pretty(fate.name)} after ${hops} hops`);
+  } catch (error) { say(error.message); }
+  hovering = false;
+}
+
+keys({
+  ArrowLeft: () => pan(-0.1, 0), ArrowRight: () => pan(0.1, 0), ArrowUp: () => pan(0, 0.1), ArrowDown: () => pan(0, -0.1),
+  "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
+  X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
+  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), 1: setLayer(0), 2: setLayer(1), 3: setLayer(2),
+  d: deepHere, t: () => goTo(0), n: () => stop >= 0 && goTo(stop + 1), p: () => stop > 0 && goTo(stop - 1),
+  Escape: () => { if (state.depth) leaveDepth(); goTo(-1); },
+  " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: dialogs.share, "?": dialogs.help,
+});
+byId("home").onclick = goHome;
+byId("deep").onclick = deepHere;
+byId("tour").onclick = () => goTo(stop < 0 ? 0 : -1);
+byId("share").onclick = dialogs.share;
+byId("save").onclick = saveDialog;
+byId("help").onclick = dialogs.help;
+byId("layer").onchange = ({ target }) => change({ layer: Number(target.value) });
+byId("logarithmic").onchange = ({ target }) => setLogarithmic(target.checked);
+["circle", "intervals", "same"].forEach((id) => byId(id).addEventListener("toggle", () => (id === "same" ? showSame() : showPoint())));
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plane.refresh());
+
+listen((names) => {
+  const has = (...some) => some.some((name) => names.has(name));
+  if (has("view", "layer", "depth", "pin")) {
+    plane.overlay = state.depth ? deep : null;
+    if (state.depth) { say(deep.words()); deep.request(); }
+    plane.refresh();
+    keep();
+  }
+  if (has("layer", "depth")) showLegend();
+  if (has("view")) {
+    const { view } = state;
+    if (!state.depth) say(`M from ${show(toM(view, view.x[0]), 8)} to ${show(toM(view, view.x[1]), 8)}, α from ${show(view.alpha[0], 10)} to ${show(view.alpha[1], 10)}`);
+  }
+  byId("layer").value = state.layer;
+  byId("logarithmic").checked = state.view.logarithmic;
+  byId("deep").setAttribute("aria-pressed", state.depth !== null);
+  byId("hops").value = state.hops;
+  if (has("pin", "hops")) showPoint();
+  if (byId("same").open) showSame();
+});
+
+function follow(hash) {
+  const { fields, wrong } = read(hash);
+  const { depth, ...rest } = fields;
+  change({ view: home, layer: 0, pin: null, depth: null, ...rest });
+  if (depth) openDepth(depth.m, depth.alpha, depth.depth);
+  if (wrong.length > 0) queueMicrotask(() => say(`A part of the address makes no sense and is left out: ${wrong.join(", ")}`));
+}
+startMotion(desk);
+showLegend();
+follow(location.hash);
+addEventListener("hashchange", () => follow(location.hash));
+if ("serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
+
+// For tests.
+window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files };

@@ -1,0 +1,53 @@
+// The map at the pinned M with the cobweb of the orbit. Dragging along the picture moves α.
+import { show, star } from "./numbers.js";
+import { change, state } from "./state.js";
+import { Drawing } from "./svg.js";
+
+const panel = document.getElementById("map");
+let drawing = null;
+
+/** The window of speeds about an orbit. */
+export function windowOf({ speeds, grounded }) {
+  const [low, high] = [Math.min(...speeds), Math.max(...speeds)];
+  const from = low - 0.15 * Math.max(high - low, 1e-6 * high);
+  return [grounded || from < 0.3 * high ? 0 : from, high + 0.1 * Math.max(high - low, 1e-3 * high)];
+}
+
+export const hideMap = () => { drawing = null; panel.replaceChildren(); };
+
+export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }, window) {
+  drawing = new Drawing({ x: window, y: window, height: 400, xName: "α", yName: "f(α; M)",
+    title: `The map at M = ${massRatio} with the orbit from ${speeds[0]}: ${fate.name}` });
+  for (const { trap, light } of stars) drawing.band(trap.left, trap.right, light);
+  drawing.curve([[window[0], window[0]], [window[1], window[1]]], "currentColor", 0.6, 'stroke-dasharray="2 3"');
+  for (const { points } of pieces) {
+    drawing.curve(Array.from({ length: points.length / 2 }, (_, k) => [points[2 * k], points[2 * k + 1]]), "currentColor");
+  }
+  const corners = [[speeds[0], window[0]]];
+  for (let k = 1; k < speeds.length; k++) corners.push([speeds[k - 1], speeds[k]], [speeds[k], speeds[k]]);
+  if (grounded) corners.push([speeds.at(-1), window[0]]);
+  drawing.curve(corners, "var(--lower)", 1.1).dot(speeds[0], window[0], "var(--lower)", 4);
+  for (const { n, trap } of stars) {
+    if (n > 0 && trap.left > window[0] && trap.left < window[1]) drawing.dot(trap.left, trap.left, "currentColor").text(trap.left, trap.left, `${star(n)}\u2002`, "end");
+  }
+  const rows = stars.map(({ n, trap, crisis, grounding }) =>
+    `<tr><td>${star(n)}</td><td>${show(trap.left, 8)}</td><td>${show(trap.length, 5)}</td><td>${trap.edge}</td>` +
+    `<td>${crisis ? show(crisis.massRatio, 6) : "–"}</td><td>${show(grounding.massRatio, 6)}</td></tr>`).join("");
+  panel.innerHTML = `<h2>The map at <i>M</i> = ${show(massRatio)}</h2><div class="picture">${drawing.markup()}</div>
+    <p class="soft">Red: the orbit. Bands: the traps. Drag along the picture to move α.</p>
+    <div class="wide"><table><thead><tr><th></th><th>α*</th><th>trap length</th><th>it ends at</th><th>crisis at M</th><th>grounding at M</th></tr></thead><tbody>${rows}</tbody></table></div>`;
+}
+
+let held = false;
+const drag = (event) => {
+  const svg = event.target.closest?.("svg") ?? panel.querySelector("svg");
+  if (!svg || !drawing || !state.pin) return;
+  const box = svg.getBoundingClientRect();
+  const px = ((event.clientX - box.left) / box.width) * 400;
+  const part = Math.min(Math.max((px - drawing.left) / (drawing.right - drawing.left), 0.001), 0.999);
+  change({ pin: { ...state.pin, alpha: drawing.x[0] + part * (drawing.x[1] - drawing.x[0]) } });
+};
+panel.addEventListener("pointerdown", (event) => { if (event.target.closest("svg")) { held = true; drag(event); event.preventDefault(); } });
+addEventListener("pointermove", (event) => { if (held) drag(event); });
+addEventListener("pointerup", () => { if (held) { held = false; change({ pin: { ...state.pin } }); } });
+export const isHeld = () => held;

@@ -1,0 +1,138 @@
+// The canvas: tiles of the plane, axes, the pin. It asks for coarse tiles first, then for fine ones, and gives up what is out of view.
+import { MARGIN, inner, paintAxes, planeAxes } from "./axes.js";
+import { state, say } from "./state.js";
+import { COARSE, COVERAGE, FATE, SIZE, TileStore, keyOf, needed, windowOf } from "./tiles.js";
+import { place, toX } from "./view.js";
+
+export class Plane {
+  constructor(canvas, pool, legend) {
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d");
+    this.pool = pool;
+    this.legend = legend;
+    this.store = new TileStore();
+    this.asked = new Map(); // keys of tiles in work
+    this.focus = null;      // where the next tile is wanted first
+    this.frames = 0;
+    this.overlay = null;    // what draws instead of the plane
+    new ResizeObserver(() => this.refresh()).observe(canvas);
+  }
+
+  /** Size in CSS pixels. */
+  get size() { return { width: this.canvas.clientWidth, height: this.canvas.clientHeight }; }
+  get box() { return inner(this.size); }
+
+  refresh() {
+    if (this.waiting) return;
+    this.waiting = true;
+    requestAnimationFrame(() => { this.waiting = false; this.draw(); if (!this.overlay) this.#request(); });
+  }
+
+  #pixels() {
+    const ratio = window.devicePixelRatio || 1;
+    return { width: this.box.width * ratio, height: this.box.height * ratio };
+  }
+
+  #request() {
+    const centre = { x: (state.view.x[0] + state.view.x[1]) / 2, alpha: (state.view.alpha[0] + state.view.alpha[1]) / 2 };
+    const focus = this.focus ?? centre;
+    const pixels = this.#pixels();
+    const missing = needed(state.view, state.layer, pixels, focus).filter((tile) => !this.store.isFine(tile));
+    const coarse = missing.filter((tile) => !this.store.isCoarse(tile)).map((tile) => ({ ...tile, pixels: COARSE }));
+    const quick = state.layer === COVERAGE ? coarse.map((tile) => ({ ...tile, layer: FATE })).filter((tile) => !this.store.isCoarse(tile)) : [];
+    const wanted = [...quick, ...coarse, ...missing.map((tile) => ({ ...tile, pixels: SIZE }))];
+    const nameOf = (tile) => `${keyOf(tile)}/${tile.pixels}`;
+    const keys = new Set(wanted.map(nameOf));
+    for (const [key, id] of this.asked) {
+      if (!keys.has(key)) { this.asked.delete(key); this.pool.stop(id); }
+    }
+    // Two in work for each worker: the queue stays short, and follows the view.
+    const free = 2 * this.pool.members.length - this.asked.size;
+    const fresh = wanted.filter((tile) => !this.asked.has(nameOf(tile)));
+    fresh.slice(0, Math.max(free, 0)).forEach((tile) => this.#ask(tile, nameOf(tile)));
+    this.drawable = (state.layer === COVERAGE ? quick : coarse).length === 0;
+    this.idle = wanted.length === 0;
+    if (this.idle) this.canvas.dispatchEvent(new Event("complete"));
+  }
+
+  async #ask(tile, key) {
+    const promise = this.pool.ask("tile", windowOf(tile, tile.pixels));
+    this.asked.set(key, promise.id);
+    try {
+      const found = await promise;
+      if (!found.stopped) this.store.put(tile, { bitmap: found.bitmap });
+    } catch (error) {
+      // A tile without a picture stays empty; it is not asked for again.
+      this.store.put(tile, { bitmap: null, error: error.message });
+      say(`A part of the picture is missing: ${error.message}`);
+    }
+    if (this.asked.get(key) === promise.id) this.asked.delete(key);
+    this.refresh();
+  }
+
+  draw() {
+    const ratio = window.devicePixelRatio || 1;
+    const { width, height } = this.size;
+    if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
+      this.canvas.width = Math.round(width * ratio);
+      this.canvas.height = Math.round(height * ratio);
+    }
+    this.frames += 1;
+    paint(this.context, this, ratio);
+  }
+}
+
+/** Draws all into a context of the canvas's size. */
+export function paint(context, plane, ratio) {
+  const style = getComputedStyle(document.documentElement);
+  const [ink, paper] = [style.getPropertyValue("--ink"), style.getPropertyValue("--paper")];
+  const { size, box } = plane;
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  context.fillStyle = paper;
+  context.fillRect(0, 0, size.width, size.height);
+  context.save();
+  context.beginPath();
+  context.rect(MARGIN.left, MARGIN.top, box.width, box.height);
+  context.clip();
+  if (plane.overlay) plane.overlay.paint(context, box);
+  else paintTiles(context, plane, box);
+  if (!plane.overlay && state.pin) paintPin(context, box);
+  context.restore();
+  context.strokeStyle = ink;
+  context.lineWidth = 1;
+  context.strokeRect(MARGIN.left - 0.5, MARGIN.top - 0.5, box.width + 1, box.height + 1);
+  paintAxes(context, axesOf(plane), ink, paper);
+}
+
+export const axesOf = (plane) =>
+  plane.overlay ? plane.overlay.axes(plane.size) : planeAxes(state.view, plane.size, plane.legend.fixedPoints);
+
+function paintTiles(context, plane, box) {
+  const ratio = window.devicePixelRatio || 1;
+  const pixels = { width: box.width * ratio, height: box.height * ratio };
+  const snap = (value) => Math.round(value * ratio) / ratio;
+  for (const tile of needed(state.view, state.layer, pixels, { x: 0, alpha: 0 })) {
+    const picture = plane.store.best(tile);
+    if (!picture) continue;
+    const { x, alpha } = windowOf(tile);
+    const from = place(state.view, x[0], alpha[1], box);
+    const to = place(state.view, x[1], alpha[0], box);
+    const [left, top] = [snap(MARGIN.left + from.left), snap(MARGIN.top + from.top)];
+    const [right, bottom] = [snap(MARGIN.left + to.left), snap(MARGIN.top + to.top)];
+    context.imageSmoothingEnabled = (right - left) * ratio < SIZE;
+    context.drawImage(picture.bitmap, picture.left, picture.top, picture.size, picture.size, left, top, right - left, bottom - top);
+  }
+}
+
+function paintPin(context, box) {
+  const { left, top } = place(state.view, toX(state.view, state.pin.m), state.pin.alpha, box);
+  for (const [color, width] of [["#fff", 4], ["#000", 1.6]]) {
+    context.strokeStyle = color;
+    context.lineWidth = width;
+    context.beginPath();
+    context.arc(MARGIN.left + left, MARGIN.top + top, 7, 0, 2 * Math.PI);
+    context.moveTo(MARGIN.left + left - 12, MARGIN.top + top); context.lineTo(MARGIN.left + left - 4, MARGIN.top + top);
+    context.moveTo(MARGIN.left + left + 4, MARGIN.top + top); context.lineTo(MARGIN.left + left + 12, MARGIN.top + top);
+    context.stroke();
+  }
+}

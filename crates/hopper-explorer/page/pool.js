@@ -1,0 +1,101 @@
+// Workers for tiles, and one for the panels. A worker that dies or stays silent is replaced, and its job goes to the next one.
+import { Refusal } from "./core.js";
+
+/** Milliseconds without a word after which a worker is replaced. A strip that takes longer is given up after a second try. */
+const SILENCE = 15000;
+/** The same for a worker whose job is not wanted any more. */
+const STOPPING = 1500;
+
+export class Pool {
+  constructor(module, count) {
+    this.module = module;
+    this.next = 1;
+    this.queue = [];
+    this.members = Array.from({ length: count }, () => this.#member());
+    setInterval(() => this.#watch(), 1000);
+  }
+
+  #member() {
+    const member = { worker: null, job: null, heard: 0 };
+    this.#start(member);
+    return member;
+  }
+
+  #start(member) {
+    member.worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
+    member.worker.onmessage = ({ data }) => this.#hear(member, data);
+    member.worker.onerror = () => this.#replace(member);
+    member.worker.postMessage({ module: this.module });
+  }
+
+  #hear(member, { id, progress, found, error, refused }) {
+    const job = member.job;
+    if (!job || job.id !== id) return;
+    member.heard = performance.now();
+    if (progress !== undefined) return;
+    if (error !== undefined && !refused) return this.#replace(member, error);
+    member.job = null;
+    if (error !== undefined) job.fail(new Refusal(error));
+    else job.done(found);
+    this.#feed();
+  }
+
+  /** A new worker for one that is dead; its job is tried once more. */
+  #replace(member, reason = "the worker does not answer") {
+    member.worker.terminate();
+    const job = member.job;
+    member.job = null;
+    if (job) {
+      job.tries += 1;
+      if (job.tries < 2) this.queue.unshift(job);
+      else job.fail(new Error(reason));
+    }
+    this.#start(member);
+    this.#feed();
+  }
+
+  #watch() {
+    for (const member of this.members) {
+      const silent = performance.now() - member.heard > SILENCE;
+      if (member.job && silent) this.#replace(member);
+      else if (member.job?.stopped && performance.now() - member.job.stopped > STOPPING) {
+        member.job.done({ stopped: true });
+        member.job = null;
+        this.#replace(member);
+      }
+    }
+  }
+
+  #feed() {
+    for (const member of this.members) {
+      if (member.job || this.queue.length === 0) continue;
+      member.job = this.queue.shift();
+      member.heard = performance.now();
+      const { id, kind, args } = member.job;
+      member.worker.postMessage({ id, kind, args });
+    }
+  }
+
+  /** Asks for an answer. The promise has a number with which it can be stopped. */
+  ask(kind, ...args) {
+    const id = this.next++;
+    const promise = new Promise((done, fail) => this.queue.push({ id, kind, args, done, fail, tries: 0 }));
+    promise.id = id;
+    this.#feed();
+    return promise;
+  }
+
+  /** Gives a job up: it leaves the queue, or stops at its next strip. */
+  stop(id) {
+    const waiting = this.queue.findIndex((job) => job.id === id);
+    if (waiting >= 0) {
+      const [job] = this.queue.splice(waiting, 1);
+      job.done({ stopped: true });
+      return;
+    }
+    const member = this.members.find(({ job }) => job?.id === id);
+    if (!member) return;
+    member.job.stopped ??= performance.now();
+    member.worker.postMessage({ stop: id });
+  }
+}

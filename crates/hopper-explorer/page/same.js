@@ -1,0 +1,30 @@
+// The same in Rust, in Python and on the command line, ready to copy.
+import { state } from "./state.js";
+import { toM } from "./view.js";
+
+export function snippets() {
+  const { pin, view, hops, depth } = state;
+  const [left, right] = view.x.map((x) => toM(view, x));
+  const [bottom, top] = view.alpha;
+  const point = pin ?? { m: 0.2, alpha: 7 };
+  const picture = depth
+    ? `hopper basins --zoom ${depth.m} ${depth.alpha} --frames ${Math.ceil(depth.depth) + 1} --out zoom`
+    : `hopper basins --mass-ratio ${left} ${right} --speed ${bottom} ${top} --out basins`;
+  const float = (value) => (Number.isInteger(value) ? value.toFixed(1) : String(value));
+  return {
+    "Command line": `hopper orbit ${point.alpha} -M ${point.m} --hops ${hops} --motion motion.csv
+${picture}`,
+    Python: `import passive_hopper as hopper
+
+m = hopper.LiftOffMap(${point.m})
+print(m.fate(${point.alpha}))
+print(m.orbit(${point.alpha}, hops=${hops}))
+basins = hopper.basins(M=(${left}, ${right}), alpha=(${bottom}, ${top}), shape=(512, 512))`,
+    Rust: `use hopper_basin::Fates;
+use passive_hopper::MassRatio;
+
+let fates = Fates::new(MassRatio::new(${float(point.m)})?)?;
+println!("{:?}", fates.fate(${float(point.alpha)})?);
+println!("{:?}", fates.map().hop(${float(point.alpha)})?);`,
+  };
+}

@@ -1,0 +1,81 @@
+// Files of what is seen: PNG, SVG, CSV. Each holds its parameters and the address of the view.
+import { MARGIN, svgAxes } from "./axes.js";
+import { write } from "./link.js";
+import { axesOf, paint } from "./plane.js";
+import { withTexts } from "./png_text.js";
+import { state } from "./state.js";
+import { toM } from "./view.js";
+
+/** Pixels of a table each way. */
+const TABLE = 256;
+const LAYERS = ["fate", "number of hops", "exact coverage"];
+
+/** The parameters in words. */
+export function parameters(deep) {
+  const { view, layer, pin, depth } = state;
+  const window = depth
+    ? deep.words()
+    : `M from ${toM(view, view.x[0])} to ${toM(view, view.x[1])}${view.logarithmic ? " (logarithmic)" : ""}, alpha from ${view.alpha[0]} to ${view.alpha[1]}`;
+  const point = pin ? `; pinned: M = ${pin.m}, alpha = ${pin.alpha}` : "";
+  return `Passive hopper, ${depth ? "shares about an edge" : LAYERS[layer]}: ${window}${point}`;
+}
+
+const address = () => `${location.origin}${location.pathname}${write(state)}`;
+
+export async function png(plane, deep) {
+  const canvas = document.createElement("canvas");
+  const ratio = plane.canvas.width / plane.size.width;
+  [canvas.width, canvas.height] = [plane.canvas.width, plane.canvas.height];
+  paint(canvas.getContext("2d"), plane, ratio);
+  const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
+  return withTexts(blob, { Description: parameters(deep), Source: address() });
+}
+
+export async function svg(plane, deep) {
+  const { size, box } = plane;
+  const ratio = plane.canvas.width / size.width;
+  const inside = document.createElement("canvas");
+  [inside.width, inside.height] = [box.width * ratio, box.height * ratio].map(Math.round);
+  inside.getContext("2d").drawImage(plane.canvas, MARGIN.left * ratio, MARGIN.top * ratio, inside.width, inside.height, 0, 0, inside.width, inside.height);
+  const escape = (text) => text.replace(/[&<>]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[sign]);
+  const text = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${size.width} ${size.height}" font-family="sans-serif" font-size="12">
+<title>${escape(parameters(deep))}</title><desc>${escape(address())}</desc><rect width="100%" height="100%" fill="#fff"/>
+<image x="${MARGIN.left}" y="${MARGIN.top}" width="${box.width}" height="${box.height}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${inside.toDataURL("image/png")}"/>
+<rect x="${MARGIN.left}" y="${MARGIN.top}" width="${box.width}" height="${box.height}" fill="none" stroke="#000"/>
+${svgAxes(axesOf(plane))}
+</svg>`;
+  return new Blob([text], { type: "image/svg+xml" });
+}
+
+/** A table of pixels' middles with their values, computed for exactly this window. */
+export async function csv(pool, desk, deep) {
+  if (state.depth) throw new Error("the deep view has shares, no table; save it as PNG or SVG");
+  if (state.layer === 2) throw new Error("the coverage layer has shares, no table; show fates or hops to save one");
+  const { x, alpha, logarithmic } = state.view;
+  const job = { layer: state.layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true };
+  const places = await desk.ask("places", job);
+  const { values } = await pool.ask("tile", job);
+  const lines = [`# ${parameters(deep)}`, `# ${address()}`, state.layer === 0 ? "M,alpha,label" : "M,alpha,hops"];
+  for (let column = 0; column < TABLE; column++) {
+    for (let row = 0; row < TABLE; row++) lines.push(`${places[column]},${places[TABLE + row]},${values[column * TABLE + row]}`);
+  }
+  return new Blob([lines.join("\n"), "\n"], { type: "text/csv" });
+}
+
+/** The orbit of the pinned point, hop by hop. */
+export function orbitCsv(found, deep) {
+  if (!state.pin || !found) throw new Error("pin a point first");
+  const rows = found.orbit.map((hop, k) =>
+    [k, hop.speed, found.errors[k] ?? "", hop.sudden, hop.flightTime, hop.energyLoss, hop.slope ?? "", hop.massRatioSlope ?? ""].join(","));
+  const head = "hop,speed,error,sudden_lift_offs,flight_time,energy_loss,slope,mass_ratio_slope";
+  return new Blob([[`# ${parameters(deep)}`, `# ${address()}`, head, ...rows].join("\n"), "\n"], { type: "text/csv" });
+}
+
+/** Hands a file to the reader. */
+export function download(blob, name) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}

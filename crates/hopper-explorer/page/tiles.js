@@ -1,0 +1,94 @@
+// Which tiles a view needs, and the tiles that are there. A tile is a dyadic part of the plane: its ends are exact doubles.
+
+export const SIZE = 256;
+/** Pixels of the first, coarse picture of a tile each way: a sixteenth of the work. */
+export const COARSE = 64;
+/** Numbers of layers. */
+export const [FATE, COVERAGE] = [0, 2];
+/** A coarser tile whose picture is as good as the first one. */
+const AS_GOOD = 2;
+/** Tiles that are kept: 256 kB each. A view of 4K has 160. */
+const KEPT = 320;
+/** Levels above its own in which a picture for a missing tile is looked for. */
+const ANCESTORS = 7;
+
+/** The level at which a pixel of a tile is as wide as one of the screen, to the nearest power of two. */
+export const level = ([low, high], pixels) => Math.round(Math.log2((SIZE ** -1 * pixels) / (high - low)));
+
+export const keyOf = (tile) => `${tile.layer}${tile.logarithmic ? "l" : ""}/${tile.lx}/${tile.la}/${tile.i}/${tile.j}`;
+
+/** The window of a tile. */
+export function windowOf({ layer, logarithmic, lx, la, i, j }, pixels = SIZE) {
+  const x = [i * 2 ** -lx, (i + 1) * 2 ** -lx];
+  const alpha = [j * 2 ** -la, (j + 1) * 2 ** -la];
+  return { layer, logarithmic, x, alpha, columns: pixels, rows: pixels };
+}
+
+/** The tiles of a view, the nearest to a point first. */
+export function needed(view, layer, { width, height }, focus) {
+  const lx = level(view.x, width);
+  const la = level(view.alpha, height);
+  const range = ([low, high], l) => [Math.floor(low * 2 ** l), Math.ceil(high * 2 ** l) - 1];
+  const [i0, i1] = range(view.x, lx);
+  const [j0, j1] = range(view.alpha, la);
+  const tiles = [];
+  for (let j = Math.max(j0, 0); j <= j1; j++) {
+    for (let i = view.logarithmic ? i0 : Math.max(i0, 0); i <= i1; i++) {
+      const far = Math.hypot((i + 0.5) * 2 ** -lx - focus.x, ((j + 0.5) * 2 ** -la - focus.alpha) * 2 ** (la - lx));
+      tiles.push({ layer, logarithmic: view.logarithmic, lx, la, i, j, far });
+    }
+  }
+  return tiles.sort((a, b) => a.far - b.far);
+}
+
+export class TileStore {
+  constructor() { this.tiles = new Map(); }
+
+  get(tile) {
+    const key = keyOf(tile);
+    const found = this.tiles.get(key);
+    if (found) { this.tiles.delete(key); this.tiles.set(key, found); } // the last used is the last
+    return found;
+  }
+
+  /** Whether the fine picture is there, or none can be had. */
+  isFine(tile) {
+    const found = this.tiles.get(keyOf(tile));
+    return found !== undefined && (!found.bitmap || found.bitmap.width === SIZE);
+  }
+
+  /** Whether there is something of this layer to show until the fine picture comes. */
+  isCoarse(tile) {
+    const { up } = this.#best(tile) ?? { up: Infinity };
+    return up <= AS_GOOD;
+  }
+
+  put(tile, picture) {
+    const before = this.tiles.get(keyOf(tile));
+    before?.bitmap?.close();
+    this.tiles.delete(keyOf(tile));
+    this.tiles.set(keyOf(tile), picture);
+    for (const [key, oldest] of this.tiles) {
+      if (this.tiles.size <= KEPT) break;
+      oldest.bitmap?.close();
+      this.tiles.delete(key);
+    }
+  }
+
+  /** The picture of a tile, or the part of a coarser one that covers it. Coverage, which takes longer, has fates until it comes. */
+  best(tile) { return this.#best(tile) ?? (tile.layer === COVERAGE ? this.#best({ ...tile, layer: FATE }) : null); }
+
+  #best(tile) {
+    for (let up = 0; up <= ANCESTORS; up++) {
+      const part = 2 ** -up;
+      const parent = { ...tile, lx: tile.lx - up, la: tile.la - up, i: Math.floor(tile.i * part), j: Math.floor(tile.j * part) };
+      const found = this.get(parent);
+      if (!found?.bitmap) continue;
+      const size = found.bitmap.width * part;
+      const left = (tile.i * part - parent.i) * found.bitmap.width;
+      const top = (parent.j + 1 - (tile.j + 1) * part) * found.bitmap.height;
+      return { bitmap: found.bitmap, left, top, size, up };
+    }
+    return null;
+  }
+}

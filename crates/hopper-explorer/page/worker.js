@@ -1,0 +1,52 @@
+// A worker: answers one job after the other. A tile is computed in strips, so that a newer wish can stop it between two of them.
+import { Core, Refusal } from "./core.js";
+
+/** Columns of a strip: some milliseconds of work. */
+const STRIP = 32;
+
+let core = null;
+let wanted = null; // the tile in work; another value stops it
+
+const pause = () => new Promise((resolve) => {
+  const { port1, port2 } = new MessageChannel();
+  port2.onmessage = () => { port1.close(); resolve(); };
+  port1.postMessage(null);
+});
+
+async function tile(id, job) {
+  wanted = id;
+  const { columns, rows } = job;
+  const image = new ImageData(columns, rows);
+  const values = job.values ? new Uint32Array(columns * rows) : null;
+  for (let from = 0; from < columns; from += STRIP) {
+    const to = Math.min(from + STRIP, columns);
+    const strip = core.tile(job, from, to);
+    const width = 4 * (to - from);
+    for (let row = 0; row < rows; row++) {
+      image.data.set(strip.pixels.subarray(row * width, (row + 1) * width), 4 * (row * columns + from));
+    }
+    values?.set(strip.values, from * rows);
+    postMessage({ id, progress: to });
+    await pause();
+    if (wanted !== id) return { stopped: true };
+  }
+  return { bitmap: await createImageBitmap(image), values };
+}
+
+async function answer({ id, kind, args }) {
+  try {
+    const found = kind === "tile" ? await tile(id, args[0]) : core[kind](...args);
+    const moved = found.bitmap ? [found.bitmap] : found.buffer ? [found.buffer] : [];
+    postMessage({ id, found }, moved);
+  } catch (error) {
+    postMessage({ id, error: error.message, refused: error instanceof Refusal });
+    // After a trap the memory of the core is in an unknown state.
+    if (!(error instanceof Refusal)) close();
+  }
+}
+
+onmessage = ({ data }) => {
+  if (data.module) core = new Core(data.module);
+  else if (data.stop !== undefined) { if (wanted === data.stop) wanted = null; }
+  else answer(data);
+};

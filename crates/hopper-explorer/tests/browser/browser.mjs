@@ -1,0 +1,40 @@
+// The headless Chromium of the tests, and pages that are ready.
+import { createRequire } from "node:module";
+
+const { chromium } = createRequire(process.env.EXPLORER_MODULES)("playwright-core");
+export const url = process.env.EXPLORER_URL;
+export const ready = () => window.explorer?.plane.idle === true;
+export const READY = { timeout: 60_000 };
+
+export const launch = () => chromium.launch({
+  executablePath: process.env.CHROMIUM,
+  args: ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+});
+
+/** A page at an address, with its complete picture; an error of the page fails the test at its end. */
+export async function open(browser, hash = "", options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, acceptDownloads: true, ...options });
+  const page = await context.newPage();
+  page.problems = [];
+  page.on("pageerror", (error) => page.problems.push(error.message));
+  page.on("request", (request) => { if (!request.url().startsWith(url) && !/^(data|blob):/.test(request.url())) page.problems.push(`loads ${request.url()}`); });
+  await page.goto(url + hash);
+  await page.waitForFunction(() => window.explorer !== undefined, null, READY);
+  if (!/depth=\d/.test(hash)) await page.waitForFunction(ready, null, READY);
+  return page;
+}
+
+/** FNV-1a of bytes, as in native_answers.rs; to be called in the page. */
+export const DIGEST = `(bytes) => {
+  let [high, low] = [0xcbf29ce4, 0x84222325];
+  for (const byte of bytes) {
+    low = (low ^ byte) >>> 0;
+    // Times 0x100000001b3 modulo 2^64.
+    const product = low * 0x1b3;
+    const carry = Math.floor(product / 2 ** 32);
+    high = (Math.imul(high, 0x1b3) + carry + Math.imul(low, 0x100)) >>> 0;
+    low = product % 2 ** 32;
+  }
+  return high.toString(16).padStart(8, "0") + low.toString(16).padStart(8, "0");
+}`;

@@ -1,0 +1,328 @@
+// The page as a person would use it, in a headless Chromium.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test } from "node:test";
+import { DIGEST, READY, launch, open, ready, url } from "./browser.mjs";
+
+const native = JSON.parse(readFileSync(process.env.EXPLORER_NATIVE, "utf8"));
+let browser;
+before(async () => { browser = await launch(); });
+after(() => browser.close());
+
+/** A test with its own page; the page may have no errors, and loads nothing from elsewhere. */
+const onPage = (name, hash, use, options) => test(name, { timeout: 180_000 }, async () => {
+  const page = await open(browser, hash, options);
+  try {
+    await use(page);
+    assert.deepEqual(page.problems, []);
+  } finally { await page.context().close(); }
+});
+const view = (page) => page.evaluate(() => explorer.state.view);
+const said = (page) => page.textContent("#say");
+const span = ([low, high]) => high - low;
+const settled = (page) => page.waitForFunction(ready, null, READY);
+
+onPage("the first picture has several colours", "", async (page) => {
+  const colors = await page.evaluate(() => {
+    const { canvas, context } = explorer.plane;
+    const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(new Uint32Array(data.buffer)).size;
+  });
+  assert.ok(colors > 5, `${colors} colours`);
+});
+
+onPage("tiles have the bits of the native ones", "", async (page) => {
+  for (const { values, colors, pixels, milliseconds, ...window } of native.tiles) {
+    const job = { ...window, columns: pixels, rows: pixels, values: window.layer < 2 };
+    const found = await page.evaluate(async ({ job, digest }) => {
+      const hash = eval(digest);
+      const { values, bitmap } = await explorer.pool.ask("tile", job);
+      const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+      const context = canvas.getContext("2d");
+      context.drawImage(bitmap, 0, 0);
+      const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+      return { values: values && hash(new Uint8Array(values.buffer)), colors: hash(data) };
+    }, { job, digest: DIGEST });
+    if (job.values) assert.equal(found.values, values, JSON.stringify(window));
+    assert.equal(found.colors, colors, JSON.stringify(window));
+  }
+});
+
+onPage("wheel zooms both axes, Shift only α, Alt only M", "", async (page) => {
+  const turn = async (key) => {
+    const from = await view(page);
+    if (key) await page.keyboard.down(key);
+    await page.mouse.move(400, 300);
+    await page.mouse.wheel(0, -300);
+    if (key) await page.keyboard.up(key);
+    await page.waitForFunction((old) => JSON.stringify(explorer.state.view) !== old, JSON.stringify(from));
+    const to = await view(page);
+    return [span(to.x) / span(from.x), span(to.alpha) / span(from.alpha)];
+  };
+  const [m, alpha] = await turn();
+  assert.ok(m < 0.8 && Math.abs(m - alpha) < 1e-9, `${m} ${alpha}`);
+  const [fixed, zoomed] = await turn("Shift");
+  assert.ok(Math.abs(fixed - 1) < 1e-12 && zoomed < 0.8);
+  const [narrow, same] = await turn("Alt");
+  assert.ok(narrow < 0.8 && Math.abs(same - 1) < 1e-12);
+  await settled(page);
+});
+
+onPage("a wheel keeps the point under the cursor", "", async (page) => {
+  await page.mouse.move(500, 350);
+  const at = () => page.evaluate(() => {
+    const { left, top } = explorer.plane.canvas.getBoundingClientRect();
+    const { box } = explorer.plane, { view } = explorer.state;
+    return [view.x[0] + (500 - left - 62) / box.width * (view.x[1] - view.x[0]), view.alpha[1] - (350 - top - 8) / box.height * (view.alpha[1] - view.alpha[0])];
+  });
+  const from = await at();
+  for (let k = 0; k < 5; k++) await page.mouse.wheel(0, -200);
+  await page.waitForFunction(() => explorer.state.view.x[1] - explorer.state.view.x[0] < 0.3);
+  const to = await at();
+  assert.ok(Math.abs(from[0] - to[0]) < 1e-9 && Math.abs(from[1] - to[1]) < 1e-9, `${from} ${to}`);
+});
+
+onPage("two fingers pinch", "", async (page) => {
+  const from = await view(page);
+  const client = await page.context().newCDPSession(page);
+  const touch = (type, points) => client.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+  await touch("touchStart", [[300, 300], [380, 380]]);
+  for (let k = 1; k <= 8; k++) await touch("touchMove", [[300 - 8 * k, 300 - 8 * k], [380 + 8 * k, 380 + 8 * k]]);
+  await touch("touchEnd", []);
+  const to = await view(page);
+  assert.ok(span(to.x) < 0.6 * span(from.x) && span(to.alpha) < 0.6 * span(from.alpha), JSON.stringify(to));
+}, { hasTouch: true });
+
+onPage("ten points have their native fates", "", async (page) => {
+  for (const known of native.points) {
+    await page.fill("#pin-m", String(known.massRatio));
+    await page.fill("#pin-alpha", String(known.alpha));
+    await page.press("#pin-alpha", "Enter");
+    await page.waitForFunction(([m, alpha]) => explorer.state.pin?.m === m && explorer.state.pin?.alpha === alpha, [known.massRatio, known.alpha]);
+    const name = known.fate.name.replace(/_(\d)/, (_, digit) => "₀₁₂₃₄₅₆₇₈₉"[digit]);
+    await page.waitForFunction((name) => document.querySelector("#fate .verdict")?.textContent === name, name);
+    const found = await page.evaluate(({ massRatio, alpha }) => explorer.desk.ask("point", massRatio, alpha, 60), known);
+    assert.deepEqual(found, known);
+  }
+});
+
+onPage("a click pins the point under the cursor", "", async (page) => {
+  await page.mouse.click(400, 300);
+  await page.waitForSelector("#fate .verdict");
+  const pin = await page.evaluate(() => explorer.state.pin);
+  const fate = await page.evaluate(({ m, alpha }) => explorer.desk.ask("point", m, alpha, 0), pin);
+  assert.ok((await page.textContent("#fate .verdict")).startsWith(fate.fate.name.slice(0, 4)));
+  assert.ok((await page.inputValue("#pin-m")) === String(pin.m) && pin.m > 0.5 && pin.m < 0.8);
+});
+
+onPage("the motion has the heights of the library", "#pin=0.2,7&hops=6", async (page) => {
+  await page.waitForSelector("#stage svg");
+  const found = await page.evaluate(() => explorer.desk.ask("motion", 0.2, 7, 6).then((all) => [...all]));
+  assert.deepEqual(found, native.samples);
+  // The drawn hopper is where a sample is.
+  const k = 40;
+  const [time, , , upper, , lower] = native.samples.slice(1 + 7 * k, 8 + 7 * k);
+  const shown = await page.evaluate((time) => explorer.stateAt(time), time);
+  assert.ok(Math.abs(shown.upper - upper) < 1e-12 && Math.abs(shown.lower - lower) < 1e-12);
+  await page.click("#play");
+  const before = await page.inputValue("#time");
+  await page.waitForFunction((before) => document.getElementById("time").value > Number(before) + 1, before);
+  await page.click("#play");
+  const still = await page.inputValue("#time");
+  await page.click("#forth");
+  assert.ok(Number(await page.inputValue("#time")) > Number(still));
+});
+
+onPage("a link gives the same bits", "", async (page) => {
+  const fields = { view: { logarithmic: true, x: [-3.0000000000000004, 0.1 + 0.2], alpha: [4.493409457909064, 7.725251836937707] },
+    layer: 1, pin: { m: 0.1 + 0.2, alpha: Math.PI * 2 }, hops: 7 };
+  await page.evaluate((fields) => explorer.change(fields), fields);
+  await page.waitForFunction(() => location.hash.includes("hops=7"));
+  const hash = new URL(page.url()).hash;
+  const other = await open(browser, hash);
+  const state = await other.evaluate(() => explorer.state);
+  for (const [name, value] of Object.entries(fields)) assert.deepEqual(state[name], value, name);
+  await other.context().close();
+});
+
+for (const garbage of ["#lin=1,2,3", "#lin=NaN,1,2,3&pin=-1,x", "#%E0%A4%A&depth=a,b,c", "#layer=<script>", "#pin=1e400,7&lin=1,0,5,4", "#lin=0,1e308,0,1e308"]) {
+  onPage(`garbage in the address survives: ${garbage}`, garbage, async (page) => {
+    assert.ok((await view(page)).alpha[1] > 4);
+    assert.match(await said(page), /makes no sense|M from/);
+    await page.keyboard.press("h");
+    await settled(page);
+  });
+}
+
+onPage("deep zoom to 10⁻¹⁰⁰ and on", "#depth=0.12,11.920553918335775,100", async (page) => {
+  await page.waitForFunction(() => explorer.deep.frames.some(({ pixels }) => pixels === 256), null, READY);
+  assert.match(await said(page), /10⁻¹⁰⁰ about p = 11\.92055391/);
+  const hash = await page.evaluate(async (digest) => {
+    const about = explorer.state.depth.about;
+    const data = await explorer.deep.desk.ask("depthFrame", 100, 64, 64);
+    return [eval(digest)(data), about];
+  }, DIGEST);
+  assert.deepEqual(hash, [native.frame, native.depth]);
+  for (let k = 0; k < 4; k++) await page.keyboard.press("+");
+  const deeper = await page.evaluate(() => explorer.state.depth.depth);
+  assert.ok(deeper > 100.5, `${deeper}`);
+  await page.keyboard.press("Escape");
+  await page.waitForFunction(() => explorer.state.depth === null);
+  await settled(page);
+});
+
+onPage("a wheel at an edge goes over to its chart", "#lin=0.11999999,0.12000001,11.92055391,11.92055393", async (page) => {
+  const target = await page.evaluate(() => {
+    const { left, top } = explorer.plane.canvas.getBoundingClientRect();
+    const { box } = explorer.plane, { view } = explorer.state;
+    return { x: left + 62 + (0.12 - view.x[0]) / (view.x[1] - view.x[0]) * box.width,
+      y: top + 8 + (view.alpha[1] - 11.920553918335775) / (view.alpha[1] - view.alpha[0]) * box.height };
+  });
+  await page.mouse.move(target.x, target.y);
+  for (let k = 0; k < 6; k++) await page.mouse.wheel(0, -200);
+  await page.waitForFunction(() => explorer.state.depth !== null, null, READY);
+  const depth = await page.evaluate(() => explorer.state.depth);
+  assert.ok(Math.abs(depth.alpha - 11.9205539183) < 1e-6 && depth.depth > 8, JSON.stringify(depth));
+  for (let k = 0; k < 3; k++) await page.mouse.wheel(0, 3000);
+  await page.waitForFunction(() => explorer.state.depth === null);
+});
+
+onPage("keyboard only", "", async (page) => {
+  const home = await view(page);
+  await page.keyboard.press("+");
+  await page.keyboard.press("ArrowRight");
+  await page.keyboard.press("X");
+  await page.keyboard.press("A");
+  const there = await view(page);
+  assert.ok(there.x[0] > 0.1 && span(there.x) < 0.5 * span(home.x));
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#fate .verdict");
+  for (const [key, layer] of [["2", 1], ["1", 0]]) {
+    await page.keyboard.press(key);
+    assert.equal(await page.evaluate(() => explorer.state.layer), layer);
+  }
+  await page.keyboard.press("l");
+  assert.equal((await view(page)).logarithmic, true);
+  await page.keyboard.press("t");
+  for (let k = 0; k < 7; k++) await page.keyboard.press("n");
+  assert.match(await page.textContent("#stop"), /8 of 8/);
+  await page.keyboard.press("n");
+  assert.ok(await page.isHidden("#stop"));
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("h");
+  await page.keyboard.press("?");
+  assert.ok(await page.isVisible("#dialog"));
+  await page.keyboard.press("Escape");
+  // Tab comes to every button and input.
+  const reached = new Set();
+  for (let k = 0; k < 60; k++) {
+    await page.keyboard.press("Tab");
+    reached.add(await page.evaluate(() => document.activeElement.id));
+  }
+  for (const id of ["layer", "logarithmic", "home", "deep", "tour", "share", "save", "help", "canvas", "pin-m", "pin-alpha", "play", "hops", "hopper"]) {
+    assert.ok(reached.has(id), `Tab does not come to ${id}`);
+  }
+});
+
+onPage("German and other numbers", "", async (page) => {
+  const read = (text) => page.evaluate((text) => explorer.parse(text), text);
+  for (const [text, value] of [["0,2", 0.2], ["0.2", 0.2], [" 1e-3 ", 0.001], ["1,5·10^-3", 0.0015], ["−2", -2], ["", null], ["1,2,3", null], ["NaN", null], ["0x10", null], ["1e999", null]]) {
+    assert.equal(await read(text), value, text);
+  }
+  await page.fill("#pin-m", "0,25");
+  await page.fill("#pin-alpha", "7,5");
+  await page.press("#pin-alpha", "Enter");
+  await page.waitForFunction(() => explorer.state.pin?.m === 0.25 && explorer.state.pin?.alpha === 7.5);
+  await page.fill("#pin-m", "many");
+  await page.press("#pin-m", "Enter");
+  assert.match(await said(page), /not a positive number/);
+}, { locale: "de-DE" });
+
+/** Saves a file by its button in the dialog. */
+async function saved(page, name) {
+  await page.keyboard.press("s");
+  const [download] = await Promise.all([page.waitForEvent("download", READY), page.click(`#dialog button:text-is("${name}")`)]);
+  await page.keyboard.press("Escape");
+  return readFileSync(await download.path());
+}
+
+onPage("files hold the picture and its parameters", "#lin=0.1,0.3,4.5,9&pin=0.2,7", async (page) => {
+  await page.waitForSelector("#map svg");
+  const take = (name) => saved(page, name);
+  const png = await take("PNG");
+  assert.equal(png.subarray(1, 4).toString(), "PNG");
+  assert.ok(png.includes("iTXtDescription") && png.includes("M from 0.1 to 0.3") && png.includes("#lin=0.1,0.3,4.5,9"));
+  // The browser reads the file with its texts, and sees the canvas.
+  const same = await page.evaluate(async (bytes) => {
+    const bitmap = await createImageBitmap(new Blob([new Uint8Array(bytes)], { type: "image/png" }));
+    const { canvas, context } = explorer.plane;
+    const other = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+    other.drawImage(bitmap, 0, 0);
+    const [a, b] = [context, other].map((one) => one.getImageData(0, 0, canvas.width, canvas.height).data);
+    return a.length === b.length && a.every((byte, k) => byte === b[k]);
+  }, [...png]);
+  assert.ok(same);
+  const svg = (await take("SVG")).toString();
+  assert.ok(svg.startsWith("<svg") && svg.includes("<desc>") && svg.includes("M from 0.1 to 0.3") && svg.includes("data:image/png"));
+  const parsed = await page.evaluate((svg) => new DOMParser().parseFromString(svg, "image/svg+xml").querySelector("parsererror")?.textContent ?? "", svg);
+  assert.equal(parsed, "");
+  const orbit = (await take("the orbit as CSV")).toString().split("\n");
+  assert.equal(Number(orbit[4].split(",")[1]), native.points[0].speeds[1]);
+  const map = (await take("the map as SVG")).toString();
+  assert.ok(map.includes("<desc>") && !map.includes("var(--"));
+});
+
+// On a page of its own: a browser asks before the second file that is saved long after a click.
+onPage("a table holds the labels of its places", "#lin=0.1,0.3,4.5,9", async (page) => {
+  const csv = (await saved(page, "CSV")).toString().trim().split("\n");
+  assert.equal(csv.length, 3 + 256 * 256);
+  const [m, alpha, label] = csv[3 + 1000].split(",").map(Number);
+  const { fate } = await page.evaluate(([m, alpha]) => explorer.desk.ask("point", m, alpha, 0), [m, alpha]);
+  assert.equal(fate.label, label);
+});
+
+onPage("it works offline", "", async (page) => {
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  await page.waitForFunction(async () => (await (await caches.open("hopper-explorer")).keys()).length > 20);
+  await page.context().setOffline(true);
+  await page.reload();
+  await settled(page);
+  await page.keyboard.press("Enter");
+  await page.waitForSelector("#fate .verdict");
+});
+
+onPage("a resized window has its picture", "", async (page) => {
+  for (const size of [{ width: 390, height: 844 }, { width: 1600, height: 900 }]) {
+    await page.setViewportSize(size);
+    await page.waitForFunction(() => explorer.plane.canvas.width === Math.round(explorer.plane.size.width * devicePixelRatio));
+    await settled(page);
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= size.width, `the page is ${wide} wide in a window of ${size.width}`);
+  }
+});
+
+onPage("a worker that dies is replaced", "", async (page) => {
+  await page.evaluate(() => {
+    // A job of no kind is an error that is no refusal: the worker closes itself.
+    explorer.pool.ask("none").catch((error) => { window.failed = error.message; });
+  });
+  await page.waitForFunction(() => window.failed !== undefined);
+  await page.evaluate(() => explorer.change({ view: { logarithmic: false, x: [0.3, 0.5], alpha: [5, 6] } }));
+  await settled(page);
+  // One that is killed without a word.
+  await page.evaluate(() => {
+    explorer.pool.members.forEach(({ worker }) => worker.terminate());
+    explorer.change({ view: { logarithmic: false, x: [0.6, 0.7], alpha: [5, 6] } });
+  });
+  await page.waitForTimeout(200);
+  await settled(page);
+});
+
+onPage("reduced motion and the dark page", "", async (page) => {
+  const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+  assert.notEqual(paper, "rgb(255, 255, 255)");
+}, { colorScheme: "dark", reducedMotion: "reduce" });
+
+test("it is found under its address", async () => {
+  assert.equal((await fetch(url)).status, 200);
+});

@@ -1,0 +1,119 @@
+//! The core gives what the libraries give, and refuses what they refuse.
+
+use basin_of_attraction::{Grid, Interval};
+use hopper_basin::{Fates, HopperFate, basin_columns};
+use hopper_explorer::{
+    Depth, Layer, Window, circle, intervals, legend, map, motion, places, point, strip, units,
+};
+use hopper_figures::fate_colors;
+use passive_hopper::MassRatio;
+
+fn window(x: (f64, f64), logarithmic: bool, alpha: (f64, f64), pixels: usize) -> Window {
+    Window { x, logarithmic, alpha, columns: pixels, rows: pixels }
+}
+
+#[test]
+fn a_tile_has_the_labels_and_colours_of_the_library() {
+    let of = window((0.1, 1.0), false, (4.5, 20.0), 48);
+    let found = strip(Layer::Fate, &of, 0..48).unwrap();
+    let interval = |(from, to): (f64, f64)| Interval::new(from, to).unwrap();
+    let grid = Grid { x: interval(of.x), y: interval(of.alpha), columns: 48, rows: 48 };
+    let labels = basin_columns(&grid, 0..48).unwrap();
+    let codes: Vec<u32> = labels.iter().flatten().map(|label| u32::from(label.code())).collect();
+    assert_eq!(found.values, codes);
+    // The highest row comes first.
+    let top_right = labels[47][47];
+    assert_eq!(found.pixels[4 * 47..4 * 47 + 3], fate_colors::rgb(top_right));
+}
+
+#[test]
+fn strips_make_the_tile() {
+    for (layer, logarithmic) in [(Layer::Fate, false), (Layer::Fate, true), (Layer::Hops, true)] {
+        let of = window((0.1, 0.4), logarithmic, (4.5, 9.0), 20);
+        let whole = strip(layer, &of, 0..20).unwrap();
+        let parts = [0..7, 7..20].map(|part| strip(layer, &of, part).unwrap().values);
+        assert_eq!(whole.values, parts.concat());
+    }
+}
+
+#[test]
+fn the_logarithmic_axis_has_the_fates_of_its_places() {
+    let of = window((-3.0, 0.0), true, (4.5, 9.0), 12);
+    let found = strip(Layer::Fate, &of, 0..12).unwrap();
+    let at = places(&of).unwrap();
+    for (column, &m) in at[..12].iter().enumerate() {
+        let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
+        for (row, &alpha) in at[12..].iter().enumerate() {
+            let label = fates.fate(alpha).unwrap().label();
+            assert_eq!(found.values[12 * column + row], u32::from(label.code()), "{m} {alpha}");
+        }
+    }
+}
+
+#[test]
+fn a_point_says_its_fate_and_its_trap() {
+    let incessant = point(0.2, 4.55, 3).unwrap();
+    assert!(
+        incessant.contains(r#""name":"to α*_1""#) && incessant.contains(r#""hops":0"#),
+        "{incessant}"
+    );
+    assert!(incessant.contains(r#""trap":{"n":1,"left":4.493409457909064"#), "{incessant}");
+    let grounded = point(1.0, 2.0, 3).unwrap();
+    assert!(grounded.contains(r#""trap":null"#) && grounded.contains(r#""grounded":true"#));
+    let name = HopperFate::label_name(HopperFate::GROUNDED);
+    assert!(grounded.contains(&format!(r#""name":"{name}""#)), "{grounded}");
+}
+
+#[test]
+fn motion_begins_at_the_lift_off() {
+    let all = motion(0.2, 7.0, 2).unwrap();
+    // Not grounded; time 0, hop 0, in flight, y₁ = 1, ẏ₁ = α, y₂ = ẏ₂ = 0.
+    assert_eq!(all[..8], [0.0, 0.0, 0.0, 1.0, 1.0, 7.0, 0.0, 0.0]);
+    assert_eq!((all.len() - 1) % 7, 0);
+}
+
+#[test]
+fn masses_of_a_toy_add_up() {
+    let toy = units(0.25, 0.1, 120.0, 9.81).unwrap();
+    assert!(toy.contains(r#""upperMass":0.08"#) && toy.contains(r#""lowerMass":0.02"#), "{toy}");
+}
+
+#[test]
+fn panels_and_the_depth_have_answers() {
+    assert!(map(0.2, 0.0, 8.0, 50).unwrap().contains(r#""massRatio":0.10345775533613"#));
+    assert!(circle(0.12, 2).unwrap().contains(r#""ground":"branches""#));
+    assert!(intervals(0.2, 1, 3).unwrap().contains(r#""ground":"proved""#));
+    assert!(legend().contains("#22a672"));
+    let depth = Depth::near(0.12, 11.920553918335775).unwrap();
+    let frame = depth.frame(100.0, 16, 16).unwrap();
+    // The lower half is the circle's side: its colour is a mixture. Above the edge is the basin of α*_2.
+    assert_eq!(frame[4 * 8..4 * 8 + 3], fate_colors::rgb(HopperFate::label_of_fixed_point(2)));
+}
+
+#[test]
+fn wrong_questions_are_refused_with_words() {
+    let refused = |text: String, word: &str| assert!(text.contains(word), "{text}");
+    let nan = f64::NAN;
+    refused(point(-1.0, 7.0, 3).unwrap_err().to_string(), "mass ratio");
+    refused(point(0.2, nan, 3).unwrap_err().to_string(), "speed");
+    assert!(map(0.2, 0.0, 1e9, 50).is_err() && map(0.2, 3.0, 2.0, 50).is_err());
+    assert!(motion(0.2, 7.0, 100_000).is_err() && circle(0.2, 0).is_err());
+    assert!(units(0.2, -1.0, 120.0, 9.81).is_err() && intervals(0.2, 3, 2).is_err());
+    let tile = |of: Window| strip(Layer::Fate, &of, 0..1).is_err();
+    assert!(
+        tile(window((0.1, 0.2), false, (4.0, 5.0), 0))
+            && tile(window((0.1, 0.2), false, (4.0, 5.0), 1 << 20))
+    );
+    assert!(
+        tile(window((nan, 0.2), false, (4.0, 5.0), 4))
+            && tile(window((0.1, 0.2), false, (-9.0, 5.0), 4))
+    );
+    assert!(strip(Layer::Fate, &window((0.1, 0.2), false, (4.0, 5.0), 4), 3..9).is_err());
+    assert!(Layer::numbered(3).is_err());
+    let depth = Depth::near(0.12, 11.920553918335775).unwrap();
+    assert!(
+        depth.frame(nan, 4, 4).is_err()
+            && depth.frame(1e6, 4, 4).is_err()
+            && depth.frame(9.0, 5000, 4).is_err()
+    );
+}

@@ -1,0 +1,145 @@
+//! `cargo xtask check-explorer`: the explorer in a headless Chromium, as a person would use it.
+//!
+//! It needs the target wasm32-unknown-unknown, node 20 or newer, a package index, and Chromium. If one of them cannot be had, it prints a
+//! line that begins with SKIPPED. With `--measure` it prints the figures of docs/explorer.md instead.
+
+use crate::error::Error;
+use crate::explorer_build::{INSTALL, build, cargo, manifest, say, target_folder, target_is_here};
+use crate::repository::repository;
+use crate::static_server::serve;
+use std::ffi::OsString;
+use std::net::TcpListener;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Stdio};
+
+/// Names of Chromium, after the variable CHROMIUM.
+const BROWSERS: [&str; 4] =
+    ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+
+/// Tests the core, builds the page, and drives the browser; or measures.
+pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
+    let measure = match arguments.first().map(|word| word.to_string_lossy()) {
+        None => false,
+        Some(word) if word == "--measure" => true,
+        Some(word) if word == "--help" || word == "-h" => {
+            say("Test the explorer in a headless Chromium: needs node, npm and Chromium\n\n\
+                 Usage: cargo xtask check-explorer [--measure]\n\n\
+                 Options:\n      --measure  Print times and sizes instead\n  -h, --help     Print help")?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        Some(word) => {
+            let option = word.into_owned();
+            return Err(Error::UnknownOption { command: "check-explorer", option });
+        }
+    };
+    let folder = target_folder().join("explorer");
+    if !measure {
+        step(cargo_command(&["test"]), "the tests of its core")?;
+    }
+    if !target_is_here() {
+        return skip(&format!("the target wasm32-unknown-unknown is not there: `{INSTALL}`"));
+    }
+    if !succeeds(Command::new("node").args(["-e", NEW_ENOUGH])) {
+        return skip("node 20 or newer is not there");
+    }
+    let Some(browser) = browser() else {
+        return skip("Chromium is not there; name one with CHROMIUM=/path/to/chromium");
+    };
+    if !has_driver(&folder)? {
+        return skip("playwright-core cannot be installed by npm");
+    }
+    build(&folder.join("site"))?;
+    // What the page shows is compared with what the same code gives here.
+    let native = folder.join("native.json");
+    let mut answers = cargo_command(&["run", "--quiet", "--example", "native_answers"]);
+    if measure {
+        answers.arg("--release");
+    }
+    step(answers.arg("--").arg(&native), "the native answers")?;
+    let at = |source| Error::File { path: "the loopback address".into(), source };
+    let listener = TcpListener::bind("127.0.0.1:0").map_err(at)?;
+    let port = listener.local_addr().map_err(at)?.port();
+    let site = folder.join("site");
+    // Ends with this process.
+    std::thread::spawn(move || serve(&listener, &site));
+    let tests = repository().join("crates/hopper-explorer/tests/browser");
+    let mut node = Command::new("node");
+    if measure {
+        node.arg(tests.join("measure.mjs"));
+    } else {
+        node.args(["--test", "--test-concurrency=1"]).arg(tests.join("page.test.mjs"));
+    }
+    node.env("EXPLORER_URL", format!("http://127.0.0.1:{port}/")).env("CHROMIUM", browser);
+    node.env("EXPLORER_NATIVE", &native).env("EXPLORER_MODULES", folder.join("driver/"));
+    node.env("EXPLORER_SITE", folder.join("site"));
+    step(&mut node, "the page in the browser")?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Ends with an error in an older node.
+const NEW_ENOUGH: &str = "process.exit(Number(process.versions.node.split('.')[0]) >= 20 ? 0 : 1)";
+
+fn cargo_command(words: &[&str]) -> Command {
+    let mut command = Command::new(cargo());
+    command.args(words).arg("--manifest-path").arg(manifest());
+    command.arg("--target-dir").arg(target_folder());
+    command
+}
+
+/// Installs the driver of the browser from the committed list, unless an earlier run has; false if it cannot be had.
+fn has_driver(folder: &Path) -> Result<bool, Error> {
+    let driver = folder.join("driver");
+    let at = |path: &Path| {
+        let path = path.to_path_buf();
+        move |source| Error::File { path, source }
+    };
+    std::fs::create_dir_all(&driver).map_err(at(&driver))?;
+    let lists = repository().join("crates/hopper-explorer/tests/browser");
+    let (wanted, there) = (lists.join("package-lock.json"), driver.join("installed.json"));
+    let text = std::fs::read(&wanted).map_err(at(&wanted))?;
+    if std::fs::read(&there).is_ok_and(|installed| installed == text) {
+        return Ok(true);
+    }
+    for name in ["package.json", "package-lock.json"] {
+        let from = lists.join(name);
+        std::fs::copy(&from, driver.join(name)).map_err(at(&from))?;
+    }
+    let npm = if cfg!(windows) { "npm.cmd" } else { "npm" };
+    let mut install = Command::new(npm);
+    install.args(["ci", "--no-audit", "--no-fund", "--silent"]).current_dir(&driver);
+    if !succeeds(&mut install) {
+        return Ok(false);
+    }
+    std::fs::write(&there, text).map_err(at(&there))?;
+    Ok(true)
+}
+
+/// The variable CHROMIUM, or the first of the usual names in the path.
+fn browser() -> Option<PathBuf> {
+    if let Some(named) = std::env::var_os("CHROMIUM") {
+        return Some(named.into());
+    }
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+    let places =
+        BROWSERS.iter().flat_map(|name| folders.iter().map(move |folder| folder.join(name)));
+    places.into_iter().find(|place| place.is_file())
+}
+
+fn succeeds(command: &mut Command) -> bool {
+    let status = command.stdout(Stdio::null()).stderr(Stdio::null()).status();
+    status.is_ok_and(|status| status.success())
+}
+
+fn step(mut command: impl std::borrow::BorrowMut<Command>, what: &str) -> Result<(), Error> {
+    let command = command.borrow_mut();
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(Error::Explorer(format!("{what} failed ({status})"))),
+        Err(source) => Err(Error::Explorer(format!("{what} could not start: {source}"))),
+    }
+}
+
+fn skip(reason: &str) -> Result<ExitCode, Error> {
+    say(&format!("SKIPPED the explorer's page in a browser: {reason}")).map(|()| ExitCode::SUCCESS)
+}

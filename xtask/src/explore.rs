@@ -1,0 +1,63 @@
+//! `cargo xtask explore`: builds the explorer, and serves it on the loopback address or writes it into a folder.
+
+use crate::error::Error;
+use crate::explorer_build::{build, say, target_folder};
+use crate::static_server::serve;
+use std::ffi::OsString;
+use std::net::TcpListener;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// The first port that is tried, and how many after it.
+const PORT: u16 = 8642;
+const PORTS: u16 = 20;
+
+const HELP: &str = "\
+Build the browser explorer of the basins, and serve it on the loopback address
+
+Usage: cargo xtask explore [OPTIONS]
+
+Options:
+      --export <DIR>  Write the static folder instead: any web server can serve it
+  -h, --help          Print help
+
+Where the target wasm32-unknown-unknown is missing, rustup installs it.
+";
+
+/// Builds, then serves until Ctrl-C or writes the folder.
+pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
+    let words: Vec<String> =
+        arguments.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+    let export = match words.iter().map(String::as_str).collect::<Vec<_>>().as_slice() {
+        [] => None,
+        ["-h" | "--help"] => return say(HELP.trim_end()).map(|()| ExitCode::SUCCESS),
+        // The argument itself, which need not be a text.
+        ["--export", _] => arguments.get(1).map(PathBuf::from),
+        ["--export"] => {
+            return Err(Error::Explorer("--export needs a folder: --export DIR".into()));
+        }
+        [option, ..] => {
+            return Err(Error::UnknownOption { command: "explore", option: (*option).to_owned() });
+        }
+    };
+    let folder = export.clone().unwrap_or_else(|| target_folder().join("explorer/site"));
+    build(&folder)?;
+    if export.is_some() {
+        say(&format!("{} holds the explorer; any web server can serve it", folder.display()))?;
+        return Ok(ExitCode::SUCCESS);
+    }
+    let listener =
+        (PORT..PORT + PORTS).find_map(|port| TcpListener::bind(("127.0.0.1", port)).ok());
+    let Some(listener) = listener else {
+        let last = PORT + PORTS - 1;
+        let reason = format!(
+            "all ports from {PORT} to {last} are taken; end another server, or use --export"
+        );
+        return Err(Error::Explorer(reason));
+    };
+    let at = |source| Error::File { path: "the loopback address".into(), source };
+    let port = listener.local_addr().map_err(at)?.port();
+    say(&format!("http://127.0.0.1:{port}/    Ctrl-C ends it"))?;
+    serve(&listener, &folder);
+    Ok(ExitCode::SUCCESS)
+}
