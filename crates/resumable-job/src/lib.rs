@@ -38,7 +38,7 @@
 //! }
 //! let array = folder.join("squares.npy");
 //! let header = npy_header(Order::Fortran, Element::U16, 1, 4);
-//! pieces.assemble(&array, &header, 4, |_, _| ())?;
+//! pieces.assemble(&array, &header, 4, || Ok::<(), resumable_job::Error>(()), |_, _| ())?;
 //! pieces.remove(4)?;
 //! assert_eq!(std::fs::read(&array)?[header.len()..], [0, 0, 1, 0, 4, 0, 9, 0]);
 //! # drop(lock);
