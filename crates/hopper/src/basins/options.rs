@@ -115,8 +115,8 @@ pub(crate) const PAGE: Page = Page {
             line: "hopper basins --coverage --mass-ratio 0.17 0.18 --speed 17 17.8 --pixels 8 32 --out coverage",
         },
         Example {
-            about: "Every scale from 10⁻² to 10⁻³⁰⁰ below the second fixed point.",
-            line: "hopper basins --about 2 --mass-ratio 0.19 0.21 --pixels 4 40 --out scales",
+            about: "All scales below the second fixed point at once: two turns of the circle of fates.",
+            line: "hopper basins --about 2 --turns 2 --mass-ratio 0.08 0.4 --pixels 8 40 --out scales",
         },
     ],
 };

@@ -60,12 +60,6 @@ impl Shares {
     /// # Errors
     /// [`Error::Misuse`] if there is none.
     pub(crate) fn new(n: u64, options: &Options, pixels: &[usize]) -> Result<Self, Error> {
-        let largest = HopperFate::LARGEST_LABEL;
-        if !(1..=largest).contains(&n) {
-            let reason =
-                format!("rasters are about the fixed points 1 to {largest}; give such a number");
-            return Err(Error::misuse("--about", n, &reason));
-        }
         let preimage = options.preimage.as_deref().and_then(|pair| pair.try_into().ok());
         let upwards = (options.turns, options.offset.as_deref());
         let (grid, upwards) = grid(&options.mass_ratio, pixels, upwards, preimage.is_some())?;
