@@ -2,7 +2,7 @@
 
 use crate::basins::branches::{branches, branches_are_proved, contact_branches};
 use crate::error::Error;
-use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 use crate::fates::hopper_fate::HopperFate;
 use crate::traps::trap::TrapEdge;
 use basin_of_attraction::{
@@ -67,7 +67,7 @@ impl HopperBasins {
     /// 3/n of the decided length in 95 of 100 cases.
     ///
     /// # Errors
-    /// As [`Fates::labels`].
+    /// As [`Fates::fate`].
     pub fn probe(&self, fates: &Fates, points: usize, seed: u64) -> Result<Probes, Error> {
         let (window, random) = (self.basins.window(), SplitMix64::from_seed(seed));
         let speed = |k: usize| window.left + window.length() * random.uniform(k as u64);
@@ -75,7 +75,8 @@ impl HopperBasins {
         let known = |speed: &f64| self.basins.label(*speed).is_some();
         let speeds: Vec<f64> = (0..points).map(speed).filter(known).collect();
         let mut probes = Probes { compared: 0, wrong: 0, first_wrong: None };
-        for (&speed, fate) in speeds.iter().zip(fates.labels(&speeds)?) {
+        for (&speed, (fate, _)) in speeds.iter().zip(fates.fates_within(&speeds, HOP_BUDGET)?) {
+            let fate = fate.label();
             let Some(found) = self.basins.label(speed).filter(|_| fate.is_basin()) else {
                 continue;
             };
