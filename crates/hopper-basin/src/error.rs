@@ -119,7 +119,7 @@ pub enum Error {
     },
     /// No boundary point that comes to a fixed point is near a speed.
     #[error(
-        "no speed within {within:e} of {alpha} comes to a fixed point exactly in at most {hops} hops; give a speed nearer to the edge"
+        "no speed within {within:e} of {alpha:?} comes to a fixed point exactly in at most {hops} hops; give a speed nearer to the edge"
     )]
     NoEdge {
         /// The speed given.

@@ -6,7 +6,7 @@ use basin_of_attraction::{Refinement, StopReason};
 use hopper_basin::{
     BranchGround, Error, Fates, HopperBasins, HopperFate, basin_fractions, branches, hopper_basins,
 };
-use passive_hopper::MassRatio;
+use passive_hopper::{MassRatio, alpha_star};
 
 fn mass_ratio(m: f64) -> MassRatio {
     MassRatio::new(m).unwrap()
@@ -69,4 +69,38 @@ fn ranges_of_humps_that_never_end_are_errors() {
         assert!(matches!(branches(&f, 0, to, samples), Err(Error::BasinOfAttraction(_))));
     }
     assert_eq!(branches(&f, 5, 5, 3).unwrap(), []);
+}
+
+/// At the ends of the range of M nothing is searched: small M have whole humps as traps, and large M have no window that `f64` resolves.
+#[test]
+fn at_extreme_mass_ratios_the_traps_are_the_basins() {
+    let small = basins(&fates(1e-300), 400);
+    assert_eq!((small.ground, small.probes.wrong), (BranchGround::Proved, 0));
+    assert_eq!(small.basins.stop_reason(), StopReason::Resolved);
+    for n in 1..6 {
+        let hump = alpha_star(n + 1) - alpha_star(n);
+        assert!(
+            (small.basins.resolved_length(HopperFate::label_of_fixed_point(n)) - hump).abs()
+                < 1e-13
+        );
+    }
+    for m in [51.0, 1e3, 1e300, 1.0 / f64::MIN_POSITIVE] {
+        let fates = fates(m);
+        let large = basins(&fates, 400);
+        assert_eq!((large.ground, large.probes.wrong), (BranchGround::ContactParts, 0), "{m}");
+        assert!(large.probes.compared > 400);
+        for n in 1..6 {
+            let contact = (n + 1) as f64 * std::f64::consts::PI - alpha_star(n);
+            let known = large.basins.resolved_length(HopperFate::label_of_fixed_point(n));
+            assert!((known - contact).abs() < 1e-12, "{m} {n}: {known} {contact}");
+        }
+        // What is undecided is in every upper bound.
+        let upper: f64 = large.basins.basin_length(1.into()).upper;
+        assert!(upper > 6.0, "{m}: {upper}");
+    }
+    // Higher humps still fall at M = 60: their contact parts are followed.
+    let fates = fates(60.0);
+    let found = hopper_basins(&fates, 0, 30, 400, Refinement::default()).unwrap();
+    assert_eq!((found.ground, found.probes.wrong), (BranchGround::ContactParts, 0));
+    assert!(found.basins.intervals().iter().any(|part| part.level > 0));
 }

@@ -192,6 +192,7 @@ impl IntervalBasins {
         match self.found.ground {
             BranchGround::Proved => "proved",
             BranchGround::Spacing { .. } => "sampled",
+            BranchGround::ContactParts => "contact parts",
         }
     }
 

@@ -81,6 +81,9 @@ impl Error {
 
     /// The refusal of an option: "--window 3 2: the window must …; give …".
     pub(crate) fn misuse(option: &str, value: impl std::fmt::Display, reason: &str) -> Self {
+        let value = value.to_string();
+        // An empty value is shown as such.
+        let value = if value.is_empty() { "''" } else { value.as_str() };
         Error::Misuse(format!("{option} {value}: {reason}"))
     }
 

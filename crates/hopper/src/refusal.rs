@@ -1,6 +1,6 @@
 //! Wrong arguments as one line.
 
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::ffi::OsString;
 
 /// The longest value that a message repeats. A longer one is cut: the reader knows what was given.
@@ -8,10 +8,18 @@ const LONGEST_VALUE: usize = 60;
 
 /// The message of the argument parser as one line: what is wrong, and the nearest name or the names that exist.
 pub(crate) fn line(error: &clap::Error, arguments: &[OsString]) -> String {
-    if let Some(text) = negative_argument(error, arguments) {
+    if let Some(text) =
+        unreadable_argument(error, arguments).or_else(|| negative_argument(error, arguments))
+    {
         return text;
     }
-    let text = error.to_string();
+    let mut text = error.to_string();
+    // A line break in an argument is no end of the message.
+    for argument in arguments.iter().filter_map(|argument| argument.to_str()) {
+        if argument.contains(['\n', '\r']) {
+            text = text.replace(argument, &one_line(argument));
+        }
+    }
     let mut parts: Vec<String> = Vec::new();
     for line in text.lines().map(str::trim) {
         // The usage is in --help.
@@ -31,6 +39,15 @@ pub(crate) fn line(error: &clap::Error, arguments: &[OsString]) -> String {
     parts.join("; ").replace(":; ", ": ") + remedy
 }
 
+/// An argument that is no text in UTF-8: the parser does not say which.
+fn unreadable_argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
+    let is_unreadable = |argument: &&OsString| argument.to_str().is_none();
+    let found =
+        arguments.iter().find(is_unreadable).filter(|_| error.kind() == ErrorKind::InvalidUtf8)?;
+    let found = shortened(&found.to_string_lossy());
+    Some(format!("'{found}' is no text in UTF-8; give numbers and names in UTF-8"))
+}
+
 /// "-inf" and "-1e-6" begin like options. They are numbers that no argument takes.
 fn negative_argument(error: &clap::Error, arguments: &[OsString]) -> Option<String> {
     if error.kind() != ErrorKind::UnknownArgument {
@@ -40,10 +57,19 @@ fn negative_argument(error: &clap::Error, arguments: &[OsString]) -> Option<Stri
         let rest = text.strip_prefix('-').unwrap_or_default();
         rest.starts_with(|c: char| c.is_ascii_digit() || c == '.') || rest.parse::<f64>().is_ok()
     };
-    let found = arguments.iter().filter_map(|argument| argument.to_str()).find(is_number)?;
-    let finite = found.parse::<f64>().is_ok_and(f64::is_finite);
+    let Some(ContextValue::String(unknown)) = error.get(ContextKind::InvalidArg) else {
+        return None;
+    };
+    let found = arguments.iter().filter_map(|argument| argument.to_str()).filter(is_number);
+    let found = found.into_iter().find(|found| found.starts_with(unknown))?;
+    let number = found.parse::<f64>().ok();
     let found = shortened(found);
-    Some(if finite {
+    let Some(number) = number else {
+        return Some(format!(
+            "'{found}' begins as an option or a negative number, and is neither; --help shows the options and their values"
+        ));
+    };
+    Some(if number.is_finite() {
         format!(
             "'{found}' is negative, or not expected here; give a positive number such as 7.5 or 1e-3"
         )

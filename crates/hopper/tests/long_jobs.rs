@@ -268,7 +268,7 @@ fn wrong_calls_are_refused_in_one_line_and_write_nothing() {
         (&["--join", "--force"], "--force"),
         (&["--join"], "--join --out "),
         (&["--layer", "labels"], "label"),
-        (&["--about", "0"], "--about 0: "),
+        (&["--about", "0"], "'0' for '--about <N>'"),
         (&["--about", "2", "--offset", "1e-9", "1e-3"], "--offset "),
         (&["--about", "2", "--turns", "0"], "--turns 0: "),
         (&["--about", "2", "--speed", "5", "6"], "--speed"),

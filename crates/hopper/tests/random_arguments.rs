@@ -147,3 +147,101 @@ fn random_calls_never_panic() {
     }
     assert!(codes[0] > 50 && codes[2] > 1500, "{codes:?}");
 }
+
+/// Words of `hopper basins`.
+const BASINS: &[&str] = &[
+    "--mass-ratio",
+    "-M",
+    "--speed",
+    "--layer",
+    "label",
+    "hops",
+    "--coverage",
+    "--part",
+    "1/2",
+    "2/2",
+    "3/2",
+    "--join",
+    "--force",
+    "--about",
+    "--offset",
+    "1e-2",
+    "1e-300",
+    "--preimage",
+    "--turns",
+    "--zoom",
+    "--frames",
+    "--step",
+    "--table",
+    "files",
+    "--csv",
+    "--json",
+    "-q",
+    "-v",
+    "0.12",
+    "11.92",
+    "0.1",
+    "0.2",
+    "1",
+    "2",
+    "3",
+    "0",
+    "-1",
+    "5",
+    "1e300",
+    "5e-324",
+    "nan",
+    "-inf",
+    "1e9",
+    "é",
+    "",
+    "--",
+    "x",
+];
+
+/// Rasters of nine pixels and zooms of two frames bound the time: a random call that is accepted computes.
+#[test]
+fn random_rasters_never_panic() {
+    let random = SplitMix64::from_seed(1917);
+    let mut at = 0;
+    let mut next = |most: usize| {
+        at += 1;
+        (random.uniform(at) * most as f64) as usize
+    };
+    let folder = std::env::temp_dir().join(format!("hopper_random_{}", std::process::id()));
+    let mut codes = [0u32; 3];
+    for k in 0..1500 {
+        let out = folder.join((k / 100).to_string()).display().to_string();
+        let mut arguments = vec!["basins", "--out", &out, "--pixels", "3", "3"];
+        // Every third call begins with options that belong together.
+        let sensible: &[&[&str]] = &[
+            &["-M", "0.1", "0.2"],
+            &["--layer", "hops", "label"],
+            &["--coverage"],
+            &["--about", "2", "--offset", "1e-2", "1e-300"],
+            &["--about", "2", "--turns", "1"],
+            &["--about", "2", "--preimage", "0.12", "11.92"],
+            &["--zoom", "0.12", "11.92", "--frames", "2"],
+        ];
+        if k % 3 == 0 {
+            arguments.extend(sensible[next(sensible.len())]);
+        }
+        arguments.extend((0..next(5)).map(|_| BASINS[next(BASINS.len())]));
+        if arguments.contains(&"--zoom") && !arguments.contains(&"--frames") {
+            arguments.extend(["--frames", "2"]);
+        }
+        let called = catch_unwind(|| call(&arguments, b""));
+        let called = called.unwrap_or_else(|_| panic!("panic: {arguments:?}"));
+        assert!(called.code <= 2, "{arguments:?}: {}", called.messages);
+        codes[usize::from(called.code)] += 1;
+        let lines = called.messages.lines().filter(|line| line.starts_with("error: "));
+        assert_eq!(
+            lines.count(),
+            usize::from(called.code > 0),
+            "{arguments:?}: {}",
+            called.messages
+        );
+    }
+    let _ = std::fs::remove_dir_all(&folder);
+    assert!(codes[0] > 50 && codes[2] > 500, "{codes:?}");
+}

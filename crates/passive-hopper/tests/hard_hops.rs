@@ -69,3 +69,20 @@ fn every_shorter_way_decides_these_hops_as_512_bits_do_or_not_at_all() {
     // 106 and 256 bits decide all of them.
     assert!(compared >= 2 * HOPS.len(), "{compared}");
 }
+
+/// In 106 bits the product of two numbers splits its factors, and M = 4·10³⁰⁷ times 2²⁷ is infinite: such a hop did not end.
+#[test]
+fn hops_at_the_largest_mass_ratios_end() {
+    for exponent in [300, 301, 307] {
+        let m = 4.0 * 10f64.powi(exponent);
+        for alpha in [4.4, 9.5e3, 8_796_093_022_208.0] {
+            let found = map(m).bounded_hop(alpha).unwrap();
+            // The loss is μ Σ Γ² / (2α) to first order, μ = 1/M, and the last digit of α does not change.
+            let next = found.hop.next.unwrap();
+            assert_eq!(next, alpha, "{m} {alpha}");
+            let squares: f64 = found.landings.iter().map(|l| l.landing.closing_speed.powi(2)).sum();
+            let (loss, first_order) = (found.hop.loss.unwrap(), squares / m / (2.0 * alpha));
+            assert!((loss - first_order).abs() <= 1e-6 * first_order, "{m} {alpha}: {loss}");
+        }
+    }
+}

@@ -6,7 +6,7 @@
 //! | [`repository`] | the root of the repository, which is known from the build |
 //! | [`Folder`], [`results_folder`] | a folder for results; each file is written whole or not at all |
 //! | [`read`], [`parse_rows`], [`number`] | text files; files of reference values, one JSON object a line |
-//! | [`say`], [`Progress`] | lines on standard output; bars on standard error, if that is a terminal |
+//! | [`say`], [`Progress`] | lines on standard output; progress on standard error |
 //! | [`exit_code`] | the end of a program: its error as one line, its exit status |
 
 mod error;

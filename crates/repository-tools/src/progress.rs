@@ -1,35 +1,46 @@
-//! Progress on a terminal.
+//! The progress of a computation that takes a while, as the program `hopper` shows that of its jobs.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use resumable_job::{Pace, Place};
+use std::io::{IsTerminal, Stderr};
+use std::sync::Mutex;
+use std::time::Instant;
 
-/// Shows bars on standard error, if that is a terminal; in a pipe it shows none.
+/// Shows how far computations are, on standard error: a line that changes on a terminal, elsewhere a line every 30 seconds.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Progress;
 
-/// A bar.
+/// The progress of one computation, for all its threads.
 #[derive(Debug)]
-pub struct Bar(ProgressBar);
+pub struct Bar {
+    began: Instant,
+    line: Mutex<resumable_job::Progress<Stderr>>,
+}
 
 impl Progress {
-    /// A bar of `length` steps.
+    /// The progress of `length` steps, such as claims.
     pub fn bar(&self, name: &'static str, length: u64) -> Bar {
-        let bar = ProgressBar::new(length);
-        let template = "{msg:32} [{bar:36}] {percent:>3} %  {eta} left";
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style.progress_chars("=> "));
-        }
-        bar.set_message(name);
-        Bar(bar)
+        let total = usize::try_from(length).unwrap_or(usize::MAX);
+        let pace = Pace { unit: name, total, found: 0, each: None };
+        let stream = std::io::stderr();
+        let place = Place::new(false, stream.is_terminal());
+        let line = Mutex::new(resumable_job::Progress::new(pace, place, stream));
+        Bar { began: Instant::now(), line }
     }
 }
 
 impl Bar {
-    /// Moves the bar to `position` of its length.
+    /// Tells that `position` of the steps are done.
     pub fn set(&self, position: u64) {
-        self.0.set_position(position);
+        // Another thread is telling a number that is as good.
+        if let Ok(mut progress) = self.line.try_lock() {
+            let done = usize::try_from(position).unwrap_or(usize::MAX);
+            progress.tell(done, self.began.elapsed());
+        }
     }
-    /// Removes the bar from the terminal.
+    /// Removes the line from the terminal.
     pub fn finish(&self) {
-        self.0.finish_and_clear();
+        if let Ok(mut progress) = self.line.lock() {
+            progress.clear();
+        }
     }
 }

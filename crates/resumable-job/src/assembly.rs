@@ -26,35 +26,37 @@ impl Pieces {
     /// Writes `header` and the payloads of the pieces 0 … `pieces` − 1 to the file `path`. Compares the written bytes
     /// with the pieces before the file gets its name.
     ///
+    /// `go_on` is asked before each piece is written, and before it is compared: its error, such as a signal, ends the assembly.
     /// `look` receives each payload that agrees, in order, with its number.
     ///
     /// # Errors
     /// [`Error::MissingPiece`] if a piece is not finished; [`Error::Differs`] if the written file does not have the
-    /// bytes of the pieces. After either error the pieces, and a file that had this name before, are unchanged.
-    pub fn assemble(
+    /// bytes of the pieces; the errors of `go_on`. After an error the pieces, and a file that had this name before, are unchanged.
+    pub fn assemble<E: From<Error>>(
         &self,
         path: &Path,
         header: &[u8],
         pieces: usize,
+        go_on: impl Fn() -> Result<(), E>,
         look: impl FnMut(usize, &[u8]),
-    ) -> Result<(), Error> {
+    ) -> Result<(), E> {
         let mut file = AtomicFile::create(path)?;
         file.append(header)?;
         for piece in 0..pieces {
+            go_on()?;
             file.append(&self.finished(piece)?)?;
         }
-        file.finish_if(|written| self.compare(written, path, header, pieces, look))
+        file.finish_if(|written| self.compare(written, (path, header, pieces), go_on, look))
     }
 
     /// Reads a file from its start, and compares it with the header and all pieces.
-    fn compare(
+    fn compare<E: From<Error>>(
         &self,
         written: &mut File,
-        path: &Path,
-        header: &[u8],
-        pieces: usize,
+        (path, header, pieces): (&Path, &[u8], usize),
+        go_on: impl Fn() -> Result<(), E>,
         mut look: impl FnMut(usize, &[u8]),
-    ) -> Result<(), Error> {
+    ) -> Result<(), E> {
         let mut offset = 0;
         let mut found = Vec::new();
         let mut agree = |expected: &[u8], part: &dyn Fn() -> String| {
@@ -72,6 +74,7 @@ impl Pieces {
         };
         agree(header, &|| "the header".to_owned())?;
         for piece in 0..pieces {
+            go_on()?;
             let payload = self.finished(piece)?;
             agree(&payload, &|| format!("piece {piece}"))?;
             look(piece, &payload);
@@ -79,7 +82,7 @@ impl Pieces {
         let length = written.metadata().map_err(Error::at(path))?.len();
         if length != offset {
             let part = "its end".to_owned();
-            return Err(Error::Differs { path: path.into(), part, offset });
+            return Err(Error::Differs { path: path.into(), part, offset }.into());
         }
         Ok(())
     }
@@ -89,6 +92,10 @@ impl Pieces {
 mod tests {
     use super::*;
     use std::path::PathBuf;
+
+    fn no_signal() -> Result<(), Error> {
+        Ok(())
+    }
 
     fn folder(name: &str) -> PathBuf {
         let folder =
@@ -106,12 +113,26 @@ mod tests {
             kept.write(piece, payload).unwrap();
         }
         let (path, mut seen) = (folder.join("all"), Vec::new());
-        kept.assemble(&path, b"one ", 3, |piece, payload| seen.push((piece, payload.len())))
-            .unwrap();
+        let see = |piece: usize, payload: &[u8]| seen.push((piece, payload.len()));
+        kept.assemble(&path, b"one ", 3, no_signal, see).unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"one two three");
         assert_eq!(seen, [(0, 4), (1, 0), (2, 5)]);
-        let missing = kept.assemble(&path, b"", 4, |_, _| ()).unwrap_err();
+        let missing = kept.assemble(&path, b"", 4, no_signal, |_, _| ()).unwrap_err();
         assert!(missing.to_string().contains("piece_000003"), "{missing}");
+        // A signal at any time, while the pieces are written or compared.
+        for after in 0..6 {
+            let asked = std::cell::Cell::new(0);
+            let signal = || {
+                asked.set(asked.get() + 1);
+                if asked.get() > after {
+                    Err(Error::at(&path)(ErrorKind::Interrupted.into()))
+                } else {
+                    Ok(())
+                }
+            };
+            kept.assemble(&path, b"", 3, signal, |_, _| ()).unwrap_err();
+            assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 2, "no file is left over");
+        }
         // The file of the earlier success is untouched.
         assert_eq!(std::fs::read(&path).unwrap(), b"one two three");
         std::fs::remove_dir_all(&folder).unwrap();
@@ -127,7 +148,7 @@ mod tests {
         let compare = |bytes: &[u8]| {
             std::fs::write(&path, bytes).unwrap();
             let mut file = File::open(&path).unwrap();
-            kept.compare(&mut file, &path, b"head", 2, |_, _| ())
+            kept.compare(&mut file, (&path, b"head", 2), no_signal, |_, _| ())
         };
         compare(b"headabcdefgh").unwrap();
         for (bytes, words) in [

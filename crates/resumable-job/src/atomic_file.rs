@@ -48,7 +48,8 @@ impl AtomicFile {
                 // The number of a process is used again after its end, and in another container at the same time. The
                 // name then belongs to another process: the next count is tried.
                 Err(error) if error.kind() == ErrorKind::AlreadyExists => continue,
-                Err(error) => return Err(Error::at(&temporary)(error)),
+                // The temporary name means nothing to a reader.
+                Err(error) => return Err(Error::at(path)(error)),
             };
             let ours = match file.try_lock() {
                 Ok(()) => is_named(&file, &temporary).map_err(Error::at(&temporary))?,
@@ -67,7 +68,7 @@ impl AtomicFile {
 
     /// Appends bytes.
     pub fn append(&mut self, bytes: &[u8]) -> Result<(), Error> {
-        self.file.write_all(bytes).map_err(Error::at(&self.temporary))
+        self.file.write_all(bytes).map_err(Error::at(&self.path))
     }
 
     /// Flushes the bytes to the disk and gives the file its name.
@@ -86,7 +87,7 @@ impl AtomicFile {
             file.sync_all()?;
             file.seek(SeekFrom::Start(0))
         });
-        flushed.map_err(Error::at(&self.temporary))?;
+        flushed.map_err(Error::at(&self.path))?;
         check(self.file.get_mut())?;
         std::fs::rename(&self.temporary, &self.path).map_err(Error::at(&self.path))?;
         self.has_its_name = true;

@@ -16,6 +16,7 @@
 //! | [`claim`], [`is_claimed`], [`remove_results`] | `job.txt`: the one job whose results a folder has |
 //! | [`Pieces`], [`Found`] | the finished pieces of one job; [`Pieces::assemble`] joins them to one checked file |
 //! | [`AtomicFile`], [`write_atomically`] | a file that appears under its name complete or not at all |
+//! | [`Progress`], [`Pace`], [`Place`] | how far a job is and how long it still takes: a line on a terminal, or in a log every 30 seconds |
 //! | [`make_folder`] | makes a folder with its parents, and tells a file that has its name |
 //! | [`remove_leftovers`] | removes temporary files of processes that no longer run |
 //! | [`npy_header`], [`Order`], [`Element`] | the header of a NumPy file for a two-dimensional array of integers |
@@ -38,7 +39,7 @@
 //! }
 //! let array = folder.join("squares.npy");
 //! let header = npy_header(Order::Fortran, Element::U16, 1, 4);
-//! pieces.assemble(&array, &header, 4, |_, _| ())?;
+//! pieces.assemble(&array, &header, 4, || Ok::<(), resumable_job::Error>(()), |_, _| ())?;
 //! pieces.remove(4)?;
 //! assert_eq!(std::fs::read(&array)?[header.len()..], [0, 0, 1, 0, 4, 0, 9, 0]);
 //! # drop(lock);
@@ -73,7 +74,7 @@
 //! It does not find data that a disk loses later.
 //!
 //! # Not here
-//! Threads, progress, printing: the caller computes the pieces, in any order and on any number of threads.
+//! Threads and signals: the caller computes the pieces, in any order and on any number of threads.
 //! Cryptographic digests: FNV-1a finds accidents, not forgeries. Locks between machines, unless the file system
 //! provides them.
 //!
@@ -92,6 +93,7 @@ mod npy;
 mod open_file;
 mod part;
 mod pieces;
+mod progress;
 
 pub use atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
 pub use claim::{claim, is_claimed, remove_results};
@@ -101,3 +103,4 @@ pub use lock::Lock;
 pub use npy::{Element, Order, npy_header};
 pub use part::Part;
 pub use pieces::{Found, Pieces};
+pub use progress::{Pace, Place, Progress};

@@ -47,23 +47,28 @@ pub fn branches(fates: &Fates, from: u64, to: u64, samples: usize) -> Result<Vec
             basin_of_attraction::Error::TooManySamples { samples: all, most: MOST_SAMPLES, remedy };
         return Err(error.into());
     }
-    let mu = fates.map().mass_ratio().mu();
     let mut branches = Vec::new();
     for n in from..to {
-        let hump = Hump::new(n)?;
-        // The fixed points are excluded: a hop from a fixed point has no loss, and the point belongs to neither side.
-        let (left, end) = (hump.star.value().next_up(), (n + 1) as f64 * PI);
-        let right = alpha_star(n + 1).next_down();
-        let mut cuts = vec![left];
-        if let Some((maximum, minimum)) = hump.critical(mu)? {
-            cuts.extend([maximum, minimum].map(|t| hump.star.value() + hump.delta(t)));
-        }
-        cuts.push(end);
-        for pair in cuts.windows(2) {
-            let part = Interval::new(pair[0], pair[1])?;
-            branches.extend(monotone_branches(fates, part, SAMPLES_OF_MONOTONE_PART)?);
-        }
+        branches.extend(contact_branches(fates, n)?);
+        let (end, right) = ((n + 1) as f64 * PI, alpha_star(n + 1).next_down());
         branches.extend(monotone_branches(fates, Interval::new(end, right)?, samples)?);
+    }
+    Ok(branches)
+}
+
+/// The monotone branches of the map on the contact part of hump n, all of which are known.
+pub(crate) fn contact_branches(fates: &Fates, n: u64) -> Result<Vec<Branch>, Error> {
+    let hump = Hump::new(n)?;
+    // The fixed point is excluded: a hop from it has no loss, and it belongs to neither side.
+    let mut cuts = vec![hump.star.value().next_up()];
+    if let Some((maximum, minimum)) = hump.critical(fates.map().mass_ratio().mu())? {
+        cuts.extend([maximum, minimum].map(|t| hump.star.value() + hump.delta(t)));
+    }
+    cuts.push((n + 1) as f64 * PI);
+    let mut branches = Vec::new();
+    for pair in cuts.windows(2) {
+        let part = Interval::new(pair[0], pair[1])?;
+        branches.extend(monotone_branches(fates, part, SAMPLES_OF_MONOTONE_PART)?);
     }
     Ok(branches)
 }

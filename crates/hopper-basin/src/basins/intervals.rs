@@ -1,9 +1,10 @@
 //! All basins at one mass ratio as intervals.
 
-use crate::basins::branches::{branches, branches_are_proved};
+use crate::basins::branches::{branches, branches_are_proved, contact_branches};
 use crate::error::Error;
-use crate::fates::fates_at_mass_ratio::Fates;
+use crate::fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 use crate::fates::hopper_fate::HopperFate;
+use crate::traps::trap::TrapEdge;
 use basin_of_attraction::{
     Branch, Image, Interval, IntervalBasins, Label, Refinement, ScalarMap, SplitMix64, StopReason,
     interval_basins_from_known,
@@ -39,7 +40,14 @@ pub enum BranchGround {
         /// The largest distance of two neighbouring samples, in units of speed.
         spacing: f64,
     },
+    /// On proof, and for a part of the window: for M > 50 only the branches on the contact parts are followed, all of which are known.
+    /// The sudden windows stay undecided. Needles in them are narrower than any spacing of `f64` there (docs/theory.md,
+    /// Section 4: 10⁻²² at M = 50), and a hop may have hundreds of landings.
+    ContactParts,
 }
+
+/// The largest M whose sudden windows are searched for branches.
+const LARGEST_SEARCHED: f64 = 50.0;
 
 /// A comparison of intervals with the fates of random speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,13 +67,16 @@ impl HopperBasins {
     /// 3/n of the decided length in 95 of 100 cases.
     ///
     /// # Errors
-    /// As [`Fates::labels`].
+    /// As [`Fates::fate`].
     pub fn probe(&self, fates: &Fates, points: usize, seed: u64) -> Result<Probes, Error> {
         let (window, random) = (self.basins.window(), SplitMix64::from_seed(seed));
         let speed = |k: usize| window.left + window.length() * random.uniform(k as u64);
-        let speeds: Vec<f64> = (0..points).map(speed).collect();
+        // A speed in no interval has nothing to be compared with, and its fate may take long.
+        let known = |speed: &f64| self.basins.label(*speed).is_some();
+        let speeds: Vec<f64> = (0..points).map(speed).filter(known).collect();
         let mut probes = Probes { compared: 0, wrong: 0, first_wrong: None };
-        for (&speed, fate) in speeds.iter().zip(fates.labels(&speeds)?) {
+        for (&speed, (fate, _)) in speeds.iter().zip(fates.fates_within(&speeds, HOP_BUDGET)?) {
+            let fate = fate.label();
             let Some(found) = self.basins.label(speed).filter(|_| fate.is_basin()) else {
                 continue;
             };
@@ -121,24 +132,45 @@ pub fn hopper_basins(
         Ok(window) if from < to && to <= HopperFate::LARGEST_LABEL => window,
         _ => return Err(Error::Window { bottom, top, largest }),
     };
+    let mass_ratio = fates.map().mass_ratio();
+    let searched = mass_ratio.value() <= LARGEST_SEARCHED;
     // Orbits fall below the window: all branches of the map down to zero are needed.
-    let branches = branches(fates, 0, to, samples)?;
-    let traps = traps_and_grounding(fates, &branches, to, top)?;
+    let (branches, traps) = if has_whole_humps(fates, to)? {
+        (Vec::new(), traps_and_gaps(fates, Vec::new(), to)?)
+    } else if searched {
+        let branches = branches(fates, 0, to, samples)?;
+        let traps = traps_and_grounding(fates, &branches, to, top)?;
+        (branches, traps)
+    } else {
+        // For M ≥ 3.06, the inverse of the first grounding, no speed of a contact part is grounded.
+        let mut branches = Vec::new();
+        for n in 0..to {
+            branches.extend(contact_branches(fates, n)?);
+        }
+        (branches, traps_and_gaps(fates, Vec::new(), to)?)
+    };
     let whole = Interval::new(0.0, top)?;
     let basins =
         interval_basins_from_known(fates, &traps, &branches, whole, refinement)?.within(window)?;
     // The widest of the windows ((n+1)π, α*_{n+1}).
     let spacing = (0..to).map(|n| alpha_star(n + 1) - (n + 1) as f64 * PI).fold(0.0, f64::max)
         / (samples - 1) as f64;
-    let proved = branches_are_proved(fates.map().mass_ratio(), to);
-    let ground = if proved { BranchGround::Proved } else { BranchGround::Spacing { spacing } };
+    let ground = if !searched {
+        BranchGround::ContactParts
+    } else if branches.is_empty() || branches_are_proved(mass_ratio, to) {
+        BranchGround::Proved
+    } else {
+        BranchGround::Spacing { spacing }
+    };
     let stop_reason = basins.stop_reason();
     let probes = Probes { compared: 0, wrong: 0, first_wrong: None };
     let mut found = HopperBasins { basins, ground, probes };
     found.probes = found.probe(fates, PROBES, SEED)?;
     let stop_reason = match stop_reason {
         _ if found.probes.wrong > 0 => StopReason::Contradiction,
-        StopReason::Resolved if !proved => StopReason::SampledBranches,
+        StopReason::Resolved if matches!(ground, BranchGround::Spacing { .. }) => {
+            StopReason::SampledBranches
+        }
         reason => reason,
     };
     found.basins = found.basins.with_stop_reason(stop_reason);
@@ -152,7 +184,26 @@ pub(crate) fn traps_and_grounding(
     to: u64,
     top: f64,
 ) -> Result<Vec<(Interval, Label)>, Error> {
-    let mut traps = grounded(fates, branches, top);
+    traps_and_gaps(fates, grounded(fates, branches, top), to)
+}
+
+/// Whether the trap of each of α*_0 … α*_`to`−1 is its whole hump. Then the traps are the basins, and no branch is followed.
+fn has_whole_humps(fates: &Fates, to: u64) -> Result<bool, Error> {
+    for n in 0..to {
+        if fates.trap(n)?.edge != TrapEdge::NextFixedPoint {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+/// The traps of α*_0 … α*_`to`−1, and these gaps of grounding beside them.
+fn traps_and_gaps(
+    fates: &Fates,
+    gaps: Vec<(Interval, Label)>,
+    to: u64,
+) -> Result<Vec<(Interval, Label)>, Error> {
+    let mut traps = gaps;
     for n in 0..to {
         let trap = fates.trap(n)?;
         let right = trap.right().min(alpha_star(n + 1).next_down());

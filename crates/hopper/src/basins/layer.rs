@@ -98,9 +98,11 @@ impl Layer {
         self,
         job: &JobFolder,
         grid: &Grid,
-        tiles: usize,
-        finished: &Finished,
+        (tiles, finished): (usize, &Finished),
+        interrupt: &Interrupt,
     ) -> Result<Value, Error> {
+        // The joining of a large raster takes minutes.
+        let go_on = || interrupt.check();
         let names = self.names();
         let array = job.path.join(names.array);
         // Row 0 is the lowest speed. In Fortran's order the columns, and therefore the tiles, follow one another in the
@@ -110,28 +112,41 @@ impl Layer {
             Layer::Label => {
                 let (mut counts, mut values) = (BTreeMap::new(), Vec::new());
                 let mut picture = Picture::new(grid, TILE, Label::OUTSIDE);
-                finished.kept.assemble(&array, &header(Element::U16), tiles, |tile, bytes| {
-                    values.clear();
-                    let words = bytes.as_chunks::<2>().0.iter();
-                    values.extend(words.map(|word| Label::from_code(u16::from_le_bytes(*word))));
-                    for &label in &values {
-                        *counts.entry(label).or_insert(0u64) += 1;
-                    }
-                    picture.add(tile, &values);
-                })?;
+                finished.kept.assemble(
+                    &array,
+                    &header(Element::U16),
+                    tiles,
+                    go_on,
+                    |tile, bytes| {
+                        values.clear();
+                        let words = bytes.as_chunks::<2>().0.iter();
+                        values
+                            .extend(words.map(|word| Label::from_code(u16::from_le_bytes(*word))));
+                        for &label in &values {
+                            *counts.entry(label).or_insert(0u64) += 1;
+                        }
+                        picture.add(tile, &values);
+                    },
+                )?;
                 let image = LabelImage { grid: picture.grid, labels: picture.pixels };
                 (draw_basins(&window(grid, "basin"), &image)?, legend(&counts))
             }
             Layer::Hops => {
                 let (mut hops, mut values) = (Hops::default(), Vec::new());
                 let mut picture = Picture::new(grid, TILE, 0u64);
-                finished.kept.assemble(&array, &header(Element::U64), tiles, |tile, bytes| {
-                    values.clear();
-                    let words = bytes.as_chunks::<8>().0.iter();
-                    values.extend(words.map(|word| u64::from_le_bytes(*word)));
-                    values.iter().for_each(|&count| hops.add(count));
-                    picture.add(tile, &values);
-                })?;
+                finished.kept.assemble(
+                    &array,
+                    &header(Element::U64),
+                    tiles,
+                    go_on,
+                    |tile, bytes| {
+                        values.clear();
+                        let words = bytes.as_chunks::<8>().0.iter();
+                        values.extend(words.map(|word| u64::from_le_bytes(*word)));
+                        values.iter().for_each(|&count| hops.add(count));
+                        picture.add(tile, &values);
+                    },
+                )?;
                 let drawing = draw_hops(&window(grid, "hops"), &picture.grid, &picture.pixels)?;
                 (drawing, hops.summary())
             }

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! A job is cut into pieces: tiles of a raster ([`rasters`], [`layer`]), columns of shares ([`shares`], [`coverage`]) or frames of a zoom ([`zoom`]).
-//! A folder has one job ([`job_folder`]). Its pieces are found or computed ([`pieces`]) with the [`progress`] shown and signals
+//! A folder has one job ([`job_folder`]). Its pieces are found or computed ([`pieces`]) with the progress shown and signals
 //! obeyed ([`interrupt`]); [`call`] has what they need. [`picture`] and [`column_bytes`] are forms of data.
 
 mod call;
@@ -19,7 +19,6 @@ mod layer;
 mod options;
 mod picture;
 mod pieces;
-mod progress;
 mod rasters;
 mod shares;
 mod tables;

@@ -6,6 +6,7 @@ use crate::commands::page::{Example, Page};
 use crate::options::form::OutputOptions;
 use crate::options::values;
 use hopper_asymptotics::Offset;
+use hopper_basin::HopperFate;
 use resumable_job::Part;
 use std::path::PathBuf;
 
@@ -22,7 +23,7 @@ pub(crate) struct Options {
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"], value_parser = values::finite, allow_negative_numbers = true)]
     pub(crate) speed: Option<Vec<f64>>,
     /// Pixels across and up [default: 1024 1024; with --zoom 320 320]
-    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"])]
+    #[arg(long, num_args = 2, value_names = ["COLUMNS", "ROWS"], value_parser = values::count, allow_negative_numbers = true)]
     pub(crate) pixels: Option<Vec<usize>>,
     /// What to compute, one or both
     #[arg(long, num_args = 1.., value_name = "LAYER", value_enum, default_values_t = [Layer::Label], conflicts_with_all = ["about", "zoom"])]
@@ -44,10 +45,10 @@ pub(crate) struct Options {
     pub(crate) force: bool,
 
     /// Show the speeds below this fixed point at all scales: each pixel has the shares of the basins that it covers
-    #[arg(long, value_name = "N", help_heading = "All scales", conflicts_with = "speed")]
+    #[arg(long, value_name = "N", help_heading = "All scales", conflicts_with = "speed", value_parser = values::whole(1..=HopperFate::LARGEST_LABEL), allow_negative_numbers = true)]
     pub(crate) about: Option<u64>,
     /// With --about: distances below the fixed point, on a logarithmic scale [default: 1e-2 1e-300]
-    #[arg(long, num_args = 2, value_names = ["FAR", "NEAR"], help_heading = "All scales", requires = "about", allow_negative_numbers = true)]
+    #[arg(long, num_args = 2, value_names = ["FAR", "NEAR"], help_heading = "All scales", requires = "about", value_parser = offset, allow_negative_numbers = true)]
     pub(crate) offset: Option<Vec<Offset>>,
     /// With --about: distances from a preimage of the fixed point instead, on both sides. It is the one next to this speed at
     /// this mass ratio, followed over the mass ratios of the raster
@@ -57,7 +58,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "TURNS", help_heading = "All scales", requires = "about", conflicts_with = "offset", value_parser = values::finite, allow_negative_numbers = true)]
     pub(crate) turns: Option<f64>,
     /// Make a sequence of frames into the edge of a basin next to this speed, at this mass ratio
-    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], help_heading = "All scales", conflicts_with_all = ["about", "speed"], value_parser = values::finite, allow_negative_numbers = true)]
+    #[arg(long, num_args = 2, value_names = ["M", "SPEED"], help_heading = "All scales", conflicts_with_all = ["about", "speed", "mass_ratio"], value_parser = values::finite, allow_negative_numbers = true)]
     pub(crate) zoom: Option<Vec<f64>>,
     /// With --zoom: the number of frames; the first has the half height 1
     #[arg(
@@ -65,7 +66,9 @@ pub(crate) struct Options {
         value_name = "COUNT",
         help_heading = "All scales",
         requires = "zoom",
-        default_value_t = 101
+        default_value_t = 101,
+        value_parser = values::count,
+        allow_negative_numbers = true
     )]
     pub(crate) frames: usize,
     /// With --zoom: decades from one frame to the next
@@ -73,6 +76,13 @@ pub(crate) struct Options {
     pub(crate) step: f64,
     #[command(flatten)]
     pub(crate) output: OutputOptions,
+}
+
+/// A distance, which may be smaller than any `f64`.
+fn offset(text: &str) -> Result<Offset, String> {
+    text.parse().map_err(|_| {
+        "it is not a distance with an exponent of ten from −10000 to 10000; give one such as 1e-300".to_owned()
+    })
 }
 
 /// A mass ratio as a number.
@@ -105,8 +115,8 @@ pub(crate) const PAGE: Page = Page {
             line: "hopper basins --coverage --mass-ratio 0.17 0.18 --speed 17 17.8 --pixels 8 32 --out coverage",
         },
         Example {
-            about: "Every scale from 10⁻² to 10⁻³⁰⁰ below the second fixed point.",
-            line: "hopper basins --about 2 --mass-ratio 0.19 0.21 --pixels 4 40 --out scales",
+            about: "All scales below the second fixed point at once: two turns of the circle of fates.",
+            line: "hopper basins --about 2 --turns 2 --mass-ratio 0.08 0.4 --pixels 8 40 --out scales",
         },
     ],
 };

@@ -2,12 +2,12 @@
 
 use crate::basins::call::{Call, Work};
 use crate::basins::job_folder::{JobFolder, Share};
-use crate::basins::progress::{Pace, Progress};
 use crate::error::Error;
 use rayon::prelude::*;
-use resumable_job::{Found, Part, Pieces};
+use resumable_job::{Found, Pace, Part, Pieces, Place, Progress};
+use std::io::IsTerminal;
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Time between two looks at signals and at the progress.
 const LOOK: Duration = Duration::from_millis(50);
@@ -58,8 +58,11 @@ pub(crate) fn compute(
     if found > 0 {
         call.note(&format!("{found} of {} {} found", wanted.len(), work.unit));
     }
-    let pace = Pace { unit: work.unit, total: wanted.len(), found, pixels: work.pixels };
-    let mut progress = Progress::new(pace, call.quiet, call.messages);
+    let place = Place::new(call.quiet, std::io::stderr().is_terminal());
+    let each = Some((work.pixels, "pixels"));
+    let pace = Pace { unit: work.unit, total: wanted.len(), found, each };
+    let mut progress = Progress::new(pace, place, &mut *call.messages);
+    let began = Instant::now();
     let interrupt = &call.interrupt;
     let (finished, events) = channel();
     let (result, computed) = std::thread::scope(|scope| {
@@ -90,7 +93,7 @@ pub(crate) fn compute(
                     work.unit
                 ));
             }
-            progress.tell(computed);
+            progress.tell(computed, began.elapsed());
         }
         (worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)), computed)
     });

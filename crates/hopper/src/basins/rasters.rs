@@ -33,7 +33,8 @@ pub(crate) fn run(
         .collect();
     let job = JobFolder::open(place, description, &results)?;
     let mut tables = Tables::default();
-    for &layer in layers {
+    let repeated = |at: usize| layers[..at].contains(&layers[at]);
+    for layer in (0..layers.len()).filter(|&at| !repeated(at)).map(|at| layers[at]) {
         one_layer(&job, grid, layer, call, &mut tables)?;
     }
     Ok(tables)
@@ -59,7 +60,7 @@ fn one_layer(
                 tables.push_part(part, names.tiles, &finished);
                 return Ok(());
             }
-            let summary = layer.assemble(job, grid, tiles, &finished)?;
+            let summary = layer.assemble(job, grid, (tiles, &finished), &call.interrupt)?;
             let others = [names.array, names.picture];
             job.finish(&names.results, &others, &summary, (finished.kept, tiles))?;
             summary

@@ -9,7 +9,7 @@ use crate::basins::job_folder::{JobFolder, Results, Share};
 use crate::basins::options::Options;
 use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
-use crate::basins::window::{pair_of_pixels, range};
+use crate::basins::window::{chart, pair_of_pixels, place, range};
 use crate::error::Error;
 use crate::output::number;
 use basin_of_attraction::{Grid, Interval};
@@ -60,12 +60,6 @@ impl Shares {
     /// # Errors
     /// [`Error::Misuse`] if there is none.
     pub(crate) fn new(n: u64, options: &Options, pixels: &[usize]) -> Result<Self, Error> {
-        let largest = HopperFate::LARGEST_LABEL;
-        if !(1..=largest).contains(&n) {
-            let reason =
-                format!("rasters are about the fixed points 1 to {largest}; give such a number");
-            return Err(Error::misuse("--about", n, &reason));
-        }
         let preimage = options.preimage.as_deref().and_then(|pair| pair.try_into().ok());
         let upwards = (options.turns, options.offset.as_deref());
         let (grid, upwards) = grid(&options.mass_ratio, pixels, upwards, preimage.is_some())?;
@@ -152,8 +146,9 @@ fn followed(
     [mass_ratio, speed]: [f64; 2],
     grid: &Grid,
 ) -> Result<Vec<Option<FollowedEdge>>, Error> {
-    let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
-    let chart = EdgeChart::onto(&fates, n, speed)?;
+    let near = [mass_ratio, speed];
+    let fates = Fates::new(place("--preimage", near)?.0)?;
+    let chart = chart("--preimage", near, EdgeChart::onto(&fates, n, speed))?;
     if chart.hops() == 0 {
         return Err(Error::Misuse(format!(
             "--preimage {mass_ratio} {speed}: the speed is near α*_{n} itself; leave the option out, or give a speed near a \

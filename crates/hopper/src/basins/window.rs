@@ -1,10 +1,11 @@
 //! The window of a raster, from the options; its refusals.
 
 use crate::error::Error;
+use crate::options::values;
 use crate::output::number;
 use basin_of_attraction::{Grid, Interval};
-use hopper_basin::{HopperFate, first_humps};
-use passive_hopper::alpha_star;
+use hopper_basin::{EdgeChart, HopperFate, first_humps};
+use passive_hopper::{MassRatio, alpha_star};
 
 /// The largest number of pixels along each axis. A tile of 2²⁰ rows has 32 MiB of labels, and some hundred megabytes
 /// are in use while it is computed.
@@ -90,6 +91,32 @@ pub(crate) fn range(option: &str, values: &[f64]) -> Result<Interval, Error> {
         return Ok(Interval::new(from, to)?);
     };
     Err(Error::misuse(option, two(values), reason))
+}
+
+/// A mass ratio and a lift-off speed of an option.
+///
+/// # Errors
+/// [`Error::Misuse`] for numbers that are none.
+pub(crate) fn place(option: &str, pair: [f64; 2]) -> Result<(MassRatio, f64), Error> {
+    let refused = |reason: String| Error::misuse(option, two(&pair), &reason);
+    let [mass_ratio, speed] = pair.map(number);
+    let mass_ratio = values::mass_ratio(&mass_ratio).map_err(refused)?;
+    Ok((mass_ratio, values::speed(&speed).map_err(refused)?))
+}
+
+/// The chart of an edge that the numbers of an option choose.
+///
+/// # Errors
+/// [`Error::Misuse`] if no edge is near; else the error of the chart.
+pub(crate) fn chart(
+    option: &str,
+    pair: [f64; 2],
+    found: Result<EdgeChart, hopper_basin::Error>,
+) -> Result<EdgeChart, Error> {
+    found.map_err(|error| match error {
+        hopper_basin::Error::NoEdge { .. } => Error::misuse(option, two(&pair), &error.to_string()),
+        other => other.into(),
+    })
 }
 
 /// Two numbers as they are typed.

@@ -6,6 +6,7 @@ use crate::basins::call::{Call, Work};
 use crate::basins::job_folder::{JobFolder, Results, Share};
 use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
+use crate::basins::window::{chart, place as place_of_edge};
 use crate::error::Error;
 use crate::output::number;
 use basin_of_attraction::Label;
@@ -16,7 +17,6 @@ use hopper_basin::{
 use hopper_figures::fate_colors::mixed;
 use hopper_figures::{legend, share_pixels};
 use journal_figures::{Anchor, Frame, Svg, animated_png, render, rgb_png, ticks};
-use passive_hopper::MassRatio;
 use serde_json::json;
 use std::path::Path;
 
@@ -55,6 +55,9 @@ const ANIMATION: &str = "zoom_animation.png";
 const SUMMARY: &str = "zoom.json";
 const RESULTS: Results = Results { main: ANIMATION, summary: SUMMARY, digests: "zoom.digests" };
 
+/// The option that begins a zoom.
+const OPTION: &str = "--zoom";
+
 /// The folder of finished frames.
 const FRAMES: &str = "frames";
 
@@ -66,8 +69,8 @@ pub(crate) fn run(
 ) -> Result<Tables, Error> {
     let zoom = &checked(zoom)?;
     let &Zoom { mass_ratio, speed, frames, step, columns, rows } = zoom;
-    let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
-    let chart = EdgeChart::near(&fates, speed)?;
+    let fates = Fates::new(place_of_edge(OPTION, [mass_ratio, speed])?.0)?;
+    let chart = chart(OPTION, [mass_ratio, speed], EdgeChart::near(&fates, speed))?;
     let edge = FollowedEdge::new(&chart)?;
     let description = format!(
         "zoom, M {mass_ratio:?}, speed {speed:?}, {frames} frames, {step:?} decades a frame, {columns} × {rows} pixels; \
@@ -265,6 +268,7 @@ fn exponent(depth: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use passive_hopper::MassRatio;
 
     fn zoom() -> Zoom {
         let speed = 11.920_553_918_335_777;

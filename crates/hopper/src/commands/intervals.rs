@@ -17,10 +17,10 @@ pub(crate) struct Options {
     #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     /// Index of the fixed point at which the window begins; 0 is the speed 0
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(0..MOST_HUMPS), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = values::whole(0..=MOST_HUMPS - 1), allow_hyphen_values = true)]
     from: u64,
     /// Index of the fixed point at which the window ends
-    #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u64).range(1..=MOST_HUMPS), allow_hyphen_values = true)]
+    #[arg(long, value_name = "N", default_value_t = 6, value_parser = values::whole(1..=MOST_HUMPS), allow_hyphen_values = true)]
     to: u64,
     /// Stop when no more than this length is undecided, in units of m₂gω/k
     #[arg(long, value_name = "LENGTH", default_value = "1e-4", value_parser = values::not_negative, allow_hyphen_values = true)]
@@ -29,10 +29,10 @@ pub(crate) struct Options {
     #[arg(long, value_name = "LENGTH", default_value = "1e-12", value_parser = values::not_negative, allow_hyphen_values = true)]
     shortest: f64,
     /// Stop at this number of intervals
-    #[arg(long, value_name = "COUNT", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1..=10_000_000), allow_hyphen_values = true)]
+    #[arg(long, value_name = "COUNT", default_value_t = 100_000, value_parser = values::whole(1..=10_000_000), allow_hyphen_values = true)]
     most: u64,
     /// Points in which each sudden window is searched for branches of the map
-    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = clap::value_parser!(u64).range(2..=1_000_000), allow_hyphen_values = true)]
+    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = values::whole(2..=1_000_000), allow_hyphen_values = true)]
     samples: u64,
     #[command(flatten)]
     pub(crate) output: OutputOptions,
@@ -46,7 +46,9 @@ pub(crate) const PAGE: Page = Page {
     units: "Speeds and lengths in m₂gω/k.",
     limits: "Fixed points 0 to 64; up to 10000000 intervals; samples up to 1000000 for each window.\n\
              For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are proved to be complete. Above, they\n\
-             are sampled: a branch narrower than the spacing may be missed, and the table `search` says so.",
+             are sampled: a branch narrower than the spacing may be missed, and the table `search` says so. Above 50 they are\n\
+             followed on the contact parts alone, and the sudden windows stay undecided: their needles are narrower than f64 resolves.\n\
+             The time grows with --samples times --to: 64 windows of a million samples take minutes. Ctrl-C ends the call.",
     tables: &[&FRACTIONS, &SEARCH, &INTERVALS],
     examples: &[
         Example { about: "Fractions of the first five humps.", line: "hopper intervals -M 0.2" },
@@ -187,6 +189,7 @@ fn search(found: &HopperBasins) -> Table {
     let (branches, spacing) = match found.ground {
         BranchGround::Proved => ("proved", None),
         BranchGround::Spacing { spacing } => ("sampled", Some(spacing)),
+        BranchGround::ContactParts => ("contact parts", None),
     };
     table.push([
         window.left.into(),
@@ -217,7 +220,9 @@ fn fate(label: Label) -> (&'static str, Cell) {
 fn stopped(reason: StopReason) -> &'static str {
     match reason {
         StopReason::Resolved => "no more than --undecided is left",
-        StopReason::AllFollowed => "every interval is followed; the rest is in no basin",
+        StopReason::AllFollowed => {
+            "every interval is followed; the rest is in none, or a branch is missing"
+        }
         StopReason::SampledBranches => {
             "no more than --undecided is left, but the branches are sampled"
         }

@@ -22,7 +22,7 @@ pub(crate) struct Options {
     #[arg(long, num_args = 2, value_names = ["FROM", "TO"], value_parser = values::speed_or_zero, allow_hyphen_values = true)]
     speed: Option<Vec<f64>>,
     /// Points on each piece of the curve
-    #[arg(long, value_name = "COUNT", default_value_t = 120, value_parser = clap::value_parser!(u64).range(2..=100_000), allow_hyphen_values = true)]
+    #[arg(long, value_name = "COUNT", default_value_t = 120, value_parser = values::whole(2..=100_000), allow_hyphen_values = true)]
     points: u64,
     /// Draw the map: FILE.svg or FILE.png, or - for SVG on standard output
     #[arg(long, value_name = "FILE", value_parser = output_file::figure)]

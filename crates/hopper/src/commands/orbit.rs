@@ -26,7 +26,7 @@ pub(crate) struct Options {
     #[arg(short = 'M', long, value_name = "M", value_parser = values::mass_ratio, allow_hyphen_values = true)]
     mass_ratio: MassRatio,
     /// Follow this number of hops [default: until the fate is known, at most 1000]
-    #[arg(long, value_name = "COUNT", value_parser = clap::value_parser!(u64).range(0..=MOST_HOPS), allow_hyphen_values = true)]
+    #[arg(long, value_name = "COUNT", value_parser = values::whole(0..=MOST_HOPS), allow_hyphen_values = true)]
     hops: Option<u64>,
     /// Draw the orbit as a cobweb on the map: FILE.svg or FILE.png, or - for SVG on standard output
     #[arg(long, value_name = "FILE", value_parser = output_file::figure)]

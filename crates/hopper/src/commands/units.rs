@@ -28,7 +28,7 @@ pub(crate) struct Options {
     #[arg(long, value_name = "ACCELERATION", value_parser = quantity::acceleration, default_value = "9.80665m/s²", allow_hyphen_values = true)]
     gravity: f64,
     /// Dimensionless lift-off speeds α to give in metres per second
-    #[arg(long, value_name = "SPEED", num_args = 1.., value_parser = values::speed, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SPEED", num_args = 1.., value_parser = values::speed, allow_negative_numbers = true)]
     alpha: Vec<f64>,
     #[command(flatten)]
     pub(crate) output: OutputOptions,

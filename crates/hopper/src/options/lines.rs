@@ -15,6 +15,9 @@ use rayon::prelude::*;
 /// block would answer later and use more memory.
 const BLOCK: usize = 1 << 20;
 
+/// U+FEFF in UTF-8.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// Bytes of a part: some thousand lines, whose fates take a millisecond. A smaller part fills the vectors of the kernel less; with
 /// a larger one the threads wait for the last of them.
 const PART: usize = 1 << 15;
@@ -37,7 +40,7 @@ pub(crate) fn filter(
         ));
     }
     let mut block = vec![0; BLOCK];
-    let (mut kept, mut line, mut begun) = (0, 0, false);
+    let (mut kept, mut line, mut begun, mut start) = (0, 0, false, 0);
     loop {
         let read = match streams.input.read(&mut block[kept..]) {
             Ok(read) => read,
@@ -59,8 +62,12 @@ pub(crate) fn filter(
                 continue;
             }
         };
-        let parts: Vec<Part> =
-            parts(&block[..end]).map(|bytes| Part::read(bytes, &value)).collect();
+        // Editors of some systems write a byte order mark before the first line.
+        if line == 0 && block[..end].starts_with(BYTE_ORDER_MARK) {
+            start = BYTE_ORDER_MARK.len();
+        }
+        let lines = &block[std::mem::take(&mut start)..end];
+        let parts: Vec<Part> = parts(lines).map(|bytes| Part::read(bytes, &value)).collect();
         let first = parts.iter().position(|part| !part.values.is_empty());
         let texts: Vec<_> = parts
             .par_iter()
@@ -117,7 +124,7 @@ impl Part {
             }
             let read = match std::str::from_utf8(line) {
                 Ok(text) => value(text),
-                Err(_) => Err("it is no text".into()),
+                Err(_) => Err("it is no text in UTF-8; give one number a line".into()),
             };
             match read {
                 Ok(value) => part.values.push(value),
@@ -170,8 +177,9 @@ mod tests {
 
     #[test]
     fn the_pieces_in_which_the_input_comes_do_not_matter() {
-        let text = "# speeds\n\n1\r\n 2 \n3\n\n4";
-        for at_a_time in [1, 2, 3, 100] {
+        for (text, at_a_time) in [1, 2, 3, 100].into_iter().flat_map(|at_a_time| {
+            ["# speeds\n\n1\r\n 2 \n3\n\n4", "\u{feff}1\n2\n3\n4"].map(|text| (text, at_a_time))
+        }) {
             let (output, result) = filtered(text, at_a_time);
             assert!(output == "1!2,3,4," && result.is_ok(), "{at_a_time}: {output}");
         }

@@ -5,7 +5,7 @@ use crate::options::form::OutputOptions;
 use crate::refusal::shortened;
 use crate::streams::Streams;
 use resumable_job::{AtomicFile, write_atomically};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,6 +67,17 @@ fn read(text: &str, formats: &[Format]) -> Result<OutputFile, String> {
 }
 
 impl OutputFile {
+    /// The path with its folder resolved: the same for `a.svg` and `./a.svg`.
+    fn place(&self) -> Option<PathBuf> {
+        let path = self.path.as_ref()?;
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = std::fs::canonicalize(folder.unwrap_or(Path::new(".")));
+        // A folder that does not exist is refused when the file is tried.
+        Some(
+            folder.map_or(path.clone(), |folder| folder.join(path.file_name().unwrap_or_default())),
+        )
+    }
+
     /// Writes the file, whole or not at all, and notes its name.
     pub(crate) fn write(
         &self,
@@ -93,7 +104,9 @@ impl OutputFile {
 pub(crate) fn check(files: &[(&str, Option<&OutputFile>)]) -> Result<bool, Error> {
     let given: Vec<_> = files.iter().filter_map(|(name, file)| Some((*name, (*file)?))).collect();
     for (at, (name, file)) in given.iter().enumerate() {
-        if let Some((other, _)) = given[..at].iter().find(|(_, other)| other.path == file.path) {
+        if let Some((other, _)) =
+            given[..at].iter().find(|(_, other)| other.place() == file.place())
+        {
             let path = file.path.as_ref().map_or("-".into(), |path| path.display().to_string());
             let reason = format!("{other} writes there, too; give each its own file");
             return Err(Error::misuse(name, shortened(&path), &reason));

@@ -6,6 +6,7 @@
 use crate::error::Error;
 use crate::output::number;
 use passive_hopper::{LARGEST_LIFT_OFF_SPEED, LiftOffMap, MassRatio};
+use std::ops::RangeInclusive;
 
 /// A finite number.
 pub(crate) fn finite(text: &str) -> Result<f64, String> {
@@ -17,6 +18,25 @@ pub(crate) fn finite(text: &str) -> Result<f64, String> {
         }
         Err(_) => Err("it is not a number; give a number such as 7.5 or 1e-3".into()),
     }
+}
+
+/// A whole number in a range.
+pub(crate) fn whole(range: RangeInclusive<u64>) -> impl Fn(&str) -> Result<u64, String> + Clone {
+    move |text| match text.parse::<u64>() {
+        Ok(value) if range.contains(&value) => Ok(value),
+        _ => {
+            let (from, to) = (range.start(), range.end());
+            Err(format!(
+                "it is not a whole number from {from} to {to}; give such a number, in digits only"
+            ))
+        }
+    }
+}
+
+/// A number of pixels or frames. Its limit depends on other options.
+pub(crate) fn count(text: &str) -> Result<usize, String> {
+    text.parse()
+        .map_err(|_| "it is not a whole number; give one such as 64, in digits only".to_owned())
 }
 
 /// A mass ratio.

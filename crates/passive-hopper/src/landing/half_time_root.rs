@@ -64,8 +64,8 @@ impl HalfTimeRoot {
             // A step out of the bracket is replaced by a bisection.
             let inside = halley > left && halley < right && step_number < HALLEY_STEPS;
             let next = if inside { halley } else { 0.5 * (left + right) };
-            if next <= left || next >= right {
-                break; // no f64 is left in the bracket
+            if !(next > left && next < right) {
+                break; // no f64 is left in the bracket, or an end of it is NaN
             }
             h = next;
             half = HalfTime::at(h);

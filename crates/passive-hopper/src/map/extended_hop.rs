@@ -27,12 +27,21 @@ pub(crate) struct ExtendedMasses<R> {
     kappa: R,
 }
 
+/// Larger mass ratios are scaled: the product of two numbers of 106 bits splits its factors, and above 2⁹⁹⁵ a factor times 2²⁷ + 1 is
+/// infinite.
+const LARGEST_UNSCALED: f64 = 1e250;
+
+/// 2⁻⁵⁰⁰: with it the largest M, 4.5·10³⁰⁷, is far from both ends of the exponents.
+const SCALE: f64 = f64::from_bits((1023 - 500) << 52);
+
 impl<R: Extended> ExtendedMasses<R> {
     pub(crate) fn new(mass_ratio: MassRatio) -> Self {
-        let m = R::from(mass_ratio.value());
-        let whole = m + 1.0;
+        // κ = M/(1+M) and μ = κ/(1+M), both sides of each fraction times a power of two, which changes no bit.
+        let scale = if mass_ratio.value() > LARGEST_UNSCALED { SCALE } else { 1.0 };
+        let m = R::from(mass_ratio.value() * scale);
+        let whole = m + scale;
         let kappa = m / whole;
-        ExtendedMasses { mu: kappa / whole, kappa }
+        ExtendedMasses { mu: kappa * scale / whole, kappa }
     }
 }
 

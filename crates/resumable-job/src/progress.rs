@@ -1,7 +1,7 @@
 //! How far a long job is: one line that changes on a terminal, and a line now and then where there is none.
 
-use std::io::{IsTerminal, Write};
-use std::time::{Duration, Instant};
+use std::io::Write;
+use std::time::Duration;
 
 /// Time between two states of the line on a terminal: a reader sees it move, and it costs nothing.
 const ON_TERMINAL: Duration = Duration::from_millis(200);
@@ -14,66 +14,87 @@ const CLEAR: &str = "\r\x1b[K";
 
 /// Where the progress is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+pub enum Place {
+    /// On a terminal: one line that changes.
     Terminal,
+    /// In a file or a pipe: a line every 30 seconds.
     Log,
+    /// The user wants none.
     Nowhere,
 }
 
-/// The progress of some pieces.
-pub(crate) struct Progress<'a> {
-    messages: &'a mut dyn Write,
-    place: Place,
-    pace: Pace,
-    began: Instant,
-    told: Instant,
-}
-
-/// What is known about the pieces.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Pace {
-    /// What they are called, such as tiles.
-    pub(crate) unit: &'static str,
-    /// All pieces of this call.
-    pub(crate) total: usize,
-    /// Those that an earlier call finished.
-    pub(crate) found: usize,
-    /// Pixels of a piece.
-    pub(crate) pixels: usize,
-}
-
-impl<'a> Progress<'a> {
-    /// Shows nothing before some time has passed; nothing at all if `quiet`.
-    pub(crate) fn new(pace: Pace, quiet: bool, messages: &'a mut dyn Write) -> Self {
-        let place = match (quiet, std::io::stderr().is_terminal()) {
+impl Place {
+    /// Nowhere if `quiet`; else by whether the messages go to a terminal.
+    pub const fn new(quiet: bool, is_terminal: bool) -> Self {
+        match (quiet, is_terminal) {
             (true, _) => Place::Nowhere,
             (_, true) => Place::Terminal,
             _ => Place::Log,
-        };
-        let now = Instant::now();
-        Progress { messages, place, pace, began: now, told: now }
+        }
+    }
+}
+
+/// The progress of some pieces, written where people read it: a line that changes on a terminal, elsewhere a line every 30 seconds.
+///
+/// ```
+/// use resumable_job::{Pace, Place, Progress};
+/// use std::time::Duration;
+/// let pace = Pace { unit: "tiles", total: 256, found: 137, each: Some((16_384, "pixels")) };
+/// let mut log = Vec::new();
+/// let mut progress = Progress::new(pace, Place::new(false, false), &mut log);
+/// for computed in 0..=60 {
+///     progress.tell(computed as usize, Duration::from_secs(computed));
+/// }
+/// assert!(log.starts_with(b"167 of 256 tiles, 65 %, 1.6e4 pixels/s, 1 min 29 s left\n197 of"));
+/// ```
+#[derive(Debug)]
+pub struct Progress<W> {
+    messages: W,
+    place: Place,
+    pace: Pace,
+    /// The elapsed time at the last line.
+    told: Duration,
+}
+
+/// What is known about the pieces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pace {
+    /// What they are called, such as tiles.
+    pub unit: &'static str,
+    /// All pieces of this call.
+    pub total: usize,
+    /// Those that an earlier call finished.
+    pub found: usize,
+    /// What a piece has, such as 16384 pixels, if its speed is to be told.
+    pub each: Option<(usize, &'static str)>,
+}
+
+impl<W: Write> Progress<W> {
+    /// Shows nothing before some time has passed.
+    pub fn new(pace: Pace, place: Place, messages: W) -> Self {
+        Progress { messages, place, pace, told: Duration::ZERO }
     }
 
-    /// Tells that this call has finished so many pieces, if it is time to.
-    pub(crate) fn tell(&mut self, computed: usize) {
-        let line = |pace: &Pace, began: Instant| pace.line(computed, began.elapsed());
+    /// Tells, if it is time to, that this call has finished so many pieces, `elapsed` after its begin.
+    pub fn tell(&mut self, computed: usize, elapsed: Duration) {
+        let since = elapsed.saturating_sub(self.told);
         // A line that cannot be written is no failure of the job.
         let _ = match self.place {
-            Place::Terminal if self.told.elapsed() >= ON_TERMINAL => {
-                self.told = Instant::now();
-                write!(self.messages, "{CLEAR}{}", line(&self.pace, self.began))
+            Place::Terminal if since >= ON_TERMINAL => {
+                self.told = elapsed;
+                write!(self.messages, "{CLEAR}{}", self.pace.line(computed, elapsed))
                     .and_then(|()| self.messages.flush())
             }
-            Place::Log if self.told.elapsed() >= IN_LOG => {
-                self.told = Instant::now();
-                writeln!(self.messages, "{}", line(&self.pace, self.began))
+            Place::Log if since >= IN_LOG => {
+                self.told = elapsed;
+                writeln!(self.messages, "{}", self.pace.line(computed, elapsed))
             }
             _ => Ok(()),
         };
     }
 
     /// Writes a line of its own, above the progress.
-    pub(crate) fn note(&mut self, text: &str) {
+    pub fn note(&mut self, text: &str) {
         self.clear();
         if self.place != Place::Nowhere {
             let _ = writeln!(self.messages, "{text}");
@@ -81,7 +102,7 @@ impl<'a> Progress<'a> {
     }
 
     /// Leaves an empty line on a terminal.
-    pub(crate) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         if self.place == Place::Terminal {
             let _ = write!(self.messages, "{CLEAR}").and_then(|()| self.messages.flush());
         }
@@ -90,7 +111,7 @@ impl<'a> Progress<'a> {
 
 impl Pace {
     /// Such as "153 of 256 tiles, 60 %, 1.2e6 pixels/s, 2 min left".
-    pub(crate) fn line(&self, computed: usize, elapsed: Duration) -> String {
+    fn line(&self, computed: usize, elapsed: Duration) -> String {
         let done = self.found + computed;
         let percent = 100.0 * done as f64 / self.total.max(1) as f64;
         let mut line = format!("{done} of {} {}, {percent:.0} %", self.total, self.unit);
@@ -98,8 +119,10 @@ impl Pace {
         // Without a finished piece nothing is known about the speed.
         if computed > 0 && pieces_per_second.is_finite() {
             let left = self.total.saturating_sub(done) as f64 / pieces_per_second;
-            let speed = pieces_per_second * self.pixels as f64;
-            line += &format!(", {speed:.1e} pixels/s, {} left", duration(left));
+            if let Some((amount, name)) = self.each {
+                line += &format!(", {:.1e} {name}/s", pieces_per_second * amount as f64);
+            }
+            line += &format!(", {} left", duration(left));
         }
         line
     }
@@ -126,7 +149,8 @@ mod tests {
 
     #[test]
     fn a_line_has_what_was_found_the_speed_of_this_call_and_the_time_left() {
-        let pace = Pace { unit: "tiles", total: 256, found: 137, pixels: 16_384 };
+        let each = Some((16_384, "pixels"));
+        let pace = Pace { unit: "tiles", total: 256, found: 137, each };
         let line = |computed, seconds| pace.line(computed, Duration::from_secs(seconds));
         assert_eq!(line(0, 30), "137 of 256 tiles, 54 %");
         assert_eq!(line(19, 38), "156 of 256 tiles, 61 %, 8.2e3 pixels/s, 3 min 20 s left");
@@ -136,6 +160,8 @@ mod tests {
             Pace { total: 0, found: 0, ..pace }.line(0, Duration::ZERO),
             "0 of 0 tiles, 0 %"
         );
+        let plain = Pace { each: None, ..pace };
+        assert_eq!(plain.line(119, Duration::from_secs(60)), "256 of 256 tiles, 100 %, 0 s left");
     }
 
     #[test]
