@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import passive_hopper as hopper
@@ -218,3 +219,23 @@ def test_a_full_disk_leaves_nothing_that_reads_as_finished(tmp_path):
         assert stored.attrs["sha256"] == hopper.basins(**job).attrs["sha256"]
     finally:
         subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+def hopper_program():
+    """The program `hopper` of the repository: HOPPER_PROGRAM, or one that cargo has built in the folder target."""
+    target = Path(__file__).parents[3] / "target"
+    places = [os.environ.get("HOPPER_PROGRAM"), target / "release" / "hopper", target / "debug" / "hopper"]
+    return next((str(place) for place in places if place and os.path.isfile(place)), None)
+
+
+def test_the_arrays_of_the_program_have_the_same_labels(tmp_path):
+    program = hopper_program()
+    if program is None:
+        pytest.skip("SKIPPED the arrays of the program: build it with `cargo build -p hopper`, or name it with HOPPER_PROGRAM")
+    window = ["--mass-ratio", "0.15", "0.9", "--speed", "4.5", "12", "--pixels", "150", "80"]
+    subprocess.run([program, "basins", *window, "--out", str(tmp_path / "basins"), "--quiet"], check=True)
+    labels = np.load(tmp_path / "basins" / "basin.npy")
+    # The program's arrays have a row for each speed. Both files have the labels M by M.
+    stored = hopper.basins(**JOB, store=tmp_path / "basins.zarr").label.values
+    assert labels.flags.f_contiguous and labels.dtype == stored.dtype
+    assert labels.T.tobytes() == stored.tobytes()
