@@ -1,6 +1,7 @@
 //! A raster too large to be measured, from the tiles of one that was.
 
 use super::rasters::{Raster, TILE};
+use pxfm::{f_exp2, f_log2};
 
 /// Pixels along each side of the planned raster: 10¹² pixels.
 pub(crate) const SIDE: usize = 1_000_000;
@@ -20,8 +21,8 @@ pub(crate) struct Plan {
 /// Each tile has the time of the measured one at the same M, times one factor that gives the total. The rows of windows share the
 /// time evenly.
 pub(crate) fn plan(measured: &Raster, growth: f64) -> Plan {
-    let doublings = (SIDE as f64 / measured.side as f64).log2();
-    let total = measured.seconds() * (growth.log2() * doublings).exp2();
+    let doublings = f_log2(SIDE as f64 / measured.side as f64);
+    let total = measured.seconds() * f_exp2(f_log2(growth) * doublings);
     let in_window = (SIDE / WINDOWS).div_ceil(TILE);
     let across = in_window * WINDOWS;
     let at = |k: usize| measured.tiles[k * measured.tiles.len() / across];

@@ -4,6 +4,7 @@ use super::cpu_time::thread_seconds;
 use crate::error::Error;
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{basin_columns, first_humps};
+use pxfm::{f_exp2, f_log2};
 use rayon::prelude::*;
 use resumable_job::{Element, Order, npy_header};
 
@@ -56,12 +57,12 @@ pub(crate) fn measure(side: usize) -> Result<Raster, Error> {
 /// The factor of the CPU time for one doubling of the side: 2 to the slope of the least-squares line through (log side, log time).
 /// None for fewer than two sizes, or if a time is zero.
 pub(crate) fn growth_per_doubling(points: &[(usize, f64)]) -> Option<f64> {
-    let logs = || points.iter().map(|&(side, time)| ((side as f64).log2(), time.log2()));
+    let logs = || points.iter().map(|&(side, time)| (f_log2(side as f64), f_log2(time)));
     let count = points.len() as f64;
     let (x, y) = logs().fold((0.0, 0.0), |(x, y), p| (x + p.0 / count, y + p.1 / count));
     let spread: f64 = logs().map(|p| (p.0 - x) * (p.0 - x)).sum();
     let slope = logs().map(|p| (p.0 - x) * (p.1 - y)).sum::<f64>() / spread;
-    slope.is_finite().then(|| slope.exp2())
+    slope.is_finite().then(|| f_exp2(slope))
 }
 
 #[cfg(test)]

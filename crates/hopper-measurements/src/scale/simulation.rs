@@ -40,7 +40,7 @@ enum Event {
 pub(crate) fn simulate(tiles: &[f64], workers: usize) -> Finished {
     let random = SplitMix64::from_seed(SEED);
     let mut numbers = 0..;
-    let mut one_in = |n: u64| random.bits(numbers.next().unwrap_or(0)) % n == 0;
+    let mut one_in = |n: u64| random.bits(numbers.next().unwrap_or(0)).is_multiple_of(n);
     let mut queue: VecDeque<usize> = (0..tiles.len()).collect();
     // Whole nanoseconds have an order, and 2⁶⁴ of them are 584 years.
     let nanoseconds = |seconds: f64| (seconds * 1e9) as u64;

@@ -20,7 +20,7 @@ pub(crate) fn cost(rasters: &[Raster], growth: Option<f64>) -> String {
             out,
             "| {side} | {} | {seconds:.2} s | {:.1} ns | {:.0} ms | {bytes} bytes |",
             tiles.len(),
-            seconds * 1e9 / (*side as f64).powi(2),
+            seconds * 1e9 / (*side as f64 * *side as f64),
             1e3 * raster.longest(),
         );
     }
@@ -63,7 +63,7 @@ pub(crate) fn large(fitted: &Plan, growth: f64, none_shared: &Plan) -> String {
          {:.2} s of restarts on average, and tiles that take less are too small for such a cluster.",
         WINDOWS * WINDOWS,
         fitted.tiles.len(),
-        2.0 * (SIDE as f64).powi(2),
+        2.0 * (SIDE as f64 * SIDE as f64),
         workers(&[
             (&format!(", growth {growth:.2}"), &fitted.tiles),
             (", growth 4", &none_shared.tiles)
