@@ -33,7 +33,7 @@ const BASINS: Option<Program> = Some(("hopper", Some("basins")));
 type Program = (&'static str, Option<&'static str>);
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 18] = [
+const TASKS: [Task; 19] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -87,6 +87,11 @@ const TASKS: [Task; 18] = [
     Task {
         name: "speed",
         about: "Measure how fast hops and rasters are; the output of each is checked first",
+        program: MEASUREMENTS,
+    },
+    Task {
+        name: "scale",
+        about: "Measure the CPU time of rasters by size, and simulate many workers with it",
         program: MEASUREMENTS,
     },
     Task {

@@ -25,6 +25,8 @@ enum Command {
     WorkPrecision(commands::work_precision::Options),
     /// Measure how fast hops and rasters are; the output of each is checked first
     Speed(commands::speed::Options),
+    /// Measure the CPU time of rasters by size, and simulate many workers with it
+    Scale(commands::scale::Options),
     /// Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index
     ComparePeers(commands::compare_peers::Options),
     /// Compare the events of known scenes with SciPy, heyoka and diffsol: needs Python and both package indices
@@ -39,6 +41,7 @@ pub fn run() -> Result<(), Error> {
         Command::IntervalCoverage(options) => commands::interval_coverage::run(&options),
         Command::WorkPrecision(options) => commands::work_precision::run(&options),
         Command::Speed(options) => commands::speed::run(&options),
+        Command::Scale(options) => commands::scale::run(&options),
         Command::ComparePeers(options) => commands::compare_peers::run(&options),
         Command::CompareEvents(options) => commands::compare_events::run(&options),
     }

@@ -11,6 +11,7 @@
 //! | `coverage` | how often does every interval of `basin-of-attraction` contain the true number? |
 //! | `work_precision` | how much time and error does each way to compute a hop have? |
 //! | `speed` | how fast are hops and rasters, with their output checked first? |
+//! | `scale` | what do rasters of growing size cost, and what do many workers gain? |
 //! | `peers` | how do heyoka, SciPy and numba compare on the same hops? |
 //! | `events` | which events of known scenes do SciPy, heyoka, diffsol and this repository find? |
 
@@ -22,6 +23,7 @@ mod error;
 mod events;
 mod peers;
 mod reference;
+mod scale;
 mod speed;
 mod text;
 mod timing;

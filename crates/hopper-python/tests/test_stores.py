@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import passive_hopper as hopper
@@ -175,3 +176,66 @@ def test_an_error_of_a_worker_passes_through(client, tmp_path, monkeypatch):
         hopper.basins(**JOB, store=store, client=client)
     file.rmdir()
     assert hopper.basins(**JOB, store=store, client=client).attrs["sha256"] == hopper.basins(**JOB).attrs["sha256"]
+
+
+def test_a_scheduler_that_dies_is_an_error_and_nothing_is_lost(tmp_path):
+    pytest.importorskip("distributed", reason="SKIPPED clusters: dask.distributed is not installed")
+    from distributed import Client
+    from kill_workers import cluster
+
+    store = tmp_path / "basins.zarr"
+    job = {"M": (0.1, 0.4), "shape": (1280, 1500)}
+    with cluster() as workers, Client(workers) as client:
+
+        def end(done, all):
+            workers.close()
+
+        with pytest.raises(RuntimeError, match="scheduler of the cluster is gone"):
+            hopper.basins(**job, store=store, client=client, progress=end)
+    assert "sha256" not in xarray.open_zarr(store, consolidated=False).attrs
+    assert hopper.basins(**job, store=store).attrs["sha256"] == hopper.basins(**job).attrs["sha256"]
+
+
+def test_a_full_disk_leaves_nothing_that_reads_as_finished(tmp_path):
+    disk = tmp_path / "disk"
+    disk.mkdir()
+    # 160 KiB hold the description of the store and some regions, and not all ten.
+    mount = ["mount", "-t", "tmpfs", "-o", "size=160k", "tmpfs", str(disk)]
+    if not sys.platform.startswith("linux") or os.geteuid() != 0 or subprocess.run(mount, capture_output=True).returncode != 0:
+        pytest.skip("SKIPPED the full disk: a small tmpfs needs Linux and root")
+    store = disk / "basins.zarr"
+    job = {"M": (0.1, 0.4), "shape": (640, 4000)}
+    calls = []
+    try:
+        with pytest.raises(OSError, match="No space left"):
+            hopper.basins(**job, store=store, progress=lambda *done: calls.append(done))
+        assert 0 < len(calls) < 10
+        assert "sha256" not in xarray.open_zarr(store, consolidated=False).attrs
+        # Every region that is there is whole: the others are computed, and these are not.
+        subprocess.run([*mount[:4], "remount,size=16m", *mount[5:]], check=True)
+        again = []
+        stored = hopper.basins(**job, store=store, progress=lambda *done: again.append(done))
+        assert len(again) == 10 - len(calls)
+        assert stored.attrs["sha256"] == hopper.basins(**job).attrs["sha256"]
+    finally:
+        subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+def hopper_program():
+    """The program `hopper` of the repository: HOPPER_PROGRAM, or one that cargo has built in the folder target."""
+    target = Path(__file__).parents[3] / "target"
+    places = [os.environ.get("HOPPER_PROGRAM"), target / "release" / "hopper", target / "debug" / "hopper"]
+    return next((str(place) for place in places if place and os.path.isfile(place)), None)
+
+
+def test_the_arrays_of_the_program_have_the_same_labels(tmp_path):
+    program = hopper_program()
+    if program is None:
+        pytest.skip("SKIPPED the arrays of the program: build it with `cargo build -p hopper`, or name it with HOPPER_PROGRAM")
+    window = ["--mass-ratio", "0.15", "0.9", "--speed", "4.5", "12", "--pixels", "150", "80"]
+    subprocess.run([program, "basins", *window, "--out", str(tmp_path / "basins"), "--quiet"], check=True)
+    labels = np.load(tmp_path / "basins" / "basin.npy")
+    # The program's arrays have a row for each speed. Both files have the labels M by M.
+    stored = hopper.basins(**JOB, store=tmp_path / "basins.zarr").label.values
+    assert labels.flags.f_contiguous and labels.dtype == stored.dtype
+    assert labels.T.tobytes() == stored.tobytes()
