@@ -351,7 +351,7 @@ impl<'a> Strip<'a> {
             let column = &self.columns[column];
             itinerary.hop(column.laps.as_ref()?.lap(speed, error));
             let map = column.fates.map();
-            match hop_within(map, (speed, error)) {
+            match hop_within(map, (speed, error), self.large_error) {
                 HopWithin::Next { speed: next, error: bound } => (speed, error) = (next, bound),
                 HopWithin::Grounded => {
                     itinerary.end_on_ground();

@@ -24,20 +24,36 @@ pub(crate) fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
     (speed, error + f64::EPSILON * speed)
 }
 
-/// A hop whose error is larger than the first number, and grows by more than the second, is computed with the second bound, which has
-/// the signs of the derivative. It takes about half a microsecond, and a fate alone, where an error grows too large, some hundred microseconds.
-const LARGE_ERROR: f64 = 1e-9;
+/// The error of a speed from which a hop may need the second bound, which has the signs of the derivative: this part of the distance
+/// between the speeds that are labelled, and no number outside these two. A hop with the second bound takes about half a microsecond, four
+/// times as long as one with the first, and a fate alone, where an error has grown too large to decide, some hundred microseconds.
+const LARGE_PART: f64 = 0.01;
+const LARGE_ERRORS: (f64, f64) = (1e-9, 1e-7);
+
+/// A hop has the second bound if its error grows by more than this, too.
 const LARGE_GROWTH: f64 = 8.0;
 
-/// The `hop` that was made from a speed with its error; with the second bound if its error has grown much.
+/// The error from which hops of orbits from `speeds`, in increasing order, may need the second bound.
+pub(crate) fn large_error(speeds: &[f64]) -> f64 {
+    let length = if let [first, .., last] = speeds { last - first } else { 0.0 };
+    let (least, most) = LARGE_ERRORS;
+    (LARGE_PART * length / speeds.len() as f64).max(least).min(most)
+}
+
+/// The `hop` that was made from a speed with its error; with the second bound if its error has grown much, to more than `large`.
 #[inline]
-pub(crate) fn with_signs(map: &LiftOffMap, before: (f64, f64), hop: HopWithin) -> HopWithin {
+pub(crate) fn with_signs(
+    map: &LiftOffMap,
+    before: (f64, f64),
+    hop: HopWithin,
+    large: f64,
+) -> HopWithin {
     let error = match hop {
         HopWithin::Next { error, .. } => error,
         HopWithin::Grounded => return hop,
         HopWithin::Inconclusive => f64::INFINITY,
     };
-    if error <= LARGE_ERROR || error <= LARGE_GROWTH * before.1 {
+    if error <= large || error <= LARGE_GROWTH * before.1 {
         return hop;
     }
     match map.signed_hop_within(before.0, before.1) {
@@ -46,13 +62,13 @@ pub(crate) fn with_signs(map: &LiftOffMap, before: (f64, f64), hop: HopWithin) -
     }
 }
 
-/// The hop from a speed with its error. Where the error is large, the first bound would mostly be computed in vain.
-pub(crate) fn hop_within(map: &LiftOffMap, (speed, error): (f64, f64)) -> HopWithin {
-    if error > LARGE_ERROR {
+/// The hop from a speed with its error. Where the error is `large`, the first bound would mostly be computed in vain.
+pub(crate) fn hop_within(map: &LiftOffMap, (speed, error): (f64, f64), large: f64) -> HopWithin {
+    if error > large {
         let found = map.signed_hop_within(speed, error);
         if found != HopWithin::Inconclusive {
             return found;
         }
     }
-    with_signs(map, (speed, error), map.hop_within(speed, error))
+    with_signs(map, (speed, error), map.hop_within(speed, error), large)
 }

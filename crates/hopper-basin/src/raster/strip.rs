@@ -20,7 +20,7 @@ use crate::raster::common_circles::CommonCircles;
 use crate::raster::itinerary::Itinerary;
 use crate::raster::known_intervals::{KnownFate, KnownIntervals, NO_INTERVAL};
 use crate::raster::laps::HUMPS_WITH_LAPS;
-use crate::raster::speed_within::{is_inside, with_signs};
+use crate::raster::speed_within::{is_inside, large_error, with_signs};
 use basin_of_attraction::Label;
 use passive_hopper::{HopWithin, LiftOffMap, alpha_star, index_below};
 use std::ops::Range;
@@ -87,6 +87,8 @@ pub(crate) struct Strip<'a> {
     pub(crate) edges: Vec<(BesideEdge, Itinerary)>,
     /// For n = 0, 1, …: the number of orbits that jumped left of α*_n.
     pub(crate) jumped: Vec<usize>,
+    /// The error from which a hop may need its second bound.
+    pub(crate) large_error: f64,
     /// The last error of a fate that was computed for one speed alone.
     failed: Result<(), Error>,
 }
@@ -97,6 +99,7 @@ pub(crate) fn labels(
     speeds: &[f64],
     common: Option<&CommonCircles>,
 ) -> Result<Vec<Vec<Label>>, Error> {
+    let large_error = large_error(speeds);
     let (speeds, lower) = with_lower_speeds(speeds);
     // Orbits and intervals are numbered by `u32`, at most one for each speed of each column.
     if speeds.len().saturating_mul(all.len()) > LARGEST_STRIP {
@@ -113,8 +116,18 @@ pub(crate) fn labels(
     }
     let orbits = Orbits::default();
     let (edges, jumped, failed) = (Vec::new(), Vec::new(), Ok(()));
-    let mut strip =
-        Strip { columns, speeds, lower, intervals, orbits, common, edges, jumped, failed };
+    let mut strip = Strip {
+        columns,
+        speeds,
+        lower,
+        intervals,
+        orbits,
+        common,
+        edges,
+        jumped,
+        large_error,
+        failed,
+    };
     strip.label()?;
     strip.failed?;
     Ok(strip.columns.into_iter().map(|mut column| column.labels.split_off(lower)).collect())
@@ -257,7 +270,7 @@ impl Strip<'_> {
                     let before = self.orbits.before[from];
                     // In a narrow window many orbits come near to fixed points, where the first bound grows fastest.
                     if self.common.is_some() || hop.1 == HopWithin::Inconclusive {
-                        hop.1 = with_signs(hop.0, before, hop.1);
+                        hop.1 = with_signs(hop.0, before, hop.1, self.large_error);
                     }
                     self.ends(at, (before.0, hop.1), self.orbits.found[from - first])
                 }
