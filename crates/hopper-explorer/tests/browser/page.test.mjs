@@ -243,6 +243,8 @@ async function saved(page, name) {
   await page.keyboard.press("s");
   const [download] = await Promise.all([page.waitForEvent("download", READY), page.click(`#dialog button:text-is("${name}")`)]);
   await page.keyboard.press("Escape");
+  // The browser closes a dialog some time after the key. A dialog that is opened before would be closed by it.
+  await page.waitForFunction(() => !document.getElementById("dialog").open);
   return readFileSync(await download.path());
 }
 
