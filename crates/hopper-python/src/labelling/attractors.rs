@@ -137,6 +137,8 @@ impl Attractors {
         let reason = |reason| match reason {
             UnmatchedReason::Budget => "budget",
             UnmatchedReason::LeftRegion => "left the region",
+            // Features only, which this package does not offer; the library has one list for both.
+            UnmatchedReason::NoGroup => "no group",
             UnmatchedReason::Stopped => "stopped",
             UnmatchedReason::NoTrap => "no trap",
         };
