@@ -92,9 +92,12 @@ pub use circle::upwards::Upwards;
 pub use coverage::coverage_column::CoverageColumn;
 pub use coverage::coverage_limits::{CoverageGround, CoverageLimits};
 pub use coverage::coverage_raster::{CoverageRaster, coverage_raster};
+pub use coverage::images::{ImagedSpeed, SpeedImage, SpeedImages, falling_laps};
+pub use coverage::laps_sweep::{LapsSweep, Resolution};
 pub use error::Error;
 pub use fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 pub use fates::hopper_fate::HopperFate;
+pub use raster::rising_windows::{RisingWindow, rising_window};
 pub use traps::crisis::{Crisis, crisis, grounding};
 pub use traps::immediate_basin::{
     ImmediateBasin, ImmediateBasinEdge, immediate_basin, upper_crisis_bracket,

@@ -11,16 +11,15 @@
 //! where the labels are known already, and one hop suffices. A gap without a label is halved, and left open once it is small.
 
 use crate::basins::branches::branches_are_proved;
-use crate::coverage::images::{End, Reached};
+use crate::coverage::images::{ImagedSpeed, SpeedImage, SpeedImages};
 use crate::coverage::preimage_guess::PreimageGuess;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use crate::fates::hopper_fate::HopperFate;
 use crate::raster::rising_windows::trap_with_window;
-use crate::traps::hump::Hump;
 use crate::traps::trap_index::TrapIndex;
 use basin_of_attraction::{Interval, Label};
-use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio, index_below};
+use passive_hopper::{FixedPointSpeed, MassRatio, index_below};
 use std::f64::consts::PI;
 
 /// Most images of a gap that are taken. The first one shows the label as a rule. Where it lies between two known intervals, which the
@@ -44,10 +43,6 @@ const MARGIN: f64 = 0.03;
 /// The guess of more preimages than this takes a third point, which costs a hop. It affects the time only.
 const MANY: usize = 3;
 
-/// The relative distance from a computed critical point within which the map may have its extremum, as for the ends of laps: some
-/// thousand ulps, far more than their error.
-const DISTANCE_FROM_CRITICAL: f64 = 1e-12;
-
 /// Most images of a narrow window that are resolved apart. Next to a fixed point there are more, which the sweep below leaves open.
 const MOST_NARROW_IMAGES: usize = 64;
 
@@ -61,23 +56,23 @@ pub(crate) fn laps_are_known(mass_ratio: MassRatio, top: f64) -> bool {
 #[derive(Debug, Clone, Copy)]
 enum Part {
     Labelled(Interval, Label),
-    Open(End, End),
+    Open(ImagedSpeed, ImagedSpeed),
 }
 
 /// How far a pixel is resolved.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Resolution {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolution {
     /// The open part of a pixel at which the passes end.
-    pub(crate) tolerance: f64,
+    pub tolerance: f64,
     /// The largest number of speeds inside a pixel whose images are taken.
-    pub(crate) speeds: usize,
+    pub speeds: usize,
 }
 
 /// The intervals of known label, from 0 up to the speed that the sweep has reached.
-pub(crate) struct LapsSweep<'a> {
-    map: &'a LiftOffMap,
-    /// The critical points, increasing, with the values of the map beside them.
-    critical: Vec<End>,
+///
+/// The labels are as certain as the images and the traps that the sweep is given. With those of a strip of mass ratios each label holds for all of them.
+pub struct LapsSweep<I> {
+    images: I,
     /// The traps, increasing.
     traps: Vec<(Interval, Label)>,
     /// Disjoint and increasing.
@@ -86,28 +81,21 @@ pub(crate) struct LapsSweep<'a> {
     budget: usize,
 }
 
-impl<'a> LapsSweep<'a> {
-    /// A sweep that has not begun, for speeds up to `top`. The laps must be [known](laps_are_known).
-    pub(crate) fn new(fates: &'a Fates, top: f64) -> Result<Self, Error> {
-        let map = fates.map();
-        let mut critical = Vec::new();
-        for n in 0..=index_below(top)? {
-            if let Some((maximum, minimum)) = Hump::new(n)?.falling(map.mass_ratio().mu())? {
-                let end = |speed: f64| {
-                    let hop = map.hop_within(speed, DISTANCE_FROM_CRITICAL * speed);
-                    End { speed, reached: Reached::of(hop) }
-                };
-                critical.extend([end(maximum), end(minimum)]);
-            }
-        }
-        let traps = TrapIndex::new(top, |n| trap_with_window(fates, n))?;
-        let trap = |(n, (left, right)): (u32, (f64, f64))| {
-            let inside = right.is_finite() && left <= right;
-            let label = HopperFate::label_of_fixed_point(n.into());
-            inside.then_some((Interval { left, right }, label))
-        };
-        let traps = traps.ends().filter_map(trap).collect();
-        Ok(LapsSweep { map, critical, traps, known: Vec::new(), budget: 0 })
+/// The traps of the fixed points up to `top`, at one mass ratio.
+pub(crate) fn traps_up_to(fates: &Fates, top: f64) -> Result<Vec<(Interval, Label)>, Error> {
+    let traps = TrapIndex::new(top, |n| trap_with_window(fates, n))?;
+    let trap = |(n, (left, right)): (u32, (f64, f64))| {
+        let inside = right.is_finite() && left <= right;
+        let label = HopperFate::label_of_fixed_point(n.into());
+        inside.then_some((Interval { left, right }, label))
+    };
+    Ok(traps.ends().filter_map(trap).collect())
+}
+
+impl<I: SpeedImages> LapsSweep<I> {
+    /// A sweep that has not begun. Every speed of a trap has its label; the traps are disjoint and increase.
+    pub fn new(images: I, traps: Vec<(Interval, Label)>) -> Self {
+        LapsSweep { images, traps, known: Vec::new(), budget: 0 }
     }
 
     /// The images of a window of speeds, as long as each is narrower than `widest`, from the first one down.
@@ -115,7 +103,8 @@ impl<'a> LapsSweep<'a> {
         let (mut images, mut own) = (Vec::new(), window);
         while images.len() < MOST_NARROW_IMAGES {
             let left = self.end(own.left.max(f64::MIN_POSITIVE));
-            let Reached::Within(low, high) = self.image(&left, &self.end(own.right)) else { break };
+            let image = self.images.of_all_between(&left, &self.end(own.right));
+            let SpeedImage::Within(low, high) = image else { break };
             let trapped = self.traps.iter().any(|(trap, _)| trap.left <= low && high <= trap.right);
             if trapped || low <= 0.0 || high - low > widest {
                 break;
@@ -127,12 +116,12 @@ impl<'a> LapsSweep<'a> {
     }
 
     /// The intervals found so far: disjoint, increasing, each with the label of all its speeds.
-    pub(crate) fn into_known(self) -> Vec<(Interval, Label)> {
+    pub fn into_known(self) -> Vec<(Interval, Label)> {
         self.known
     }
 
     /// Labels the speeds from `left` ≥ 0 to `right`, the next pixel.
-    pub(crate) fn add_pixel(&mut self, left: f64, right: f64, resolution: Resolution) {
+    pub fn add_pixel(&mut self, left: f64, right: f64, resolution: Resolution) {
         let before = (self.known.len(), self.known.last().copied());
         let allowed = resolution.tolerance * (right - left);
         let mut finest = allowed;
@@ -183,12 +172,12 @@ impl<'a> LapsSweep<'a> {
         parts
     }
 
-    fn end(&self, speed: f64) -> End {
-        End { speed, reached: Reached::of(self.map.hop_within(speed, 0.0)) }
+    fn end(&self, speed: f64) -> ImagedSpeed {
+        ImagedSpeed { speed, reached: self.images.of_speed(speed) }
     }
 
     /// Labels parts of a gap, from below, as far as their width is at least `finest`.
-    fn resolve(&mut self, (a, b): (End, End), finest: f64, parts: &mut Vec<Part>) {
+    fn resolve(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), finest: f64, parts: &mut Vec<Part>) {
         let mut from = a;
         while from.speed < b.speed {
             if let Some((end, label)) = self.one_label_up_to_fixed_point(&from) {
@@ -200,12 +189,12 @@ impl<'a> LapsSweep<'a> {
             // Next to a fixed point the image of the gap may reach into the gap itself: turn by turn, each image is known. An unknown
             // image is below its speed.
             let highest = match b.reached {
-                Reached::Within(_, high) => high,
-                Reached::Unknown => b.speed,
-                Reached::Grounded => 0.0,
+                SpeedImage::Within(_, high) => high,
+                SpeedImage::Unknown => b.speed,
+                SpeedImage::Grounded => 0.0,
             };
             let mut next = b;
-            if let Reached::Within(low, _) = from.reached
+            if let SpeedImage::Within(low, _) = from.reached
                 && highest > from.speed
             {
                 let step = TURN * (from.speed - low);
@@ -223,8 +212,8 @@ impl<'a> LapsSweep<'a> {
 
     /// The largest speed below the next fixed point, and the label of all speeds up to there, if a turn below `from` has one label and
     /// the map rises from there on (docs/theory.md, Theorem 95.3).
-    fn one_label_up_to_fixed_point(&self, from: &End) -> Option<(f64, Label)> {
-        let (Reached::Within(low, _), &(own, label)) = (from.reached, self.known.last()?) else {
+    fn one_label_up_to_fixed_point(&self, from: &ImagedSpeed) -> Option<(f64, Label)> {
+        let (SpeedImage::Within(low, _), &(own, label)) = (from.reached, self.known.last()?) else {
             return None;
         };
         let turn = own.left <= low && own.right == from.speed;
@@ -233,13 +222,12 @@ impl<'a> LapsSweep<'a> {
         }
         let star = FixedPointSpeed::new(index_below(from.speed).ok()? + 1);
         let end = star.largest_below();
-        let first = from.speed * (1.0 - DISTANCE_FROM_CRITICAL);
-        let rises = !self.critical.iter().any(|point| point.speed >= first && point.speed <= end);
-        (rises && from.speed < end).then_some((end, label))
+        let rises = from.speed < end && self.images.rises_up_to_fixed_point(from.speed);
+        rises.then_some((end, label))
     }
 
     /// Divides a gap where the labels of its image change, and labels the parts.
-    fn split(&mut self, (a, b): (End, End), finest: f64, parts: &mut Vec<Part>) {
+    fn split(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), finest: f64, parts: &mut Vec<Part>) {
         if let Some(label) = self.label(&a, &b, 1) {
             return self.add(parts, Interval { left: a.speed, right: b.speed }, label);
         }
@@ -269,7 +257,7 @@ impl<'a> LapsSweep<'a> {
         self.label_or_open((from, b), images, parts);
     }
 
-    fn label_or_open(&mut self, (a, b): (End, End), images: usize, parts: &mut Vec<Part>) {
+    fn label_or_open(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), images: usize, parts: &mut Vec<Part>) {
         match self.label(&a, &b, images) {
             Some(label) => self.add(parts, Interval { left: a.speed, right: b.speed }, label),
             None => parts.push(Part::Open(a, b)),
@@ -278,12 +266,11 @@ impl<'a> LapsSweep<'a> {
 
     /// Where to divide a gap: at a critical point, or else a little inside of the preimages of the known intervals in its image. The
     /// preimages are guessed; the labels do not depend on the guess.
-    fn cuts(&self, a: &End, b: &End, finest: f64) -> (Vec<End>, usize) {
-        let first = self.critical.partition_point(|end| end.speed <= a.speed + 0.5 * finest);
-        if let Some(turn) =
-            self.critical.get(first).filter(|end| end.speed < b.speed - 0.5 * finest)
-        {
-            return (vec![self.end(turn.speed)], 1);
+    fn cuts(&self, a: &ImagedSpeed, b: &ImagedSpeed, finest: f64) -> (Vec<ImagedSpeed>, usize) {
+        let critical = self.images.critical_points();
+        let first = critical.partition_point(|&speed| speed <= a.speed + 0.5 * finest);
+        if let Some(&turn) = critical.get(first).filter(|&&speed| speed < b.speed - 0.5 * finest) {
+            return (vec![self.end(turn)], 1);
         }
         let (mut at_a, mut at_b) = (a.reached, b.reached);
         for image in 1..=MOST_IMAGES {
@@ -335,13 +322,13 @@ impl<'a> LapsSweep<'a> {
     }
 
     /// The label of all speeds from `a` to `b`; `None` if the images do not show it.
-    fn label(&self, a: &End, b: &End, images: usize) -> Option<Label> {
-        let mut reached = self.image(a, b);
+    fn label(&self, a: &ImagedSpeed, b: &ImagedSpeed, images: usize) -> Option<Label> {
+        let mut reached = self.images.of_all_between(a, b);
         for image in 1..=images {
             let (low, high) = match reached {
-                Reached::Within(low, high) => (low, high),
-                Reached::Grounded => return Some(HopperFate::GROUNDED),
-                Reached::Unknown => return None,
+                SpeedImage::Within(low, high) => (low, high),
+                SpeedImage::Grounded => return Some(HopperFate::GROUNDED),
+                SpeedImage::Unknown => return None,
             };
             // The first interval that does not end below the image, and the last one that does not begin above it.
             let first = self.known.partition_point(|(own, _)| own.right < low);
@@ -359,17 +346,8 @@ impl<'a> LapsSweep<'a> {
             if low <= 0.0 || image == images {
                 return None;
             }
-            reached = self.image(&self.end(low), &self.end(high));
+            reached = self.images.of_all_between(&self.end(low), &self.end(high));
         }
         None
-    }
-
-    /// The image of all speeds from `a` to `b`.
-    fn image(&self, a: &End, b: &End) -> Reached {
-        let low = a.speed * (1.0 - DISTANCE_FROM_CRITICAL);
-        let high = b.speed * (1.0 + DISTANCE_FROM_CRITICAL);
-        let first = self.critical.partition_point(|end| end.speed < low);
-        let inside = self.critical[first..].iter().take_while(|end| end.speed <= high);
-        inside.fold(a.reached.with(b.reached), |all, end| all.with(end.reached))
     }
 }

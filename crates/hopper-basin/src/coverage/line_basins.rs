@@ -1,7 +1,8 @@
 //! The basins of a window at one mass ratio as labelled intervals: by images of gaps, or by the fates of samples.
 
 use crate::coverage::coverage_limits::CoverageLimits;
-use crate::coverage::laps_sweep::{LapsSweep, Resolution};
+use crate::coverage::images::LapImages;
+use crate::coverage::laps_sweep::{LapsSweep, Resolution, traps_up_to};
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
 use basin_of_attraction::{Interval, Label, PixelShares};
@@ -31,7 +32,7 @@ pub(crate) fn by_laps(
     limits: CoverageLimits,
 ) -> Result<Vec<(Interval, Label)>, Error> {
     let [bottom, .., top] = *edges else { return Ok(Vec::new()) };
-    let mut sweep = LapsSweep::new(fates, top)?;
+    let mut sweep = LapsSweep::new(LapImages::new(fates.map(), top)?, traps_up_to(fates, top)?);
     let fine = Resolution { tolerance: limits.tolerance, speeds: limits.speeds };
     let below = Resolution { tolerance: limits.tolerance.min(TOLERANCE_BELOW), ..fine };
     let mut lower = Vec::new();

@@ -28,15 +28,15 @@ const PROVED: [f64; 8] = [0.905, 0.905, 0.905, 0.9, 0.89, 0.87, 0.85, 0.83];
 ///
 /// For these mass ratios a hop has at most one sudden lift-off, and the map is continuous on the window.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct RisingWindow {
+pub struct RisingWindow {
     /// From nπ to 10⁻³ below α*_n.
-    pub(crate) part: Interval,
+    pub part: Interval,
     /// The largest M of the proof.
-    pub(crate) largest_mass_ratio: f64,
+    pub largest_mass_ratio: f64,
 }
 
 /// Window n if n is in 1, …, 8; `None` for all other windows, for which there is no proof.
-pub(crate) fn rising_window(n: u64) -> Option<RisingWindow> {
+pub fn rising_window(n: u64) -> Option<RisingWindow> {
     let at = usize::try_from(n).ok()?.checked_sub(1)?;
     let &largest_mass_ratio = PROVED.get(at)?;
     let part = Interval { left: n as f64 * PI, right: alpha_star(n) - DISTANCE_FROM_STAR };

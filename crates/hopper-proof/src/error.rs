@@ -1,0 +1,43 @@
+//! What cannot be proved, or is no question.
+
+use thiserror::Error;
+
+/// Why there is no proof.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The ends are no interval of mass ratios.
+    #[error("[{low}, {high}] is no interval of mass ratios: both ends must be positive and finite, and the lower one not above the upper one")]
+    MassRatios {
+        /// The lower end.
+        low: f64,
+        /// The upper end.
+        high: f64,
+    },
+    /// The ends are no interval of lift-off speeds.
+    #[error("[{low}, {high}] is no interval of lift-off speeds: the ends must be from 0 to {largest}, and the lower one below the upper one")]
+    Speeds {
+        /// The lower end.
+        low: f64,
+        /// The upper end.
+        high: f64,
+        /// The largest speed that is allowed.
+        largest: f64,
+    },
+    /// A trap, a crisis or a critical point was not enclosed.
+    #[error("{what} of hump {n} is not enclosed at M = {mass_ratio}: the sign of an enclosure is open. Give the trap of another hump, or another mass ratio")]
+    Open {
+        /// What was looked for.
+        what: &'static str,
+        /// The hump.
+        n: u64,
+        /// A mass ratio of the strip.
+        mass_ratio: f64,
+    },
+    /// A computation that the proof starts from failed.
+    #[error(transparent)]
+    Basin(#[from] hopper_basin::Error),
+    /// A computation of the model failed.
+    #[error(transparent)]
+    Hopper(#[from] passive_hopper::Error),
+}

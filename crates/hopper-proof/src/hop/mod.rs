@@ -1,0 +1,19 @@
+//! Where does a hop lead, for all speeds of an interval and all mass ratios of a strip?
+//!
+//! ```text
+//!   strip.rs            mass ratios, as κ and μ
+//!   time_functions.rs   the functions of the time of flight, without cancellation
+//!   landing_time.rs     a landing, enclosed by two signs
+//!   first_landing.rs    the first landing over an interval of speeds
+//!   hop_enclosure.rs    F = α′² with its derivatives, by interval arithmetic
+//!   turns.rs            the maximum and the minimum of a contact part
+//!   proved_images.rs    narrow images: by monotony, and from the middle of a strip
+//! ```
+
+pub(crate) mod first_landing;
+pub(crate) mod hop_enclosure;
+pub(crate) mod landing_time;
+pub(crate) mod proved_images;
+pub(crate) mod strip;
+pub(crate) mod time_functions;
+pub(crate) mod turns;
