@@ -6,11 +6,8 @@ fn main(){
   let strip = Strip::between(m, m+dm).unwrap();
   for n in 0..=6 { println!("{n} {:?}", proved_trap(n,&strip)); }
   let (b,t)=(fixed_point(1).low, fixed_point(6).low);
-  let lower=64usize;
-  let mut edges: Vec<f64> = (0..lower).map(|k| b*k as f64/lower as f64).collect();
-  edges.extend((0..=pixels).map(|k| b+(t-b)*k as f64/pixels as f64));
   let now=Instant::now();
-  let line = ProvedLine::new(strip,&edges,Resolution{tolerance:tol,speeds}).unwrap();
+  let line = ProvedLine::new(strip,basin_of_attraction::Interval{left:b,right:t},pixels,tol,speeds).unwrap();
   let s=now.elapsed().as_secs_f64();
   let mut sums=[0.0;9]; let mut known=0.0;
   for (i,l) in line.intervals() { let len=(i.right.min(t)-i.left.max(b)).max(0.0); known+=len; 
@@ -20,6 +17,8 @@ fn main(){
   let mut gaps: Vec<(f64,f64)>=Vec::new(); let mut at=b; for (i,_) in line.intervals() { if i.right<b {continue;} if i.left>at { gaps.push((i.left-at,at)); } at=i.right; } gaps.push((t-at,at));
   gaps.sort_by(|x,y| y.0.total_cmp(&x.0)); let im=ProvedImages::new(strip,t).unwrap(); for (w,x) in gaps.iter().take(8) { println!("gap {w:e} at {x} [pi {:.4}] F {:?} {:?}", x/std::f64::consts::PI, im.of_speed(*x), im.of_speed(x+w)); }
   println!("gaps {}", gaps.len());
+  let mut show=|lo:f64,hi:f64| { let mut seen=0; for (i,l) in line.intervals().iter().filter(|(i,_)| i.right>=lo && i.left<=hi) { println!("   {:.17} {:.17} {:?}", i.left,i.right,l); seen+=1; if seen>12 {break;} } println!("--"); };
+  for (w,x) in gaps.iter().take(3) { show(x-1e-12,x+w+1e-12); if let SpeedImage::Within(p,q)=im.of_speed(*x) { if let SpeedImage::Within(r,s)=im.of_speed(x+w) { show(p.min(r),q.max(s)); } } }
   // compare with fates
   let fates=Fates::new(passive_hopper::MassRatio::new(m+0.5*dm).unwrap()).unwrap();
   let mut wrong=0; let mut open=0; let count=200000;

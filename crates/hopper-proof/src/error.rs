@@ -24,6 +24,14 @@ pub enum Error {
         /// The largest speed that is allowed.
         largest: f64,
     },
+    /// No share that may stay open.
+    #[error("a share of {open} in {parts} parts: the share must be above 0 and at most 1, and there must be a part")]
+    Share {
+        /// The share.
+        open: f64,
+        /// The number of parts.
+        parts: usize,
+    },
     /// A trap, a crisis or a critical point was not enclosed.
     #[error("{what} of hump {n} is not enclosed at M = {mass_ratio}: the sign of an enclosure is open. Give the trap of another hump, or another mass ratio")]
     Open {

@@ -4,9 +4,19 @@ use crate::error::Error;
 use crate::hop::proved_images::ProvedImages;
 use crate::hop::strip::Strip;
 use crate::traps::proved_trap;
-use basin_of_attraction::{Interval, Label};
+use basin_of_attraction::{Interval, Label, PixelShares};
 use hopper_basin::{HopperFate, LapsSweep, Resolution};
 use passive_hopper::{alpha_star, index_below};
+
+/// The share that may stay open on a hump, over that of the hump above it. What is open below is open again at each of its preimages
+/// above. With a larger factor the upper humps do not reach their share; with a smaller one the lower humps cost more.
+const FINER_BELOW: f64 = 0.2;
+
+/// Passes over a part. The gaps that are left have then the size of an ulp.
+const PASSES: usize = 40;
+
+/// Most parts of a hump below the window. More affect the time only.
+const MOST_PARTS_BELOW: f64 = 64.0;
 
 /// Disjoint intervals of speeds, each with the fate that all its speeds have, at all mass ratios of a strip. Between them nothing is
 /// proved.
@@ -16,25 +26,39 @@ pub struct ProvedLine {
 }
 
 impl ProvedLine {
-    /// The basins between the speeds of `edges`, which increase; `resolution` says how much of each part between two neighbours may stay
-    /// open. A sweep goes upwards from 0, since images lie below their speeds.
+    /// The basins in a window of speeds. Of each of `parts` equal parts of it at most the share `open` is left without a label, if `speeds`
+    /// speeds inside a part suffice for that.
+    ///
+    /// A sweep goes upwards from 0, since images lie below their speeds. So the intervals begin below the window.
     ///
     /// # Errors
-    /// [`Error::Speeds`] unless the edges are from 0 to α*_n of the largest label, and increase.
-    pub fn new(strip: Strip, edges: &[f64], resolution: Resolution) -> Result<Self, Error> {
+    /// [`Error::Speeds`] unless the window is from 0 to α*_n of the largest label; [`Error::Share`] unless `open` is above 0 and at most 1,
+    /// and there are parts.
+    pub fn new(strip: Strip, window: Interval, parts: usize, open: f64, speeds: usize) -> Result<Self, Error> {
         let largest = alpha_star(HopperFate::LARGEST_LABEL);
-        let (low, high) = match *edges {
-            [low, .., high] => (low, high),
-            _ => (f64::NAN, f64::NAN),
-        };
-        let increase = edges.windows(2).all(|pair| pair[0] < pair[1]);
-        if !(low >= 0.0 && high <= largest && increase) {
+        let Interval { left: low, right: high } = window;
+        if !(low >= 0.0 && low < high && high <= largest) {
             return Err(Error::Speeds { low, high, largest });
         }
+        if !(open > 0.0 && open <= 1.0 && parts >= 1) {
+            return Err(Error::Share { open, parts });
+        }
+        let last = index_below(high)?;
         let traps = traps_up_to(&strip, high)?;
         let mut sweep = LapsSweep::new(ProvedImages::new(strip, high)?, traps);
+        // Below the window: the humps, in parts of a similar height.
+        let height = window.length() / parts as f64;
+        for n in 0..=index_below(low)? {
+            let (from, to) = (alpha_star(n), alpha_star(n + 1).min(low));
+            let count = ((to - from) / height).ceil().clamp(1.0, MOST_PARTS_BELOW);
+            let tolerance = open * FINER_BELOW.powi(i32::try_from(last - n).unwrap_or(i32::MAX));
+            add_parts(&mut sweep, Interval { left: from, right: to }, count as usize, Resolution { tolerance, speeds, passes: PASSES });
+        }
+        let edges = PixelShares::edges(window, parts).map_err(hopper_basin::Error::from)?;
         for pair in edges.windows(2) {
-            sweep.add_pixel(pair[0], pair[1], resolution);
+            let n = index_below(pair[0])?;
+            let tolerance = open * FINER_BELOW.powi(i32::try_from(last - n).unwrap_or(i32::MAX));
+            sweep.add_pixel(pair[0], pair[1], Resolution { tolerance, speeds, passes: PASSES });
         }
         Ok(ProvedLine { intervals: sweep.into_known() })
     }
@@ -42,6 +66,19 @@ impl ProvedLine {
     /// The intervals from the lowest up.
     pub fn intervals(&self) -> &[(Interval, Label)] {
         &self.intervals
+    }
+}
+
+/// Equal parts of a range, one after the other.
+fn add_parts(sweep: &mut LapsSweep<ProvedImages>, range: Interval, count: usize, resolution: Resolution) {
+    let part = range.length() / count as f64;
+    let mut from = range.left;
+    for k in 1..=count {
+        let to = if k == count { range.right } else { range.left + part * k as f64 };
+        if from < to {
+            sweep.add_pixel(from, to, resolution);
+            from = to;
+        }
     }
 }
 

@@ -32,8 +32,12 @@ impl SpeedImage {
         }
     }
 
-    pub(crate) fn kind(self) -> std::mem::Discriminant<Self> {
-        std::mem::discriminant(&self)
+    /// The length of the interval; 0 if there is none.
+    pub(crate) fn width(self) -> f64 {
+        match self {
+            SpeedImage::Within(low, high) => high - low,
+            _ => 0.0,
+        }
     }
 
     pub(crate) fn middle(self) -> Option<f64> {

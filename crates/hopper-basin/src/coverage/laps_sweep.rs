@@ -26,12 +26,16 @@ use std::f64::consts::PI;
 /// sweep left open, the second may. It affects the time, and what is left open.
 const MOST_IMAGES: usize = 2;
 
-/// Most passes over a pixel. Each resolves [`FINER`] gaps, the last one 10⁻⁴ of those of the first.
-const MOST_PASSES: usize = 8;
-
 /// The smallest width that a pass resolves, over that of the pass before. With a smaller factor there are fewer passes, and more is
 /// resolved than needed. It affects the time only.
 const FINER: f64 = 0.25;
+
+/// The smallest width that is resolved, over what may stay open of a pixel. Below it a pixel would have more gaps than this allows. With a
+/// smaller one the turns next to a fixed point, of which there are ever more, take the time.
+const FINEST: f64 = 1e-3;
+
+/// A pass that leaves more than this part of what was open is the last one: what is open lies at preimages of what is open below the pixel.
+const STALLED: f64 = 0.8;
 
 /// A part of the hop from a speed next to a fixed point: the image of so much above the speed lies below the speed.
 const TURN: f64 = 0.9;
@@ -66,6 +70,9 @@ pub struct Resolution {
     pub tolerance: f64,
     /// The largest number of speeds inside a pixel whose images are taken.
     pub speeds: usize,
+    /// Most passes over a pixel. A pass leaves some hundredths of each gap that it divides, and resolves gaps of a quarter of the width that the
+    /// one before did. A small tolerance needs more.
+    pub passes: usize,
 }
 
 /// The intervals of known label, from 0 up to the speed that the sweep has reached.
@@ -124,10 +131,10 @@ impl<I: SpeedImages> LapsSweep<I> {
     pub fn add_pixel(&mut self, left: f64, right: f64, resolution: Resolution) {
         let before = (self.known.len(), self.known.last().copied());
         let allowed = resolution.tolerance * (right - left);
-        let mut finest = allowed;
+        let (mut finest, mut open_before) = (allowed, f64::INFINITY);
         self.budget = resolution.speeds;
         let mut parts = self.cut(left, right);
-        for _ in 0..MOST_PASSES {
+        for _ in 0..resolution.passes {
             // The labels of the pixel are found again from below, now in smaller gaps.
             self.known.truncate(before.0);
             if let (Some(last), Some(own)) = (self.known.last_mut(), before.1) {
@@ -145,10 +152,13 @@ impl<I: SpeedImages> LapsSweep<I> {
                 Part::Labelled(..) => 0.0,
                 Part::Open(a, b) => b.speed - a.speed,
             };
-            if self.budget == 0 || parts.iter().map(open).sum::<f64>() <= allowed {
+            let open = parts.iter().map(open).sum::<f64>();
+            let stalled = finest <= FINEST * allowed && open > STALLED * open_before;
+            if self.budget == 0 || open <= allowed || stalled {
                 return;
             }
-            finest *= FINER;
+            open_before = open;
+            finest = (FINER * finest).max(FINEST * allowed);
         }
     }
 
@@ -234,8 +244,10 @@ impl<I: SpeedImages> LapsSweep<I> {
         if b.speed - a.speed <= finest || self.budget == 0 {
             return parts.push(Part::Open(a, b));
         }
-        if a.reached.kind() != b.reached.kind() {
-            // The edge of grounding has no known interval as its image: it is bisected. So is the place of an undecided hop.
+        let all = self.images.of_all_between(&a, &b);
+        if all == SpeedImage::Unknown {
+            // The edge of grounding has no known interval as its image: it is bisected. So is the place of an undecided hop, and an interval
+            // on which the map is not known to be monotone.
             let middle = a.speed.midpoint(b.speed);
             if !(a.speed < middle && middle < b.speed) {
                 return parts.push(Part::Open(a, b));
@@ -277,13 +289,16 @@ impl<I: SpeedImages> LapsSweep<I> {
             let (Some(from), Some(to)) = (at_a.middle(), at_b.middle()) else {
                 break;
             };
+            // An image of one speed is wide if it holds for many mass ratios.
+            let blur = 0.5 * at_a.width().max(at_b.width());
             let (low, high) = (from.min(to), from.max(to));
             let first = self.known.partition_point(|(own, _)| own.right <= low);
             // On a line, the narrowest interval whose preimage counts.
             let narrowest = finest * (high - low) / (b.speed - a.speed);
+            let sharp = |own: Interval| Interval { left: own.left + blur, right: own.right - blur };
             let seen = |own: &Interval| own.right.min(high) - own.left.max(low) >= narrowest;
             let inside = self.known[first..].iter().take_while(|(own, _)| own.left < high);
-            let inside: Vec<Interval> = inside.map(|(own, _)| *own).filter(seen).collect();
+            let inside: Vec<Interval> = inside.map(|(own, _)| sharp(*own)).filter(seen).collect();
             if inside.is_empty() {
                 (at_a, at_b) = (self.end(from).reached, self.end(to).reached);
                 continue;
@@ -304,6 +319,10 @@ impl<I: SpeedImages> LapsSweep<I> {
                 // The ends of the gap are known.
                 cuts.extend((own.left > low).then(|| self.end(x + margin)));
                 cuts.extend((own.right < high).then(|| self.end(y - margin)));
+            }
+            if cuts.is_empty() {
+                // One interval holds the images of both ends, and not those of all between: a bound on these was too wide.
+                cuts.push(self.end(a.speed.midpoint(b.speed)));
             }
             cuts.sort_by(|p, q| p.speed.total_cmp(&q.speed));
             return (cuts, image);
