@@ -45,6 +45,9 @@ pub enum Error {
     /// A computation that the proof starts from failed.
     #[error(transparent)]
     Basin(#[from] hopper_basin::Error),
+    /// A raster was interrupted, or has no pixels.
+    #[error(transparent)]
+    Raster(#[from] basin_of_attraction::Error),
     /// A computation of the model failed.
     #[error(transparent)]
     Hopper(#[from] passive_hopper::Error),

@@ -8,15 +8,27 @@
 //! | [`ProvedLine`] | the basins of a line of speeds, for all mass ratios of a strip |
 //! | [`fixed_point`] | α*_n, enclosed |
 
+mod cell;
 mod error;
 mod fixed_points;
 mod hop;
 mod line;
+mod theorems;
 mod traps;
 
+pub use cell::Cell;
 pub use error::Error;
 pub use fixed_points::fixed_point;
 pub use hop::proved_images::ProvedImages;
 pub use hop::strip::Strip;
 pub use line::ProvedLine;
+pub use theorems::crisis::crises;
+pub use theorems::everything_hops::everything_hops;
+pub use theorems::measures::{ProvedFraction, ProvedFractions, measures};
+pub use theorems::one_sided::one_sided;
+pub use theorems::one_sudden::one_sudden;
+pub use theorems::raster::{ProvedCells, proved_points};
+pub use theorems::rising::rising;
+pub use theorems::theorem::{Step, Theorem};
+pub use theorems::trap_edges::trap_edges;
 pub use traps::{Touch, proved_trap};

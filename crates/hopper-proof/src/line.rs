@@ -1,5 +1,6 @@
 //! The basins of a line of speeds, proved for all mass ratios of a strip.
 
+use crate::cell::Cell;
 use crate::error::Error;
 use crate::hop::proved_images::ProvedImages;
 use crate::hop::strip::Strip;
@@ -61,6 +62,24 @@ impl ProvedLine {
             sweep.add_pixel(pair[0], pair[1], Resolution { tolerance, speeds, passes: PASSES });
         }
         Ok(ProvedLine { intervals: sweep.into_known() })
+    }
+
+    /// The label of all speeds from `low` to `high`, if one interval contains them.
+    pub fn label_of_all(&self, low: f64, high: f64) -> Option<Label> {
+        let at = self.intervals.partition_point(|(own, _)| own.right < low);
+        let (own, label) = self.intervals.get(at)?;
+        (own.left <= low && high <= own.right).then_some(*label)
+    }
+
+    /// What is proved of the speeds from `low` to `high`.
+    pub fn cell(&self, low: f64, high: f64) -> Cell {
+        if let Some(label) = self.label_of_all(low, high) {
+            return Cell::Basin(label);
+        }
+        let first = self.intervals.partition_point(|(own, _)| own.right < low);
+        let mut inside = self.intervals[first..].iter().take_while(|(own, _)| own.left <= high);
+        let Some((_, label)) = inside.next() else { return Cell::Open };
+        if inside.any(|(_, other)| other != label) { Cell::Cut } else { Cell::Open }
     }
 
     /// The intervals from the lowest up.

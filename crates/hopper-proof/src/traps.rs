@@ -20,6 +20,9 @@ const HALVINGS: usize = 60;
 /// an ulp, so that the last one is longer than the trap.
 const STEPS: usize = 30;
 
+/// Halvings of the last step: the end that is proved is then within a sixteenth of it.
+const LAST_HALVINGS: usize = 4;
+
 /// q and T at one speed of a contact part.
 struct AtSpeed {
     q: Enclosure,
@@ -140,19 +143,24 @@ pub fn proved_trap(n: u64, strip: &Strip) -> Result<Interval, Error> {
         TrapEdge::Crossing => fixed_point(n).middle() + trap.delta,
         TrapEdge::ContactEnd | TrapEdge::NextFixedPoint => touch.speed.low,
     };
+    let is_inside = |right: f64| {
+        AtSpeed::new(n, right)
+            .is_some_and(|at| at.q.low > strip.mu.high && at.t.is_negative())
+    };
     let first = computed.min(touch.speed.low);
-    let mut step = first * f64::EPSILON;
-    for _ in 0..STEPS {
-        let right = first - step;
-        if right <= left {
-            break;
-        }
-        let proved = AtSpeed::new(n, right)
-            .is_some_and(|at| at.q.low > strip.mu.high && at.t.is_negative());
-        if proved {
-            return Ok(Interval { left, right });
-        }
-        step *= 4.0;
+    let steps = (0..STEPS as i32).map(|k| first - first * f64::EPSILON * 4f64.powi(k));
+    let proved = steps.take_while(|&right| right > left).find(|&right| is_inside(right));
+    let Some(mut right) = proved else { return Err(open) };
+    // The last step was up to four times too long.
+    let mut beyond = first - 0.25 * (first - right);
+    for _ in 0..LAST_HALVINGS {
+        let middle = right.midpoint(beyond);
+        if is_inside(middle) { right = middle } else { beyond = middle }
     }
-    Err(open)
+    Ok(Interval { left, right })
+}
+
+/// The map is certainly below α*_n at a speed of the contact part of hump n, at all mass ratios of a strip.
+pub(crate) fn falls_below(n: u64, speed: f64, strip: &Strip) -> bool {
+    AtSpeed::new(n, speed).is_some_and(|at| at.q.high < strip.mu.low)
 }

@@ -94,15 +94,10 @@ pub(crate) fn first_landing_time(alpha: f64) -> Option<LandingTime> {
         star.value() + 0.5 * flight.time_shift(star.offset_of(alpha))
     };
     let found = 2.0 * half_time(0.0, alpha, (low, high), near);
-    // The whole range of half times of this hump, and some more: G has one change of sign on all of (0, ∞).
-    let bracket = Enclosure::new(2.0 * low * (1.0 - 1e-9), 2.0 * high * (1.0 + 1e-9));
-    let bracket_holds = {
-        let zero = Enclosure::ZERO;
-        let speed = Enclosure::new(alpha, alpha);
-        TimeFunctions::at(bracket.low).height(zero, speed).is_positive()
-            && TimeFunctions::at(bracket.high).height(zero, speed).is_negative()
-    };
-    bracket_holds.then(|| LandingTime { branch: n + 1, time: between_signs(0.0, alpha, bracket, found) })
+    // α and h lie between the same two neighbouring multiples of π (Theorem 7); half of π more on both sides covers the rounding of the quotient.
+    let k = (alpha / std::f64::consts::PI).floor();
+    let bracket = Enclosure::new((2.0 * k - 1.0).max(0.0) * PI.low, (2.0 * k + 3.0) * PI.high);
+    Some(LandingTime { branch: n + 1, time: between_signs(0.0, alpha, bracket, found) })
 }
 
 /// The first landing of the flight from the stretch x > 0 with velocity `v` (docs/theory.md, Theorem 12); `None` next to a grazing,
@@ -134,10 +129,19 @@ pub(crate) fn next_landing_time(x: f64, v: f64) -> Option<LandingTime> {
     Some(LandingTime { branch, time: Enclosure::new(time.low.max(0.0), time.high) })
 }
 
-/// The landing times of all flights from x in `stretches`, x > 0, with V in `velocities`: on one branch the time rises with x and V, and
+/// The landing times of all flights from x in `stretches`, x ≥ 0, with V in `velocities`: on one branch the time rises with x and V, and
 /// the branch does not fall with them (docs/theory.md, Theorem 12 and Lemma 14).
 pub(crate) fn landing_times(stretches: Enclosure, velocities: Enclosure) -> Option<Enclosure> {
-    let first = next_landing_time(stretches.low, velocities.low)?;
-    let last = next_landing_time(stretches.high, velocities.high)?;
+    let at = |x: f64, v: f64| {
+        // Without a stretch a flight with V ≤ 0 ends at once (docs/theory.md, Lemma 22).
+        let grounded = LandingTime { branch: 1, time: Enclosure::ZERO };
+        match x > 0.0 {
+            true => next_landing_time(x, v),
+            false if v <= 0.0 => Some(grounded),
+            false => first_landing_time(v),
+        }
+    };
+    let first = at(stretches.low, velocities.low)?;
+    let last = at(stretches.high, velocities.high)?;
     (first.branch == last.branch).then(|| first.time.hull(&last.time))
 }

@@ -41,13 +41,7 @@ impl Strip {
             return Err(Error::MassRatios { low, high });
         }
         let kappa = kappa_of(low).hull(&kappa_of(high));
-        let centre = kappa.middle();
-        Ok(Strip {
-            mass_ratios: Enclosure::new(low, high),
-            kappa,
-            mu: mu_of(kappa),
-            middle: Enclosure::new(centre, centre),
-        })
+        Ok(Strip::of_kappa(kappa, Enclosure::new(low, high)))
     }
 
     /// One mass ratio.
@@ -56,6 +50,30 @@ impl Strip {
     /// [`Error::MassRatios`] unless it is positive and finite.
     pub fn at(mass_ratio: f64) -> Result<Self, Error> {
         Strip::between(mass_ratio, mass_ratio)
+    }
+
+    /// All mass ratios from 0 to `high`, with the limit of the motion at 0.
+    pub(crate) fn up_to(high: f64) -> Result<Self, Error> {
+        let strip = Strip::at(high)?;
+        Ok(Strip::of_kappa(Enclosure::new(0.0, strip.kappa.high), Enclosure::new(0.0, high)))
+    }
+
+    fn of_kappa(kappa: Enclosure, mass_ratios: Enclosure) -> Self {
+        let centre = kappa.middle();
+        Strip { mass_ratios, kappa, mu: mu_of(kappa), middle: Enclosure::new(centre, centre) }
+    }
+
+    /// The length in κ.
+    pub(crate) fn kappa_width(&self) -> f64 {
+        self.kappa.width()
+    }
+
+    /// Two halves in κ. The mass ratios of both are those of the whole.
+    pub(crate) fn halves(&self) -> [Self; 2] {
+        let Enclosure { low, high } = self.kappa;
+        let middle = self.middle.low;
+        [(low, middle), (middle, high)]
+            .map(|(low, high)| Strip::of_kappa(Enclosure::new(low, high), self.mass_ratios))
     }
 
     /// The mass parameter in the middle of the strip, as a strip of its own.

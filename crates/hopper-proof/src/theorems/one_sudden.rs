@@ -1,0 +1,37 @@
+//! At most one sudden lift-off.
+
+use crate::fixed_points::fixed_point;
+use crate::theorems::theorem::Theorem;
+use interval_arithmetic::Enclosure;
+
+/// For M ≤ M₁ = (α*_1² − 1)/(α*_1² + 1) no hop has two sudden lift-offs.
+///
+/// The proof is that of docs/theory.md, Theorem 20. It needs two inequalities between numbers, which are the steps.
+pub fn one_sudden() -> Theorem {
+    let a = fixed_point(1);
+    let square = a.squared();
+    let largest = (square - Enclosure::ONE) / (square + Enclosure::ONE);
+    let mut theorem = Theorem::new(
+        "one-sudden",
+        format!(
+            "For every M ≤ {:.15} and every lift-off speed a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).",
+            largest.low
+        ),
+    );
+    // 1 − 2κ = (1 − M)/(1 + M) is 1/a² at M₁.
+    let tilt = (Enclosure::ONE - largest) / (Enclosure::ONE + largest);
+    theorem.step(
+        "1 − 2κ at M₁ is 1/α*_1²",
+        format!("1 − 2κ in [{}, {}]", tilt.low, tilt.high),
+        tilt.intersection(&(Enclosure::ONE / square)).is_some(),
+    );
+    let root = (Enclosure::ONE + square).sqrt().unwrap_or(Enclosure::WHOLE);
+    let needed = a / (2.0 * (Enclosure::ONE + Enclosure::ONE / root));
+    let largest_sum = Enclosure::ONE / a;
+    theorem.step(
+        "V + Y/α*_1 ≤ 1/α*_1 is below α*_1/(2(1 + 1/R)), which a second sudden lift-off needs",
+        format!("{} < {}", largest_sum.high, needed.low),
+        largest_sum.high < needed.low,
+    );
+    theorem
+}
