@@ -33,7 +33,7 @@ const BASINS: Option<Program> = Some(("hopper", Some("basins")));
 type Program = (&'static str, Option<&'static str>);
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 19] = [
+const TASKS: [Task; 20] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -57,6 +57,11 @@ const TASKS: [Task; 19] = [
     Task {
         name: "beyond-paper",
         about: "Compute results about the basins that the paper does not have, with a report",
+        program: PAPER,
+    },
+    Task {
+        name: "prove",
+        about: "Prove theorems about the basins, by interval arithmetic",
         program: PAPER,
     },
     Task {

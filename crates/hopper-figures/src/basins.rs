@@ -36,8 +36,8 @@ pub fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Error> {
     Ok(draw_pixels(window, &pixels, image.counts().into_iter().map(|(label, _)| label)))
 }
 
-/// The drawing of the pixels of a window with axes and a legend.
-pub(crate) fn draw_pixels(
+/// The drawing of the pixels of a window, a PNG, with axes and a legend.
+pub fn draw_pixels(
     window: &Window,
     pixels: &[u8],
     labels: impl Iterator<Item = Label>,

@@ -41,7 +41,7 @@ mod motion_plot;
 mod shares;
 
 pub use animation::{AnimationForm, animation, frame_png};
-pub use basins::{Inset, PIXELS, Window, draw_basins, label_png, legend};
+pub use basins::{Inset, PIXELS, Window, draw_basins, draw_pixels, label_png, legend};
 pub use coverage::{coverage_pixels, coverage_png, draw_coverage, undecided_share};
 pub use error::Error;
 pub use graph::{cuts, cuts_between, graph_pieces};

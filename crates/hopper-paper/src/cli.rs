@@ -21,6 +21,8 @@ enum Command {
     VerifyInvariance(commands::verify_invariance::Options),
     /// Compute results about the basins that the paper does not have, with a report
     BeyondPaper(commands::beyond_paper::Options),
+    /// Prove theorems about the basins, by interval arithmetic
+    Prove(commands::prove::Options),
     /// Draw figures of the generic crates: how guards are met, and a valve's bifurcations
     ModelFigures(commands::model_figures::Options),
 }
@@ -31,6 +33,7 @@ pub fn run() -> Result<(), Error> {
         Command::ReproducePaper(options) => commands::reproduce_paper::run(&options),
         Command::VerifyInvariance(options) => commands::verify_invariance::run(&options),
         Command::BeyondPaper(options) => commands::beyond_paper::run(&options),
+        Command::Prove(options) => commands::prove::run(&options),
         Command::ModelFigures(options) => commands::model_figures::run(&options),
     }
 }

@@ -48,6 +48,9 @@ pub enum Error {
     /// A fate or a basin could not be computed.
     #[error(transparent)]
     Basin(#[from] hopper_basin::Error),
+    /// A proof could not begin.
+    #[error(transparent)]
+    Proof(#[from] hopper_proof::Error),
     /// A hop could not be computed.
     #[error(transparent)]
     Hopper(#[from] passive_hopper::Error),

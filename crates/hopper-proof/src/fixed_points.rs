@@ -1,7 +1,7 @@
 //! The fixed points tan α* = α*, enclosed.
 
 use interval_arithmetic::{Enclosure, PI};
-use passive_hopper::alpha_star;
+use passive_hopper::{FixedPointSpeed, alpha_star};
 use std::sync::LazyLock;
 
 /// How far the first enclosure reaches on both sides, over α*_n. The computed α*_n has an error of an ulp.
@@ -37,4 +37,21 @@ fn enclosed(n: u64) -> Enclosure {
     // The image of (nπ, (n+½)π] lies in it, so that this always holds the fixed point.
     let safe = Enclosure::new((PI * n as f64).low, (PI * (n as f64 + 0.5)).high);
     if second.is_inside(&first) { image(second) } else { safe }
+}
+
+/// Bound on the error of the 100 bits of α*_n, relative to α*_n (docs/theory.md, Lemma 65).
+const ERROR_OF_LONG_VALUE: f64 = 7.9e-31;
+
+/// α − α*_n for one speed: with all its digits, also where α and α*_n nearly coincide.
+pub(crate) fn offset_from_fixed_point(alpha: f64, n: u64) -> Enclosure {
+    if n == 0 {
+        return Enclosure::new(alpha, alpha);
+    }
+    let star = FixedPointSpeed::new(n);
+    let first = Enclosure::new(alpha, alpha) - star.value();
+    // The difference of two doubles within a factor of 2 is exact (Sterbenz).
+    let exact = alpha <= 2.0 * star.value() && star.value() <= 2.0 * alpha;
+    let difference = alpha - star.value();
+    let first = if exact { Enclosure::new(difference, difference) } else { first };
+    first - Enclosure::around(star.rest(), ERROR_OF_LONG_VALUE * star.value())
 }

@@ -28,6 +28,7 @@ pub use theorems::measures::{ProvedFraction, ProvedFractions, measures};
 pub use theorems::one_sided::one_sided;
 pub use theorems::one_sudden::one_sudden;
 pub use theorems::raster::{ProvedCells, proved_points};
+pub use theorems::raster_theorems::{cells_theorem, points_theorem};
 pub use theorems::rising::rising;
 pub use theorems::theorem::{Step, Theorem};
 pub use theorems::trap_edges::trap_edges;

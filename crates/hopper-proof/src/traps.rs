@@ -5,7 +5,7 @@
 //! one speed prove a trap, for this μ and all smaller ones (docs/theory.md, Theorems 29 and 31; α*_0 = 0).
 
 use crate::error::Error;
-use crate::fixed_points::fixed_point;
+use crate::fixed_points::{fixed_point, offset_from_fixed_point};
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::strip::Strip;
 use basin_of_attraction::Interval;
@@ -35,7 +35,7 @@ impl AtSpeed {
         let first = FirstLanding::over(speed)?;
         let square = first.closing_speed().squared();
         let star = fixed_point(n);
-        let rise = (speed - star) * (speed + star);
+        let rise = offset_from_fixed_point(alpha, n) * (speed + star);
         let [low, high] = first.w_at_ends();
         let w = low.hull(&high);
         Some(AtSpeed { q: rise / square, t: square - 4.0 * w * rise })

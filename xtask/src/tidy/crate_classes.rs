@@ -17,8 +17,10 @@ pub(super) enum CrateClass {
 }
 
 /// Every crate in `crates/`, with its class and the reason for it.
-const CLASSES: [(&str, CrateClass, &str); 17] = [
+const CLASSES: [(&str, CrateClass, &str); 19] = [
     ("hybrid-system", Computing, "executions are functions of the system and its start"),
+    ("interval-arithmetic", Computing, "enclosures are functions of numbers"),
+    ("hopper-proof", Computing, "proofs are functions of a window"),
     ("return-map", Computing, "maps and their fixed points are functions of a system"),
     ("basin-of-attraction", Computing, "random points come from a seed argument"),
     ("passive-hopper", Computing, "hops are functions of α and M"),
@@ -46,8 +48,14 @@ const CLASSES: [(&str, CrateClass, &str); 17] = [
 ];
 
 /// Crates that any other system could use. They do not contain the word hopper.
-pub(super) const GENERIC: [&str; 5] =
-    ["hybrid-system", "return-map", "basin-of-attraction", "journal-figures", "resumable-job"];
+pub(super) const GENERIC: [&str; 6] = [
+    "hybrid-system",
+    "interval-arithmetic",
+    "return-map",
+    "basin-of-attraction",
+    "journal-figures",
+    "resumable-job",
+];
 
 /// The class of a crate; `None` if the table does not have it.
 pub(super) fn class_of(name: &str) -> Option<CrateClass> {

@@ -4,5 +4,6 @@ pub mod beyond_paper;
 mod claim_lines;
 mod figure_files;
 pub mod model_figures;
+pub mod prove;
 pub mod reproduce_paper;
 pub mod verify_invariance;

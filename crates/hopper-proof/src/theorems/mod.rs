@@ -10,6 +10,7 @@
 //!   rising.rs           the map rises in its windows
 //!   measures.rs         the fractions of the basins at one mass ratio
 //!   raster.rs           the basins over a window: every point, and every cell
+//!   raster_theorems.rs  the statements that these make
 //! ```
 
 pub(crate) mod crisis;
@@ -18,6 +19,7 @@ pub(crate) mod measures;
 pub(crate) mod one_sided;
 pub(crate) mod one_sudden;
 pub(crate) mod raster;
+pub(crate) mod raster_theorems;
 pub(crate) mod rising;
 pub(crate) mod theorem;
 pub(crate) mod trap_edges;

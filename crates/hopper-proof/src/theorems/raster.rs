@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 /// less than areas, because single points are followed further.
 const PARTS: usize = 64;
 const SPEEDS: usize = 4000;
-const OPEN_OF_POINTS: f64 = 0.02;
+const OPEN_OF_POINTS: f64 = 0.2;
 const OPEN_OF_CELLS: f64 = 0.004;
 
 /// Most hops of a single speed until it lies in a known interval.
