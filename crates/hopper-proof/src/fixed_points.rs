@@ -14,7 +14,7 @@ const FIRST_REACH: f64 = 1e-14;
 ///
 /// ```
 /// let star = hopper_proof::fixed_point(1);
-/// assert!(star.contains(4.493409457909064) && star.width() < 4e-15);
+/// assert!(star.contains(4.493409457909064) && star.width() < 6e-15);
 /// ```
 pub fn fixed_point(n: u64) -> Enclosure {
     let stored = usize::try_from(n).ok().and_then(|n| FIRST.get(n));

@@ -85,7 +85,9 @@ impl ProvedFractions {
             let length = |hump: usize| Enclosure::new(lower[hump], (Enclosure::new(lower[hump], lower[hump]) + open[hump]).high);
             let sum = (0..lower.len()).fold(Enclosure::ZERO, |sum, hump| sum + length(hump));
             let shares = (0..lower.len()).fold(Enclosure::ZERO, |sum, hump| sum + length(hump) / whole[hump]);
-            ProvedFraction { label, uniform: sum / total, by_humps: shares / lower.len() as f64 }
+            // A share is between 0 and 1; only rounding leads beyond.
+            let share = |found: Enclosure| Enclosure::new(found.low.max(0.0), found.high.min(1.0));
+            ProvedFraction { label, uniform: share(sum / total), by_humps: share(shares / lower.len() as f64) }
         };
         let fractions: Vec<ProvedFraction> = labels.iter().zip(&lower).map(fraction).collect();
         let width = fractions.iter().map(|found| found.uniform.width().max(found.by_humps.width())).fold(0.0, f64::max);

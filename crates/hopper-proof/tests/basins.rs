@@ -1,0 +1,110 @@
+//! Proved basins: never another fate than that of the orbit, and most of a window.
+#![allow(clippy::unwrap_used)]
+
+use basin_of_attraction::{Grid, Interval};
+use hopper_basin::{Fates, HopperFate, basin_raster, first_humps};
+use hopper_proof::{Cell, Error, ProvedCells, ProvedFractions, ProvedLine, Strip, proved_points};
+use passive_hopper::MassRatio;
+use std::ops::ControlFlow::Continue;
+
+/// The intervals of a strip against the fates of single speeds at single mass ratios of it, also where a hop may have several sudden
+/// lift-offs.
+#[test]
+fn no_interval_has_a_wrong_fate() {
+    let part = |k: u32, step: f64| (f64::from(k) * step).fract();
+    for (ratio, width, most_open) in [
+        (0.1, 0.0, 0.01),
+        (0.2, 1e-4, 0.08),
+        (0.5, 0.0, 0.02),
+        (0.9, 1e-4, 0.03),
+        (0.95, 0.0, 0.02),
+        (1.0, 0.0, 0.02),
+        (2.0, 0.0, 0.03),
+        (3.0, 1e-5, 0.1),
+    ] {
+        let strip = Strip::between(ratio, ratio + width).unwrap();
+        let window = first_humps(3);
+        let line = ProvedLine::new(strip, window, 32, 0.01, 4000).unwrap();
+        let mut open = 0;
+        for k in 1..=2000u32 {
+            let alpha = window.left + window.length() * part(k, 0.754_877_666_246_693);
+            let mass = ratio + width * part(k, 0.618_033_988_749_895);
+            let fates = Fates::new(MassRatio::new(mass).unwrap()).unwrap();
+            let fate = fates.fate(alpha).unwrap().label();
+            match line.label_of_all(alpha, alpha) {
+                Some(label) => assert!(label == fate || fate.is_undecided(), "M = {mass}, α = {alpha}: {label} {fate}"),
+                None => open += 1,
+            }
+        }
+        assert!(f64::from(open) < 2000.0 * most_open, "M = {ratio}: {open} of 2000 open");
+    }
+}
+
+/// A raster in which every point is proved has the labels of the library.
+#[test]
+fn all_points_of_a_raster_are_proved() {
+    let x = Interval::new(0.02, 1.0).unwrap();
+    let grid = Grid { x, y: first_humps(5), columns: 6, rows: 300 };
+    let proved = proved_points(grid, |_| Continue(())).unwrap();
+    assert_eq!(proved, basin_raster(grid, |_| Continue(())).unwrap());
+}
+
+/// Every point of a coloured cell has its fate, and the areas of the basins are bounded from both sides.
+#[test]
+fn cells_hold_for_all_their_points() {
+    let (x, y) = (Interval::new(0.3, 0.31).unwrap(), Interval::new(8.0, 12.0).unwrap());
+    let grid = Grid { x, y, columns: 4, rows: 64 };
+    let coarse = ProvedCells::new(grid, 2, |_| Continue(())).unwrap();
+    let finer = ProvedCells::new(grid, 8, |_| Continue(())).unwrap();
+    // More strips leave less open.
+    assert!(finer.open_area() < 0.7 * coarse.open_area(), "{} {}", finer.open_area(), coarse.open_area());
+    let points = Grid { columns: 12, rows: 320, ..grid };
+    let image = basin_raster(points, |_| Continue(())).unwrap();
+    let mut basins = 0;
+    for row in 0..320 {
+        for column in 0..12 {
+            if let Cell::Basin(label) = finer.cells[(row / 5) * 4 + column / 3] {
+                assert_eq!(image.at(column, row), Some(label), "{column} {row}");
+                basins += 1;
+            }
+        }
+    }
+    assert!(basins > 2000, "{basins}");
+    // Areas, against the fractions of the points, of which 3840 are no worse than a hundredth here.
+    for &(label, share) in &finer.areas {
+        let found = image.labels.iter().filter(|&&own| own == label).count() as f64 / 3840.0;
+        assert!(share.low - 0.01 < found && found < share.high + 0.01, "{label} {share:?} {found}");
+    }
+}
+
+/// The fractions at the paper's first mass ratio, between bounds of 10⁻⁴: 0.953 of the speeds come to α*_1, and 0.0348 to α*_2.
+#[test]
+fn fractions_lie_between_their_bounds() {
+    let found = ProvedFractions::new(0.1, 1e-4).unwrap();
+    assert!(found.width <= 1e-4, "{}", found.width);
+    let of = |n: u64| {
+        let label = HopperFate::label_of_fixed_point(n);
+        found.fractions.iter().find(|fraction| fraction.label == label).unwrap().uniform
+    };
+    assert!(of(1).low > 0.9533 && of(1).high < 0.9535, "{:?}", of(1));
+    assert!(of(2).low > 0.0348 && of(2).high < 0.0350, "{:?}", of(2));
+    // Below the first crisis nothing decays or is grounded.
+    assert!(of(0).low == 0.0 && of(0).high < 1e-4);
+}
+
+#[test]
+fn what_is_no_question_is_refused() {
+    for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::INFINITY), (-1.0, 1.0)] {
+        assert!(matches!(Strip::between(low, high), Err(Error::MassRatios { .. })), "{low} {high}");
+    }
+    let strip = Strip::at(0.2).unwrap();
+    for (left, right) in [(5.0, 4.0), (-1.0, 4.0), (1.0, f64::NAN), (1.0, 1e6)] {
+        let refused = ProvedLine::new(strip, Interval { left, right }, 8, 0.01, 100);
+        assert!(matches!(refused, Err(Error::Speeds { .. })), "{left} {right}");
+    }
+    let window = Interval { left: 5.0, right: 6.0 };
+    for (parts, open) in [(0, 0.1), (4, 0.0), (4, 2.0), (4, f64::NAN)] {
+        let refused = ProvedLine::new(strip, window, parts, open, 100);
+        assert!(matches!(refused, Err(Error::Share { .. })), "{parts} {open}");
+    }
+}

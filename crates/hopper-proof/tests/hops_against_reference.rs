@@ -1,0 +1,100 @@
+//! Enclosures of hops hold the values of 40 digits, and all images of random intervals.
+#![allow(clippy::unwrap_used)]
+
+use hopper_basin::{ImagedSpeed, SpeedImage, SpeedImages};
+use hopper_proof::{ProvedImages, Strip};
+use hopper_reference::{map, rows};
+
+const FILES: [&str; 4] = [
+    include_str!("../../passive-hopper/tests/data/hops_random.jsonl"),
+    include_str!("../../passive-hopper/tests/data/hops_window.jsonl"),
+    include_str!("../../passive-hopper/tests/data/hops_boundaries.jsonl"),
+    include_str!("../../passive-hopper/tests/data/hops_hard_verdicts.jsonl"),
+];
+
+/// The largest speed of the test. The enclosures reach further; rows beyond it have no fixed point with a label.
+const LARGEST_SPEED: f64 = 1e5;
+
+#[test]
+fn every_decided_image_holds_the_reference() {
+    let (mut decided, mut open) = (0, 0);
+    for row in FILES.iter().flat_map(|file| rows(file)) {
+        let (ratio, alpha) = (row.input("mass_ratio"), row.input("alpha"));
+        if alpha > LARGEST_SPEED {
+            continue;
+        }
+        let images = ProvedImages::new(Strip::at(ratio).unwrap(), alpha.min(100.0)).unwrap();
+        let grounded = row.is_grounded("alpha_next");
+        match images.of_speed(alpha) {
+            SpeedImage::Unknown => open += 1,
+            SpeedImage::Grounded => {
+                assert!(grounded, "{row}");
+                decided += 1;
+            }
+            SpeedImage::Within(low, high) => {
+                assert!(!grounded, "{row}");
+                // The reference is read as its nearest f64, so that an end may be its neighbour.
+                let exact = row.result("alpha_next").unwrap();
+                assert!(low.next_down() <= exact && exact <= high.next_up(), "{low} {high} {row}");
+                decided += 1;
+            }
+        }
+    }
+    // What 53 bits leave open: hops with a decision within some ulps of it, which these files are full of.
+    assert!(decided > 4 * open && decided > 4000, "{decided} decided, {open} open");
+}
+
+/// The images of single speeds of an interval, at single mass ratios of a strip, lie in the image of all.
+#[test]
+fn images_of_intervals_hold_those_of_their_speeds() {
+    let part = |k: u32, step: f64| (f64::from(k) * step).fract();
+    let mut known = 0;
+    for k in 1..=3000u32 {
+        let ratio = 0.02 + 2.5 * part(k, 0.618_033_988_749_895).powi(2);
+        let width = 10f64.powf(-1.0 - 8.0 * part(k, 0.324_717_957_244_746));
+        let strip = Strip::between(ratio, ratio * (1.0 + 0.01 * width)).unwrap();
+        let images = ProvedImages::new(strip, 40.0).unwrap();
+        let low = 1.0 + 30.0 * part(k, 0.754_877_666_246_693);
+        let end = |speed: f64| ImagedSpeed { speed, reached: images.of_speed(speed) };
+        let all = images.of_all_between(&end(low), &end(low + width));
+        known += u32::from(all != SpeedImage::Unknown);
+        for j in 0..8 {
+            let alpha = low + width * part(k + j, 0.569_840_290_998_053);
+            let mass = strip.mass_ratios.low
+                + strip.mass_ratios.width() * 0.999 * part(k + j, 0.438_579_021_1);
+            let image = map(mass).image(alpha).unwrap();
+            match all {
+                SpeedImage::Unknown => {}
+                SpeedImage::Grounded => assert_eq!(image, None, "M = {mass}, α = {alpha}"),
+                SpeedImage::Within(low, high) => {
+                    // The library's own image has an error of some ulps, more where F is small.
+                    let image = image.unwrap_or(0.0);
+                    let error = 1e-12 * (1.0 + alpha * alpha / image.max(1e-3));
+                    assert!(low - error <= image && image <= high + error, "M = {mass}, α = {alpha}: {image} {all:?}");
+                }
+            }
+        }
+    }
+    assert!(known > 2000, "{known}");
+}
+
+/// An image of a narrow interval is at most some parts wider than the images of its ends: the median of the ratio is below 2.
+#[test]
+fn narrow_intervals_have_sharp_images() {
+    let part = |k: u32, step: f64| (f64::from(k) * step).fract();
+    let mut ratios = Vec::new();
+    for k in 1..=2000u32 {
+        let ratio = 0.02 + 0.98 * part(k, 0.618_033_988_749_895);
+        let images = ProvedImages::new(Strip::at(ratio).unwrap(), 40.0).unwrap();
+        let low = 2.0 + 20.0 * part(k, 0.754_877_666_246_693);
+        let end = |speed: f64| ImagedSpeed { speed, reached: images.of_speed(speed) };
+        let (a, b) = (end(low), end(low + 1e-6));
+        if let (SpeedImage::Within(p, q), SpeedImage::Within(r, s), SpeedImage::Within(from, to)) =
+            (a.reached, b.reached, images.of_all_between(&a, &b))
+        {
+            ratios.push((to - from) / (0.5 * (p + q) - 0.5 * (r + s)).abs());
+        }
+    }
+    ratios.sort_by(f64::total_cmp);
+    assert!(ratios.len() > 1000 && ratios[ratios.len() / 2] < 2.0, "{}", ratios[ratios.len() / 2]);
+}

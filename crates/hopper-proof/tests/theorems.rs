@@ -1,0 +1,60 @@
+//! The theorems hold, and statements that are false are not proved.
+#![allow(clippy::unwrap_used)]
+
+use hopper_basin::{Trap, crisis, rising_window};
+use hopper_proof::{
+    Strip, Touch, crises, everything_hops, fixed_point, one_sided, one_sudden, proved_trap, rising, trap_edges,
+};
+use passive_hopper::{MassRatio, alpha_star};
+
+#[test]
+fn the_quick_theorems_are_proved() {
+    for theorem in [
+        one_sudden(),
+        one_sided(8).unwrap(),
+        crises(10).unwrap(),
+        trap_edges(8, 20).unwrap(),
+        everything_hops().unwrap(),
+    ] {
+        assert!(theorem.is_proved(), "{theorem:#?}");
+    }
+}
+
+/// The windows of the library's table rise: every row of it is proved here.
+#[test]
+fn the_map_rises_in_the_windows_of_the_library() {
+    let listed: Vec<(u64, f64)> =
+        (1..).map_while(|n| Some((n, rising_window(n)?.largest_mass_ratio))).collect();
+    assert!(listed.len() >= 8);
+    let theorem = rising(&listed).unwrap();
+    assert!(theorem.is_proved(), "{theorem:#?}");
+}
+
+/// The crises and the ends of traps of the library lie in their enclosures, which are no wider than some 10⁻¹².
+#[test]
+fn computed_crises_and_traps_lie_in_their_enclosures() {
+    for n in 1..=8 {
+        assert!(fixed_point(n).contains(alpha_star(n)));
+        let found = Touch::new(n).unwrap().mass_ratio();
+        let computed = crisis(n).unwrap();
+        assert!(found.widened(1e-16).contains(computed.mass_ratio), "{n} {found:?} {computed:?}");
+        for ratio in [0.11, 0.3, 0.7, 1.0, 3.0] {
+            let proved = proved_trap(n, &Strip::at(ratio).unwrap()).unwrap();
+            let trap = Trap::new(n, MassRatio::new(ratio).unwrap()).unwrap();
+            let end = alpha_star(n) + trap.delta;
+            assert!(proved.right <= end + 1e-12 && proved.right > end - 1e-11, "{n} {ratio} {proved:?} {end}");
+        }
+    }
+}
+
+/// A trap of a strip is one for each mass ratio of it; with the largest μ it is the shortest.
+#[test]
+fn the_trap_of_a_strip_is_in_the_traps_of_its_mass_ratios() {
+    let of = |low: f64, high: f64| proved_trap(1, &Strip::between(low, high).unwrap()).unwrap().right;
+    let all = of(0.2, 0.4);
+    for ratio in [0.2, 0.3, 0.4] {
+        assert!(all <= of(ratio, ratio));
+    }
+    // μ is largest at M = 1, inside of this strip.
+    assert!(of(0.5, 3.0) <= of(1.0, 1.0));
+}
