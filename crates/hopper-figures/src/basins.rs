@@ -37,11 +37,7 @@ pub fn draw_basins(window: &Window, image: &LabelImage) -> Result<Svg, Error> {
 }
 
 /// The drawing of the pixels of a window, a PNG, with axes and a legend.
-pub fn draw_pixels(
-    window: &Window,
-    pixels: &[u8],
-    labels: impl Iterator<Item = Label>,
-) -> Svg {
+pub fn draw_pixels(window: &Window, pixels: &[u8], labels: impl Iterator<Item = Label>) -> Svg {
     let (x, y) = (window.mass_ratio, window.alpha);
     let mut svg = Svg::new(580.0, 560.0);
     let frame = Frame::linear(66.0, 44.0, 490.0, 460.0, x, y);

@@ -7,7 +7,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Error {
     /// The ends are no interval of mass ratios.
-    #[error("[{low}, {high}] is no interval of mass ratios: both ends must be positive and finite, and the lower one not above the upper one")]
+    #[error(
+        "[{low}, {high}] is no interval of mass ratios: both ends must be positive and finite, and the lower one not above the upper one"
+    )]
     MassRatios {
         /// The lower end.
         low: f64,
@@ -15,7 +17,9 @@ pub enum Error {
         high: f64,
     },
     /// The ends are no interval of lift-off speeds.
-    #[error("[{low}, {high}] is no interval of lift-off speeds: the ends must be from 0 to {largest}, and the lower one below the upper one")]
+    #[error(
+        "[{low}, {high}] is no interval of lift-off speeds: the ends must be from 0 to {largest}, and the lower one below the upper one"
+    )]
     Speeds {
         /// The lower end.
         low: f64,
@@ -25,7 +29,9 @@ pub enum Error {
         largest: f64,
     },
     /// No share that may stay open.
-    #[error("a share of {open} in {parts} parts: the share must be above 0 and at most 1, and there must be a part")]
+    #[error(
+        "a share of {open} in {parts} parts: the share must be above 0 and at most 1, and there must be a part"
+    )]
     Share {
         /// The share.
         open: f64,
@@ -33,7 +39,9 @@ pub enum Error {
         parts: usize,
     },
     /// A trap, a crisis or a critical point was not enclosed.
-    #[error("{what} of hump {n} is not enclosed at M = {mass_ratio}: the sign of an enclosure is open. Give the trap of another hump, or another mass ratio")]
+    #[error(
+        "{what} of hump {n} is not enclosed at M = {mass_ratio}: the sign of an enclosure is open. Give the trap of another hump, or another mass ratio"
+    )]
     Open {
         /// What was looked for.
         what: &'static str,

@@ -35,7 +35,13 @@ impl ProvedLine {
     /// # Errors
     /// [`Error::Speeds`] unless the window is from 0 to α*_n of the largest label; [`Error::Share`] unless `open` is above 0 and at most 1,
     /// and there are parts.
-    pub fn new(strip: Strip, window: Interval, parts: usize, open: f64, speeds: usize) -> Result<Self, Error> {
+    pub fn new(
+        strip: Strip,
+        window: Interval,
+        parts: usize,
+        open: f64,
+        speeds: usize,
+    ) -> Result<Self, Error> {
         let largest = alpha_star(HopperFate::LARGEST_LABEL);
         let Interval { left: low, right: high } = window;
         if !(low >= 0.0 && low < high && high <= largest) {
@@ -53,7 +59,12 @@ impl ProvedLine {
             let (from, to) = (alpha_star(n), alpha_star(n + 1).min(low));
             let count = ((to - from) / height).ceil().clamp(1.0, MOST_PARTS_BELOW);
             let tolerance = open * FINER_BELOW.powi(i32::try_from(last - n).unwrap_or(i32::MAX));
-            add_parts(&mut sweep, Interval { left: from, right: to }, count as usize, Resolution { tolerance, speeds, passes: PASSES });
+            add_parts(
+                &mut sweep,
+                Interval { left: from, right: to },
+                count as usize,
+                Resolution { tolerance, speeds, passes: PASSES },
+            );
         }
         let edges = PixelShares::edges(window, parts).map_err(hopper_basin::Error::from)?;
         for pair in edges.windows(2) {
@@ -89,7 +100,12 @@ impl ProvedLine {
 }
 
 /// Equal parts of a range, one after the other.
-fn add_parts(sweep: &mut LapsSweep<ProvedImages>, range: Interval, count: usize, resolution: Resolution) {
+fn add_parts(
+    sweep: &mut LapsSweep<ProvedImages>,
+    range: Interval,
+    count: usize,
+    resolution: Resolution,
+) {
     let part = range.length() / count as f64;
     let mut from = range.left;
     for k in 1..=count {

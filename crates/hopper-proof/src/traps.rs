@@ -144,8 +144,7 @@ pub fn proved_trap(n: u64, strip: &Strip) -> Result<Interval, Error> {
         TrapEdge::ContactEnd | TrapEdge::NextFixedPoint => touch.speed.low,
     };
     let is_inside = |right: f64| {
-        AtSpeed::new(n, right)
-            .is_some_and(|at| at.q.low > strip.mu.high && at.t.is_negative())
+        AtSpeed::new(n, right).is_some_and(|at| at.q.low > strip.mu.high && at.t.is_negative())
     };
     let first = computed.min(touch.speed.low);
     let steps = (0..STEPS as i32).map(|k| first - first * f64::EPSILON * 4f64.powi(k));

@@ -32,7 +32,10 @@ fn no_interval_has_a_wrong_fate() {
             let fates = Fates::new(MassRatio::new(mass).unwrap()).unwrap();
             let fate = fates.fate(alpha).unwrap().label();
             match line.label_of_all(alpha, alpha) {
-                Some(label) => assert!(label == fate || fate.is_undecided(), "M = {mass}, α = {alpha}: {label} {fate}"),
+                Some(label) => assert!(
+                    label == fate || fate.is_undecided(),
+                    "M = {mass}, α = {alpha}: {label} {fate}"
+                ),
                 None => open += 1,
             }
         }
@@ -57,7 +60,12 @@ fn cells_hold_for_all_their_points() {
     let coarse = ProvedCells::new(grid, 2, |_| Continue(())).unwrap();
     let finer = ProvedCells::new(grid, 8, |_| Continue(())).unwrap();
     // More strips leave less open.
-    assert!(finer.open_area() < 0.7 * coarse.open_area(), "{} {}", finer.open_area(), coarse.open_area());
+    assert!(
+        finer.open_area() < 0.7 * coarse.open_area(),
+        "{} {}",
+        finer.open_area(),
+        coarse.open_area()
+    );
     let points = Grid { columns: 12, rows: 320, ..grid };
     let image = basin_raster(points, |_| Continue(())).unwrap();
     let mut basins = 0;
@@ -94,7 +102,8 @@ fn fractions_lie_between_their_bounds() {
 
 #[test]
 fn what_is_no_question_is_refused() {
-    for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::INFINITY), (-1.0, 1.0)] {
+    for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::INFINITY), (-1.0, 1.0)]
+    {
         assert!(matches!(Strip::between(low, high), Err(Error::MassRatios { .. })), "{low} {high}");
     }
     let strip = Strip::at(0.2).unwrap();

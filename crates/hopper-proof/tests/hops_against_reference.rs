@@ -70,7 +70,10 @@ fn images_of_intervals_hold_those_of_their_speeds() {
                     // The library's own image has an error of some ulps, more where F is small.
                     let image = image.unwrap_or(0.0);
                     let error = 1e-12 * (1.0 + alpha * alpha / image.max(1e-3));
-                    assert!(low - error <= image && image <= high + error, "M = {mass}, α = {alpha}: {image} {all:?}");
+                    assert!(
+                        low - error <= image && image <= high + error,
+                        "M = {mass}, α = {alpha}: {image} {all:?}"
+                    );
                 }
             }
         }

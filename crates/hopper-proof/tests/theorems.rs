@@ -3,7 +3,8 @@
 
 use hopper_basin::{Trap, crisis, rising_window};
 use hopper_proof::{
-    Strip, Touch, crises, everything_hops, fixed_point, one_sided, one_sudden, proved_trap, rising, trap_edges,
+    Strip, Touch, crises, everything_hops, fixed_point, one_sided, one_sudden, proved_trap, rising,
+    trap_edges,
 };
 use passive_hopper::{MassRatio, alpha_star};
 
@@ -42,7 +43,10 @@ fn computed_crises_and_traps_lie_in_their_enclosures() {
             let proved = proved_trap(n, &Strip::at(ratio).unwrap()).unwrap();
             let trap = Trap::new(n, MassRatio::new(ratio).unwrap()).unwrap();
             let end = alpha_star(n) + trap.delta;
-            assert!(proved.right <= end + 1e-12 && proved.right > end - 1e-11, "{n} {ratio} {proved:?} {end}");
+            assert!(
+                proved.right <= end + 1e-12 && proved.right > end - 1e-11,
+                "{n} {ratio} {proved:?} {end}"
+            );
         }
     }
 }
@@ -50,7 +54,8 @@ fn computed_crises_and_traps_lie_in_their_enclosures() {
 /// A trap of a strip is one for each mass ratio of it; with the largest μ it is the shortest.
 #[test]
 fn the_trap_of_a_strip_is_in_the_traps_of_its_mass_ratios() {
-    let of = |low: f64, high: f64| proved_trap(1, &Strip::between(low, high).unwrap()).unwrap().right;
+    let of =
+        |low: f64, high: f64| proved_trap(1, &Strip::between(low, high).unwrap()).unwrap().right;
     let all = of(0.2, 0.4);
     for ratio in [0.2, 0.3, 0.4] {
         assert!(all <= of(ratio, ratio));

@@ -7,7 +7,9 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum Error {
     /// The ends are no interval of finite numbers.
-    #[error("[{low}, {high}] is no interval: the ends must be finite, and the lower one not above the upper one")]
+    #[error(
+        "[{low}, {high}] is no interval: the ends must be finite, and the lower one not above the upper one"
+    )]
     Ends {
         /// The lower end that was given.
         low: f64,

@@ -128,9 +128,7 @@ impl Enclosure {
     /// ```
     #[inline]
     pub fn sqrt(self) -> Option<Self> {
-        (self.low >= 0.0).then(|| Enclosure {
-            low: down(self.low.sqrt()).max(0.0),
-            high: up(self.high.sqrt()),
-        })
+        (self.low >= 0.0)
+            .then(|| Enclosure { low: down(self.low.sqrt()).max(0.0), high: up(self.high.sqrt()) })
     }
 }

@@ -30,8 +30,8 @@ pub struct HopperBasins {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BranchGround {
     /// On proof: the critical points of the contact parts are known (docs/theory.md, Corollary 28), and the map rises in the
-    /// sudden windows (docs/theory.md, Theorems 48 and 81). For M ≤ 0.905 … 0.83, by the number of windows, of which there
-    /// are at most 8.
+    /// sudden windows (docs/theory.md, Theorems 48 and 81). For M ≤ 0.905 with three windows, and for M ≤ 0.9
+    /// with up to ten.
     Proved,
     /// On sampling: branches of the map narrower than `spacing` may be missed in the sudden windows, and then whole intervals
     /// have wrong labels. On the contact parts all branches are known. For M > 0.9056 a hop may have several sudden lift-offs, and

@@ -6,9 +6,9 @@ use basin_of_attraction::Refinement;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CircleLimits {
     /// When the search for intervals stops; lengths are phases, of which the circle has 1. Intervals of less than 16 ulps of the
-    /// speed are never followed. For M ≤ 0.905 and n ≤ 8.
+    /// speed are never followed. For M ≤ 0.9 and n ≤ 8.
     pub refinement: Refinement,
-    /// The number of points at which each sudden window is searched for branches of the map. For M ≤ 0.905 and n ≤ 8.
+    /// The number of points at which each sudden window is searched for branches of the map. For M ≤ 0.9 and n ≤ 8.
     pub window_samples: usize,
     /// The number of speeds whose fates are found, for M > 0.905 or n > 8, where the branches are not known or
     /// are too many.
@@ -32,7 +32,7 @@ impl Default for CircleLimits {
 /// What the labels of a circle stand on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ground {
-    /// On the monotone branches of the map, for M ≤ 0.905 and n ≤ 8: every speed of an interval has the label, if the branches are
+    /// On the monotone branches of the map, for M ≤ 0.9 and n ≤ 8: every speed of an interval has the label, if the branches are
     /// complete. On contact parts they are (docs/theory.md, Corollary 28), and in the sudden windows for the M of Theorem 48. For
     /// other M a branch narrower than `spacing` may be missed there.
     Branches {

@@ -116,9 +116,8 @@ impl<'a> LapImages<'a> {
         let falling = falling_laps(map.mass_ratio(), top)?;
         let ends = |lap: Interval| [lap.left, lap.right];
         let critical: Vec<f64> = falling.into_iter().flatten().flat_map(ends).collect();
-        let value = |&speed: &f64| {
-            SpeedImage::of(map.hop_within(speed, DISTANCE_FROM_CRITICAL * speed))
-        };
+        let value =
+            |&speed: &f64| SpeedImage::of(map.hop_within(speed, DISTANCE_FROM_CRITICAL * speed));
         let values = critical.iter().map(value).collect();
         Ok(LapImages { map, critical, values })
     }

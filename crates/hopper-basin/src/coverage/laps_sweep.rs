@@ -269,7 +269,12 @@ impl<I: SpeedImages> LapsSweep<I> {
         self.label_or_open((from, b), images, parts);
     }
 
-    fn label_or_open(&mut self, (a, b): (ImagedSpeed, ImagedSpeed), images: usize, parts: &mut Vec<Part>) {
+    fn label_or_open(
+        &mut self,
+        (a, b): (ImagedSpeed, ImagedSpeed),
+        images: usize,
+        parts: &mut Vec<Part>,
+    ) {
         match self.label(&a, &b, images) {
             Some(label) => self.add(parts, Interval { left: a.speed, right: b.speed }, label),
             None => parts.push(Part::Open(a, b)),

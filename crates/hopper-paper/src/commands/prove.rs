@@ -7,8 +7,8 @@ use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{FIG_9, FigureWindow, basin_raster, first_humps};
 use hopper_figures::{Window, draw_pixels, fate_colors, label_png};
 use hopper_proof::{
-    Cell, ProvedCells, Theorem, cells_theorem, crises, everything_hops, measures, one_sided, one_sudden,
-    points_theorem, proved_points, rising, trap_edges,
+    Cell, ProvedCells, Theorem, cells_theorem, crises, everything_hops, measures, one_sided,
+    one_sudden, points_theorem, proved_points, rising, trap_edges,
 };
 use journal_figures::{Svg, rgb_png};
 use repository_tools::{Folder, Progress, results_folder, say};
@@ -36,7 +36,8 @@ pub struct Options {
 }
 
 /// The theorems in the order of their proofs; those of the first group take seconds.
-const QUICK: [&str; 6] = ["one-sudden", "one-sided", "crisis", "traps", "everything-hops", "rising"];
+const QUICK: [&str; 6] =
+    ["one-sudden", "one-sided", "crisis", "traps", "everything-hops", "rising"];
 const LONG: [&str; 5] = ["measures", "fig6-points", "fig9-points", "fig6-cells", "fig9-cells"];
 
 /// Humps of the theorems about single humps.
@@ -97,7 +98,11 @@ pub fn run(options: &Options) -> Result<(), Error> {
             for name in &options.names {
                 if !known.clone().any(|known| known == name) {
                     let all: Vec<&str> = known.copied().collect();
-                    return Err(Error::UnknownName { kind: "theorem", name: name.clone(), known: all.join(", ") });
+                    return Err(Error::UnknownName {
+                        kind: "theorem",
+                        name: name.clone(),
+                        known: all.join(", "),
+                    });
                 }
             }
             options.names.iter().map(String::as_str).collect()
@@ -157,7 +162,12 @@ fn grid_of((ratios, speeds): FigureWindow, options: &Options) -> Result<Grid, Er
 }
 
 /// Every point of a figure.
-fn points(name: &'static str, window: FigureWindow, options: &Options, folder: &Folder) -> Result<Theorem, Error> {
+fn points(
+    name: &'static str,
+    window: FigureWindow,
+    options: &Options,
+    folder: &Folder,
+) -> Result<Theorem, Error> {
     let grid = grid_of(window, options)?;
     let bar = Progress.bar(name, u64::from(options.size));
     let proved = proved_points(grid, |done| {
@@ -172,7 +182,13 @@ fn points(name: &'static str, window: FigureWindow, options: &Options, folder: &
 }
 
 /// Every cell of a figure: cells of one basin in its colour, cells that a boundary cuts in black, open ones in yellow.
-fn cells(name: &'static str, window: FigureWindow, open: f64, options: &Options, folder: &Folder) -> Result<Theorem, Error> {
+fn cells(
+    name: &'static str,
+    window: FigureWindow,
+    open: f64,
+    options: &Options,
+    folder: &Folder,
+) -> Result<Theorem, Error> {
     let grid = grid_of(window, options)?;
     let bar = Progress.bar(name, u64::from(options.size));
     let found = ProvedCells::new(grid, options.strips as usize, |done| {
@@ -204,7 +220,14 @@ fn write(
 ) -> Result<(), Error> {
     let window = Window { name, mass_ratio, alpha, inset: None, tick_counts: (6, 8) };
     let svg: Svg = draw_pixels(&window, png, labels.into_iter());
-    let figure = Figure { name, title: name.into(), paper: String::new(), notes: String::new(), svg, data: Vec::new() };
+    let figure = Figure {
+        name,
+        title: name.into(),
+        paper: String::new(),
+        notes: String::new(),
+        svg,
+        data: Vec::new(),
+    };
     write_figure(folder, &figure)?;
     say(format_args!("figure   {}", folder.path().join(format!("{name}.png")).display()))?;
     Ok(())

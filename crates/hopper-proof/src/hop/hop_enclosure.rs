@@ -1,10 +1,10 @@
 //! The hops from all speeds of an interval, at all mass ratios of a strip.
 
+use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::landing_time::landing_times;
 use crate::hop::strip::Strip;
 use crate::hop::time_functions::TimeFunctions;
-use crate::fixed_points::fixed_point;
 use interval_arithmetic::{Enclosure, PI};
 
 /// Most sudden lift-offs of a hop that are followed. Orbits with more, at large M, stay open.
@@ -84,7 +84,12 @@ struct Flight {
 
 impl Flight {
     /// The changes at the landing for changes of the start, and for `kappa_part` = dκ.
-    fn changes(&self, (dx, dv): (Enclosure, Enclosure), kappa: Enclosure, kappa_part: f64) -> Changes {
+    fn changes(
+        &self,
+        (dx, dv): (Enclosure, Enclosure),
+        kappa: Enclosure,
+        kappa_part: f64,
+    ) -> Changes {
         let TimeFunctions { sin, cos, r, p, .. } = self.at;
         let height = r * dx + p * dv;
         let half_square = -(self.closing * (sin * dx + r * dv)) - self.landed * height;

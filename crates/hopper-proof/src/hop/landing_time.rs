@@ -42,7 +42,11 @@ fn half_time(x: f64, v: f64, (mut low, mut high): (f64, f64), start: f64) -> f64
         }
         let half = HalfFlight::at(h);
         let excess = half.start_speed(x) - v;
-        if excess < 0.0 { low = h } else { high = h }
+        if excess < 0.0 {
+            low = h
+        } else {
+            high = h
+        }
         let step = excess / half.start_speed_slope(x);
         if step.abs() <= 2.0 * f64::EPSILON * h || !(low < high) {
             break;

@@ -3,9 +3,9 @@
 //! The plain enclosure of a hop is as wide as its intervals allow. Three facts make it narrow. Along κ the mean value form takes the
 //! middle of the strip and a bound on the slope. Along α a monotone F has its extremes at the ends. And on a contact part F falls with μ.
 
+use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::{HopEnclosure, Part};
-use crate::error::Error;
 use crate::hop::strip::Strip;
 use crate::hop::turns::{Turns, turns_up_to};
 use hopper_basin::{ImagedSpeed, SpeedImage, SpeedImages, rising_window};
@@ -56,7 +56,9 @@ impl ProvedImages {
             cuts.extend((n > 0).then(|| (PI * n as f64).middle()));
             match turns {
                 Turns::All(turns) => {
-                    cuts.extend(turns.iter().flat_map(|turn| [turn.speeds.left, turn.speeds.right]));
+                    cuts.extend(
+                        turns.iter().flat_map(|turn| [turn.speeds.left, turn.speeds.right]),
+                    );
                 }
                 Turns::Unknown => {
                     let steepest = 0.5 * fixed_point(2 * n as u64 + 1).middle();
@@ -88,7 +90,8 @@ impl ProvedImages {
             return Some(all.square); // α is a point, and F is linear in μ: nothing is lost
         }
         let middle = HopEnclosure::plain(speed, part, &self.middle)?;
-        let form = Enclosure::mean_value(middle.square, all.by_kappa, self.strip.kappa, self.strip.middle);
+        let form =
+            Enclosure::mean_value(middle.square, all.by_kappa, self.strip.kappa, self.strip.middle);
         form.intersection(&all.square)
     }
 
@@ -112,7 +115,8 @@ impl ProvedImages {
         let heaviest = self.strip.mass_ratios.high;
         let below = fixed_point(n).low - alpha.low;
         let near = if heaviest <= 1.0 { RISES_BELOW_STAR_LIGHT } else { RISES_BELOW_STAR };
-        below <= near || rising_window(n).is_some_and(|window| heaviest <= window.largest_mass_ratio)
+        below <= near
+            || rising_window(n).is_some_and(|window| heaviest <= window.largest_mass_ratio)
     }
 
     /// The image of an interval by its ends and the turns inside, if the map is monotone between these: `None` if that is not known.
@@ -142,9 +146,9 @@ impl ProvedImages {
             }
             if b.speed > star.low {
                 let Turns::All(turns) = self.turns.get(n)? else { return None };
-                let inside = turns.iter().filter(|turn| {
-                    a.speed <= turn.speeds.right && b.speed >= turn.speeds.left
-                });
+                let inside = turns
+                    .iter()
+                    .filter(|turn| a.speed <= turn.speeds.right && b.speed >= turn.speeds.left);
                 image = inside.fold(image, |image, turn| image.with(turn.image));
             }
         }
@@ -160,9 +164,8 @@ impl ProvedImages {
             return Some(low.hull(&high));
         }
         // Along α from either end; the mean value form holds at each κ.
-        let from = |at: Enclosure, end: f64| {
-            Enclosure::mean_value(at, all.by_speed, alpha, point(end))
-        };
+        let from =
+            |at: Enclosure, end: f64| Enclosure::mean_value(at, all.by_speed, alpha, point(end));
         let form = from(low, alpha.low).intersection(&from(high, alpha.high))?;
         form.intersection(&all.square)
     }

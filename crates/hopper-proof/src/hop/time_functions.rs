@@ -65,7 +65,9 @@ impl TimeFunctions {
         let (p, q) = if time.low == time.high {
             (p_at(time.low), q_at(time.low))
         } else {
-            let between = |f: fn(f64) -> Enclosure| Enclosure::new(f(time.low).low.max(0.0), f(time.high).high);
+            let between = |f: fn(f64) -> Enclosure| {
+                Enclosure::new(f(time.low).low.max(0.0), f(time.high).high)
+            };
             (between(p_at), between(q_at))
         };
         // 1 − cos τ = 2 sin² ½τ keeps its digits for small τ.

@@ -66,11 +66,13 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
     let rises = |alpha: f64| steepness(alpha, strip).is_some_and(|s| s.high < 1.0);
     let falls = |alpha: f64| steepness(alpha, strip).is_some_and(|s| s.low > 1.0);
     let inside = fixed_point(n).high < top.left && top.right < bottom.left;
-    let told = inside && rises(top.left) && falls(top.right) && falls(bottom.left) && rises(bottom.right);
+    let told =
+        inside && rises(top.left) && falls(top.right) && falls(bottom.left) && rises(bottom.right);
     let turn = |speeds: Interval| {
         let all = Enclosure::new(speeds.left, speeds.right);
         let at = |alpha: f64| {
-            HopEnclosure::plain(Enclosure::new(alpha, alpha), Part::Contact(n), strip).map(|hop| hop.square)
+            HopEnclosure::plain(Enclosure::new(alpha, alpha), Part::Contact(n), strip)
+                .map(|hop| hop.square)
         };
         let slope = HopEnclosure::plain(all, Part::Contact(n), strip)?.by_speed;
         let middle = all.middle();

@@ -73,24 +73,41 @@ impl ProvedFractions {
         let whole: Vec<Enclosure> = stars.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let lower: Vec<Vec<f64>> = labels
             .iter()
-            .map(|&label| humps.iter().map(|&hump| length_of(&line, label, hump).low.max(0.0)).collect())
+            .map(|&label| {
+                humps.iter().map(|&hump| length_of(&line, label, hump).low.max(0.0)).collect()
+            })
             .collect();
         let open = |hump: usize| {
-            let known = lower.iter().fold(Enclosure::ZERO, |sum, of| sum + Enclosure::new(of[hump], of[hump]));
+            let known = lower
+                .iter()
+                .fold(Enclosure::ZERO, |sum, of| sum + Enclosure::new(of[hump], of[hump]));
             (whole[hump] - known).high.max(0.0)
         };
         let open: Vec<f64> = (0..humps.len()).map(open).collect();
         let total = whole.iter().fold(Enclosure::ZERO, |sum, &length| sum + length);
         let fraction = |(&label, lower): (&Label, &Vec<f64>)| {
-            let length = |hump: usize| Enclosure::new(lower[hump], (Enclosure::new(lower[hump], lower[hump]) + open[hump]).high);
+            let length = |hump: usize| {
+                Enclosure::new(
+                    lower[hump],
+                    (Enclosure::new(lower[hump], lower[hump]) + open[hump]).high,
+                )
+            };
             let sum = (0..lower.len()).fold(Enclosure::ZERO, |sum, hump| sum + length(hump));
-            let shares = (0..lower.len()).fold(Enclosure::ZERO, |sum, hump| sum + length(hump) / whole[hump]);
+            let shares = (0..lower.len())
+                .fold(Enclosure::ZERO, |sum, hump| sum + length(hump) / whole[hump]);
             // A share is between 0 and 1; only rounding leads beyond.
             let share = |found: Enclosure| Enclosure::new(found.low.max(0.0), found.high.min(1.0));
-            ProvedFraction { label, uniform: share(sum / total), by_humps: share(shares / lower.len() as f64) }
+            ProvedFraction {
+                label,
+                uniform: share(sum / total),
+                by_humps: share(shares / lower.len() as f64),
+            }
         };
         let fractions: Vec<ProvedFraction> = labels.iter().zip(&lower).map(fraction).collect();
-        let width = fractions.iter().map(|found| found.uniform.width().max(found.by_humps.width())).fold(0.0, f64::max);
+        let width = fractions
+            .iter()
+            .map(|found| found.uniform.width().max(found.by_humps.width()))
+            .fold(0.0, f64::max);
         Ok(ProvedFractions { mass_ratio, fractions, width })
     }
 }

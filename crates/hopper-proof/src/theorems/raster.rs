@@ -8,7 +8,9 @@ use crate::error::Error;
 use crate::hop::proved_images::ProvedImages;
 use crate::hop::strip::Strip;
 use crate::line::ProvedLine;
-use basin_of_attraction::{Grid, Interval, Label, LabelImage, PixelShares, columns_in_parallel, raster_by_strips};
+use basin_of_attraction::{
+    Grid, Interval, Label, LabelImage, PixelShares, columns_in_parallel, raster_by_strips,
+};
 use hopper_basin::{HopperFate, ImagedSpeed, SpeedImage, SpeedImages};
 use interval_arithmetic::Enclosure;
 use std::ops::ControlFlow;
@@ -94,7 +96,12 @@ fn add_area(areas: &mut Vec<(Label, f64)>, label: Label, area: f64) {
 }
 
 /// The cells of the column with these mass ratios, from `strips` strips.
-fn column_of(ratios: Interval, edges: &[f64], window: Interval, strips: usize) -> Result<Column, Error> {
+fn column_of(
+    ratios: Interval,
+    edges: &[f64],
+    window: Interval,
+    strips: usize,
+) -> Result<Column, Error> {
     let borders = PixelShares::edges(ratios, strips).map_err(hopper_basin::Error::from)?;
     let mut areas = Vec::new();
     let mut cells: Vec<Option<Cell>> = vec![None; edges.len() - 1];
@@ -134,14 +141,17 @@ impl ProvedCells {
         strips: usize,
         progress: impl Fn(usize) -> ControlFlow<()> + Sync,
     ) -> Result<Self, Error> {
-        let edges = |range: Interval, parts: usize| PixelShares::edges(range, parts).map_err(hopper_basin::Error::from);
+        let edges = |range: Interval, parts: usize| {
+            PixelShares::edges(range, parts).map_err(hopper_basin::Error::from)
+        };
         let (ratios, speeds) = (edges(grid.x, grid.columns)?, edges(grid.y, grid.rows)?);
         let column = |at: usize| {
             let ratios = Interval { left: ratios[at], right: ratios[at + 1] };
             column_of(ratios, &speeds, grid.y, strips.max(1))
         };
         let columns = columns_in_parallel(grid.columns, column, progress)?;
-        let cells = (0..grid.rows).flat_map(|row| columns.iter().map(move |column| column.cells[row]));
+        let cells =
+            (0..grid.rows).flat_map(|row| columns.iter().map(move |column| column.cells[row]));
         let cells = cells.collect();
         let mut sums = Vec::new();
         for (label, area) in columns.iter().flat_map(|column| &column.areas) {

@@ -17,13 +17,25 @@ fn window(grid: &Grid) -> String {
 pub fn points_theorem(name: &'static str, proved: &LabelImage, computed: &LabelImage) -> Theorem {
     let mut theorem = Theorem::new(
         name,
-        format!("The fate of the middle of every pixel is that of its label: {}.", window(&proved.grid)),
+        format!(
+            "The fate of the middle of every pixel is that of its label: {}.",
+            window(&proved.grid)
+        ),
     );
     let open = proved.labels.iter().filter(|label| label.is_undecided()).count();
-    theorem.step("every point is proved", format!("{open} of {} open", proved.labels.len()), open == 0);
+    theorem.step(
+        "every point is proved",
+        format!("{open} of {} open", proved.labels.len()),
+        open == 0,
+    );
     let pairs = proved.labels.iter().zip(&computed.labels);
-    let other = pairs.filter(|(proved, computed)| !proved.is_undecided() && proved != computed).count();
-    theorem.step("the raster of the library has the same labels", format!("{other} differ"), other == 0);
+    let other =
+        pairs.filter(|(proved, computed)| !proved.is_undecided() && proved != computed).count();
+    theorem.step(
+        "the raster of the library has the same labels",
+        format!("{other} differ"),
+        other == 0,
+    );
     theorem
 }
 

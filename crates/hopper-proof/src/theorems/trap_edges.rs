@@ -29,7 +29,9 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
             let strip = Strip::at(ratio)?;
             let inside = proved_trap(n, &strip)?.right;
             // A speed beyond with f below α*_n, as near as it is found.
-            let outside = (4..192).map(|k| inside + f64::EPSILON * 2f64.powf(0.25 * f64::from(k))).find(|&speed| falls_below(n, speed, &strip));
+            let outside = (4..192)
+                .map(|k| inside + f64::EPSILON * 2f64.powf(0.25 * f64::from(k)))
+                .find(|&speed| falls_below(n, speed, &strip));
             match outside {
                 Some(outside) => widest = widest.max(outside - inside),
                 None => missing += 1,
@@ -37,7 +39,10 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
         }
         theorem.step(
             format!("Δ_{n} is enclosed to 4e-12 at {count} mass ratios from M_c({n}) to 1"),
-            format!("widest {widest:.1e}, not enclosed {missing}; Δ_{n}(1) = {:.12}", proved_trap(n, &Strip::at(1.0)?)?.right - fixed_point(n).middle()),
+            format!(
+                "widest {widest:.1e}, not enclosed {missing}; Δ_{n}(1) = {:.12}",
+                proved_trap(n, &Strip::at(1.0)?)?.right - fixed_point(n).middle()
+            ),
             missing == 0 && widest <= WIDTH,
         );
     }
