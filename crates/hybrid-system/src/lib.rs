@@ -125,12 +125,13 @@ pub use arc::{Arc, ArcEnd, Event};
 pub use checkpoint::Checkpoint;
 pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
-    Certainty, Crossing, Enclosure, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
-    Search, bracketed_root, golden_section_minimum,
+    Certainty, Crossing, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial, Search,
+    bracketed_root, golden_section_minimum,
 };
 pub use error::Error;
 pub use execution::Execution;
 pub use guard::{Direction, Guard, Role, Touch};
+pub use interval_arithmetic::Enclosure;
 pub use limits::{Limits, Stop};
 pub use model::{Family, Model};
 #[cfg(feature = "ode")]

@@ -1,12 +1,11 @@
 //! The trait that a model implements.
 
-use crate::crossing::{
-    Enclosure, GuardedFlow, NextEvent, QuasiPolynomial, Search, earliest_crossing,
-};
+use crate::crossing::{GuardedFlow, NextEvent, QuasiPolynomial, Search, earliest_crossing};
 use crate::error::Error;
 use crate::guard::Guard;
 use crate::sliding::Sliding;
 use crate::state::StateVector;
+use interval_arithmetic::Enclosure;
 use std::fmt::Debug;
 
 /// The result of an event.

@@ -1,8 +1,8 @@
 //! A function of time with bounds: what the search for zeros asks of its sources.
 
-use super::enclosure::Enclosure;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
+use interval_arithmetic::Enclosure;
 
 /// How a function leaves a zero at the left end of a stretch of time.
 #[derive(Debug, Clone, Copy, PartialEq)]

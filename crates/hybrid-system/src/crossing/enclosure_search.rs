@@ -11,9 +11,9 @@
 //! These are statements (2) and (3) of [mathematics](crate::mathematics), with the model's bounds.
 
 use super::bounded::{Bounded, Leave};
-use super::enclosure::Enclosure;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
+use interval_arithmetic::Enclosure;
 
 /// Highest order of a zero at the start that is tested. A model gives only a few derivatives; the limit only bounds the
 /// array of lower terms. A zero of higher order is [`Error::UndecidedSign`].
@@ -62,7 +62,7 @@ where
 
     /// Bounds on the guard, or a derivative, at one time; (−∞, ∞) if the model gives none.
     fn around(&self, order: u32, time: f64) -> Result<Enclosure, Error> {
-        let all = Enclosure { low: f64::NEG_INFINITY, high: f64::INFINITY };
+        let all = Enclosure::WHOLE;
         Ok(self.enclosed(order, (time, time))?.unwrap_or(all))
     }
 }
@@ -82,7 +82,7 @@ where
 
     /// The four tests at the head of this file, cheapest first.
     fn test(&self, left: f64, right: f64, level: f64) -> Result<ZeroTest, Error> {
-        let values = self.enclosed(0, (left, right))?.map(|values| values.above(level));
+        let values = self.enclosed(0, (left, right))?.map(|values| values - level);
         if let Some(sign) = values.and_then(|values| values.sign()) {
             return Ok(ZeroTest::NoZero { sign });
         }
@@ -92,7 +92,7 @@ where
         if let Some(slope) = slopes.and_then(|slopes| slopes.sign()) {
             return Ok(ZeroTest::Monotone { slope });
         }
-        let here = self.around(0, middle)?.above(level);
+        let here = self.around(0, middle)? - level;
         let moved = slopes.map(|slopes| here.widened(slopes.magnitude() * radius));
         if let Some(sign) = moved.and_then(|moved| moved.sign()) {
             return Ok(ZeroTest::NoZero { sign });

@@ -1,10 +1,10 @@
 //! The part of a model that a search for crossings needs: one flow, and the guards along it.
 
-use super::enclosure::Enclosure;
 use super::guard_rounding::{rounding_of_state, stated_or_measured};
 use super::quasi_polynomial::QuasiPolynomial;
 use crate::guard::Guard;
 use crate::state::StateVector;
+use interval_arithmetic::Enclosure;
 use std::fmt::Debug;
 
 /// The flow in one mode from one start, with the guards that are searched along it.

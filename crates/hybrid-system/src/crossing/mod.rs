@@ -21,7 +21,6 @@ mod candidate;
 mod certainty;
 mod departure;
 mod earliest;
-mod enclosure;
 mod enclosure_search;
 mod first_crossing;
 mod found;
@@ -52,7 +51,6 @@ pub use bracketed_root::bracketed_root;
 pub use certainty::Certainty;
 pub(crate) use departure::{Departure, departure};
 pub(crate) use earliest::earliest_crossing;
-pub use enclosure::Enclosure;
 pub use first_crossing::FirstCrossing;
 #[cfg(feature = "ode")]
 pub(crate) use found::Found;

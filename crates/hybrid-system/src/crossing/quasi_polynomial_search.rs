@@ -12,7 +12,6 @@
 //! tell how the function leaves a start at zero.
 
 use super::bounded::{Bounded, Leave};
-use super::enclosure::Enclosure;
 use super::first_crossing::FirstCrossing;
 use super::found::Found;
 use super::quasi_layers::{Layers, Size};
@@ -22,6 +21,7 @@ use super::zero_search::ZeroSearch;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
+use interval_arithmetic::Enclosure;
 
 /// Relative margin on the half length of an interval. Two differences and a product round by ε/2 each; 4ε is more than
 /// these roundings together. A larger margin would only make the tests slightly weaker.

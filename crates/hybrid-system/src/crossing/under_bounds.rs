@@ -1,7 +1,6 @@
 //! One guard for which the model gives bounds.
 
 use super::bounded::Bounded;
-use super::enclosure::Enclosure;
 use super::enclosure_search::EnclosedGuard;
 use super::found::Found;
 use super::guard_rounding::{is_far, range};
@@ -13,6 +12,7 @@ use super::zero_search::ZeroSearch;
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
 use crate::state::StateVector;
+use interval_arithmetic::Enclosure;
 
 /// The first event of one guard up to `until`, under the bounds that the model gives; `None` if the model gives none.
 ///

@@ -17,12 +17,12 @@
 
 use super::bounded::{Bounded, Leave};
 use super::bracketed_root::root_beyond;
-use super::enclosure::Enclosure;
 use super::found::Found;
 use super::golden_section::golden_section_minimum;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
+use interval_arithmetic::Enclosure;
 
 /// Most intervals that wait to be tested. 53 halvings reach the rounding of times in the middle of a stretch. Near time
 /// zero doubles are denser, and more halvings are possible: then the farthest of the shorter ones are joined again. A
@@ -198,7 +198,7 @@ impl ZeroSearch {
             let sign = match function.test(left, right, self.level)? {
                 ZeroTest::NoZero { sign } => sign,
                 ZeroTest::Monotone { slope } => {
-                    match function.at(right)?.above(self.level).sign() {
+                    match (function.at(right)? - self.level).sign() {
                         Some(sign) => sign,
                         // Rounding hides the sign at the right end. The next interval decides.
                         None if !(horizon && right >= until) => {
@@ -241,7 +241,7 @@ impl ZeroSearch {
                     continue;
                 }
             };
-            if self.hidden.is_some() && !is_clear(&function.at(right)?.above(self.level)) {
+            if self.hidden.is_some() && !is_clear(&(function.at(right)? - self.level)) {
                 self.time = right;
                 continue;
             }
@@ -328,7 +328,7 @@ impl ZeroSearch {
         sign: f64,
     ) -> Result<f64, Error> {
         let (mut time, mut step) = (left, (left - hidden.from).max(f64::EPSILON * left));
-        while time < right && function.at(time)?.above(self.level).sign() != Some(sign) {
+        while time < right && (function.at(time)? - self.level).sign() != Some(sign) {
             time = (time + step).min(right);
             step *= 2.0;
         }
@@ -342,7 +342,7 @@ impl ZeroSearch {
         if self.unclear {
             let value = function.at(time)?;
             let is_clear =
-                |level: f64| value.above(level).widened(self.level_error).sign() == Some(side);
+                |level: f64| (value - level).widened(self.level_error).sign() == Some(side);
             if is_clear(0.0) && is_clear(self.level) {
                 (self.unclear, self.level) = (false, 0.0);
             }

@@ -1,7 +1,8 @@
 //! Parts with bounds on a guard along the flow, so that its crossings are found with certainty.
 
 use super::part::Part;
-use crate::crossing::{Enclosure, QuasiPolynomial};
+use crate::crossing::QuasiPolynomial;
+use interval_arithmetic::Enclosure;
 
 /// A guard along the flow as a quasi-polynomial.
 #[derive(Debug, Clone, Copy)]

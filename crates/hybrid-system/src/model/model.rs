@@ -9,7 +9,7 @@ use super::integrated::Integrated;
 use super::motion::{ClosedForm, Motion};
 use super::outcome::Outcome;
 use super::part::Part;
-use crate::crossing::{Enclosure, QuasiPolynomial};
+use crate::crossing::QuasiPolynomial;
 use crate::execution::Execution;
 use crate::guard::Guard;
 use crate::limits::Limits;
@@ -17,6 +17,7 @@ use crate::limits::Limits;
 use crate::ode::Tolerances;
 use crate::sliding::Sliding;
 use crate::state::StateVector;
+use interval_arithmetic::Enclosure;
 use std::fmt::Debug;
 use std::marker::PhantomData;
 

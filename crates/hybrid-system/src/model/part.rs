@@ -1,9 +1,10 @@
 //! The parts of a model besides its motion: each answers for its own surface, and the pair of two parts asks the first
 //! one first.
 
-use crate::crossing::{Enclosure, QuasiPolynomial};
+use crate::crossing::QuasiPolynomial;
 use crate::sliding::Sliding;
 use crate::system::Reset;
+use interval_arithmetic::Enclosure;
 
 /// A part of a [`Model`](crate::Model). Each method answers for the surfaces of the part, and with `None` for all others.
 pub trait Part<M, S, X> {

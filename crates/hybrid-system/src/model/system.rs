@@ -3,12 +3,13 @@
 use super::model::Model;
 use super::motion::Motion;
 use super::part::Part;
-use crate::crossing::{Enclosure, NextEvent, QuasiPolynomial, Search, spread};
+use crate::crossing::{NextEvent, QuasiPolynomial, Search, spread};
 use crate::error::Error;
 use crate::guard::Guard;
 use crate::sliding::Sliding;
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
+use interval_arithmetic::Enclosure;
 use std::fmt::Debug;
 
 impl<M, S, X, F, P> HybridSystem for Model<M, S, X, F, P>

@@ -2,8 +2,9 @@
 
 use super::chebyshev::{CHEBYSHEV, NODES};
 use super::polynomial_test::{is_jump, largest, scatter, side_after_zero, zero_test};
-use crate::crossing::{Bounded, Enclosure, Leave, ZeroTest};
+use crate::crossing::{Bounded, Leave, ZeroTest};
 use crate::error::Error;
+use interval_arithmetic::Enclosure;
 use std::cell::{Cell, OnceCell};
 
 /// On intervals shorter than this part of the step, 2⁻³⁰, a smooth guard is a straight line within rounding: its bend is

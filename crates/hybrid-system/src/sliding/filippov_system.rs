@@ -6,12 +6,13 @@ use super::exit::side_after_exit;
 use super::filippov::{Fields, Filippov, OffSurface, Sides};
 use super::filippov_modes::{FilippovMode, FilippovSurface};
 use super::sliding_point::Sliding;
-use crate::crossing::{Crossing, Enclosure, Leaving, NextEvent, QuasiPolynomial, Search};
+use crate::crossing::{Crossing, Leaving, NextEvent, QuasiPolynomial, Search};
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
 use crate::ode::{integrated_crossing, integrated_flow, integrated_states};
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
+use interval_arithmetic::Enclosure;
 
 impl<T: HybridSystem> HybridSystem for Filippov<T> {
     type State = T::State;
