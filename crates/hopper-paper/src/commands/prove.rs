@@ -64,18 +64,16 @@ const RISING: [(u64, f64); 10] = [
 ];
 
 /// Mass ratios of the fractions, with the width that is asked for.
-const MEASURES: [(f64, f64); 11] = [
+const MEASURES: [(f64, f64); 9] = [
     (0.1, 1e-6),
     (0.15, 1e-6),
     (0.2, 1e-6),
     (0.3, 1e-6),
     (0.5, 1e-6),
     (0.8, 1e-6),
-    (1.0, 1e-4),
-    (2.0, 1e-4),
-    (3.0, 1e-4),
-    (5.0, 1e-3),
-    (10.0, 1e-2),
+    (1.0, 1e-3),
+    (2.0, 1e-3),
+    (3.0, 1e-3),
 ];
 
 /// The area that may stay open, of Figs. 6 and 9.
