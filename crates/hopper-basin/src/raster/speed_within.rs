@@ -64,11 +64,11 @@ pub(crate) fn with_signs(
 
 /// The hop from a speed with its error. Where the error is `large`, the first bound would mostly be computed in vain.
 pub(crate) fn hop_within(map: &LiftOffMap, (speed, error): (f64, f64), large: f64) -> HopWithin {
-    if error > large {
-        let found = map.signed_hop_within(speed, error);
-        if found != HopWithin::Inconclusive {
-            return found;
-        }
+    if error <= large {
+        return with_signs(map, (speed, error), map.hop_within(speed, error), large);
     }
-    with_signs(map, (speed, error), map.hop_within(speed, error), large)
+    match map.signed_hop_within(speed, error) {
+        HopWithin::Inconclusive => map.hop_within(speed, error),
+        found => found,
+    }
 }
