@@ -25,7 +25,7 @@ pub(crate) fn speed_at(n: u64, (offset, error): (f64, f64)) -> (f64, f64) {
 }
 
 /// The error of a speed from which a hop may need the second bound, which has the signs of the derivative: this part of the distance
-/// between the speeds that are labelled, and no number outside these two. A hop with the second bound takes about half a microsecond, four
+/// between the speeds that are labelled, and no number outside these two. A hop with the second bound takes about a third of a microsecond, three
 /// times as long as one with the first, and a fate alone, where an error has grown too large to decide, some hundred microseconds.
 const LARGE_PART: f64 = 0.01;
 const LARGE_ERRORS: (f64, f64) = (1e-9, 1e-7);

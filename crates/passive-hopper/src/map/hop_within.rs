@@ -1,7 +1,7 @@
 //! A hop in `f64` from a speed that is known to within an error, with a bound on the error of the next speed.
 //!
 //! The kernel's bound is tried first. It adds absolute values, and costs little more than the hop. The bound of
-//! `speed_error.rs` has the signs of the true derivative, and costs about five hops.
+//! `speed_error.rs` has the signs of the true derivative, and takes three times as many instructions.
 
 use crate::kernel::scalar::bounded_next::{BoundedNext, BoundedSquare};
 use crate::kernel::scalar::ground_state::GroundState;
@@ -70,7 +70,7 @@ impl LiftOffMap {
     }
 
     /// As [`hop_within`](Self::hop_within), with the signs of the derivative: the error hardly grows where the map's slope
-    /// is near 1. It takes about half a microsecond.
+    /// is near 1. It takes about a third of a microsecond.
     pub fn signed_hop_within(&self, alpha: f64, error: f64) -> HopWithin {
         self.signed_square_within(alpha, Changes::of_speed(error))
             .and_then(|found| HopWithin::from_kernel(found.next()))
