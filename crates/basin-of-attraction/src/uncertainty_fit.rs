@@ -10,7 +10,7 @@
 //! the mean 0 and the variance 1 to leading order. So the estimate has U = 0, and the 95 % interval is that of the b with |U| ≤ 1.96 √V: Rao's
 //! score interval, as Wilson's is for one proportion. Counts of 0 need no exception, and no count is selected by its size.
 
-use crate::confidence_interval::ConfidenceInterval;
+use crate::confidence_interval::{ConfidenceInterval, NORMAL_QUANTILE};
 
 /// Pairs at one distance.
 #[derive(Debug, Clone, Copy)]
@@ -32,9 +32,6 @@ pub(crate) struct ExponentFit {
     /// Σ (k − n p)²/(n p (1 − p)).
     pub(crate) chi_squared: f64,
 }
-
-/// The two-sided 95 % quantile of the normal distribution.
-const NORMAL_QUANTILE: f64 = 1.959_963_984_540_054;
 
 /// Halvings of a bracket: they leave 10⁻¹⁵ of it.
 const HALVINGS: usize = 52;

@@ -2,21 +2,13 @@
 
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
-use basin_of_attraction::{
-    Bounds, Error, Interval, IntervalBasins, Label, Refinement, TippingCounts,
-    interval_basins_from_known, label_after_drift, random_tipping,
-};
-use std::ops::ControlFlow::{Break, Continue};
+mod planted_intervals;
 
-fn basins(parts: &[(f64, f64, u8)]) -> IntervalBasins {
-    let known: Vec<_> = parts
-        .iter()
-        .map(|&(left, right, label)| (Interval { left, right }, Label::from(label)))
-        .collect();
-    let window = Interval { left: 0.0, right: 10.0 };
-    let map = |x: f64| Some(x);
-    interval_basins_from_known(&map, &known, &[], window, Refinement::default()).unwrap()
-}
+use basin_of_attraction::{
+    Bounds, Error, Interval, Label, TippingCounts, label_after_drift, random_tipping,
+};
+use planted_intervals::basins;
+use std::ops::ControlFlow::{Break, Continue};
 
 fn close(bounds: Bounds, lower: f64, upper: f64) -> bool {
     (bounds.lower - lower).abs() < 1e-12 && (bounds.upper - upper).abs() < 1e-12

@@ -157,10 +157,12 @@ fn wrong_inputs_are_errors() {
     assert!(matches!(EdgeChart::near(&fates, 4.55), Err(Error::NoEdge { .. })));
     assert!(EdgeChart::near(&fates, f64::NAN).is_err());
     let chart = EdgeChart::onto(&fates, 1, 8.47304).unwrap();
-    let other = circle(&fates, 2);
+    let (own, other) = (circle(&fates, 1), circle(&fates, 2));
     let y = Offset::from(-1e-9);
     assert!(matches!(chart.label(&other, y), Err(Error::OtherCircle { .. })));
     assert!(matches!(chart.offset(Offset::from(1.0)), Err(Error::OutsideChart { .. })));
     // A point on the side of the basin has no phase.
-    assert!(chart.phase(other.coordinate(), Offset::from(1e-9)).is_err());
+    assert!(chart.phase(&own, y).is_ok());
+    assert!(chart.phase(&own, Offset::from(1e-9)).is_err());
+    assert!(matches!(chart.phase(&other, y), Err(Error::OtherCircle { .. })));
 }

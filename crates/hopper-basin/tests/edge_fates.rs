@@ -5,9 +5,9 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use basin_of_attraction::Label;
-use hopper_basin::{Fates, HopperFate};
+use hopper_basin::{Fates, HopperFate, TrapSide};
 use hopper_reference::{Row, rows};
-use passive_hopper::MassRatio;
+use passive_hopper::{Arithmetic, ExtendedOrbit, ExtendedStep, LiftOffMap, MassRatio, index_below};
 use std::cell::Cell;
 
 /// No orbit of the reference has as many hops.
@@ -58,4 +58,29 @@ fn labels_beside_edges_are_those_of_the_reference() {
         let expected: Vec<Label> = group.iter().map(|row| expected(row).label()).collect();
         assert_eq!(fates.labels(&speeds).unwrap(), expected);
     });
+}
+
+/// Orbits that leave α*_5 in more than 512 hops and then pass by α*_4, α*_3 and α*_2, each of which multiplies their error: after a jump
+/// over the slow hops it would be too large. Here the orbit in 512 bits is followed hop by hop.
+#[test]
+fn orbits_beside_several_fixed_points_are_followed_hop_by_hop() {
+    for (m, alpha) in [(20.0, 17.220_755_271_922_03), (10.0, 17.220_755_271_928_866)] {
+        let ratio = MassRatio::new(m).unwrap();
+        let (fates, map) = (Fates::new(ratio).unwrap(), LiftOffMap::new(ratio));
+        let mut orbit = ExtendedOrbit::new(&map, alpha, Arithmetic::Bits512).unwrap();
+        let expected = loop {
+            let speed = orbit.speed();
+            let trap = fates.trap(index_below(speed).unwrap()).unwrap();
+            let (offset, error) = orbit.offset_from(trap.n);
+            if trap.side_of_offset(offset, error) == TrapSide::Inside {
+                break HopperFate::label_of_fixed_point(trap.n);
+            }
+            match orbit.hop().unwrap() {
+                ExtendedStep::LiftsOff => {}
+                ExtendedStep::Grounded => break HopperFate::GROUNDED,
+                ExtendedStep::Inconclusive => panic!("M = {m}, α = {alpha}: {speed}"),
+            }
+        };
+        assert_eq!(fates.fate(alpha).unwrap().label(), expected, "M = {m}, α = {alpha}");
+    }
 }

@@ -258,7 +258,10 @@ impl AbelSeries {
     pub(crate) fn root_at(&self, count: HopCount) -> (f64, f64) {
         // Newton's method for p = 1/(A x): Ψ = p − c ln(A p) + …, whose slope by p is 1 − c A x + …, near 1.
         let smallest = 1.0 / (self.drift * self.whole);
-        let mut p = smallest.max(count.hops);
+        // Most values lie on the turn of jumps: p − Ψ is nearly that at its end, where it is known.
+        let (first, x) = self.jump;
+        let known = if x > 0.0 { 1.0 / (self.drift * x) - (first + 1.0) } else { 0.0 };
+        let mut p = smallest.max(count.hops + known);
         let at = |p: f64| {
             let x = (1.0 / (self.drift * p)).min(self.whole);
             (x, self.value(x))

@@ -98,14 +98,17 @@ impl OutwardWalk {
     }
 }
 
-/// Σ c_k u^k and its derivative.
+/// Σ c_k u^k and its derivative, by the even and the odd terms: two chains of half the length.
 fn value_and_slope(terms: &[f64; ORDER], u: f64) -> (f64, f64) {
-    let (mut value, mut slope) = (0.0, 0.0);
-    for term in terms.iter().rev() {
-        slope = slope * u + value;
-        value = value * u + term;
+    let v = u * u;
+    let (mut even, mut even_slope, mut odd, mut odd_slope) = (0.0, 0.0, 0.0, 0.0);
+    for pair in terms.as_chunks::<2>().0.iter().rev() {
+        even_slope = even_slope * v + even;
+        odd_slope = odd_slope * v + odd;
+        even = even * v + pair[0];
+        odd = odd * v + pair[1];
     }
-    (value, slope)
+    (even + u * odd, 2.0 * u * (even_slope + u * odd_slope) + odd)
 }
 
 #[cfg(test)]

@@ -133,35 +133,29 @@ pub fn hopper_basins(
         _ => return Err(Error::Window { bottom, top, largest }),
     };
     let mass_ratio = fates.map().mass_ratio();
-    let searched = mass_ratio.value() <= LARGEST_SEARCHED;
     // Orbits fall below the window: all branches of the map down to zero are needed.
-    let (branches, traps) = if has_whole_humps(fates, to)? {
-        (Vec::new(), traps_and_gaps(fates, Vec::new(), to)?)
-    } else if searched {
+    let (branches, traps, ground) = if has_whole_humps(fates, to)? {
+        (Vec::new(), traps_and_gaps(fates, Vec::new(), to)?, BranchGround::Proved)
+    } else if mass_ratio.value() <= LARGEST_SEARCHED {
         let branches = branches(fates, 0, to, samples)?;
         let traps = traps_and_grounding(fates, &branches, to, top)?;
-        (branches, traps)
+        let ground = if branches_are_proved(mass_ratio, to) {
+            BranchGround::Proved
+        } else {
+            BranchGround::Spacing { spacing: widest_window(to) / (samples - 1) as f64 }
+        };
+        (branches, traps, ground)
     } else {
         // For M ≥ 3.06, the inverse of the first grounding, no speed of a contact part is grounded.
         let mut branches = Vec::new();
         for n in 0..to {
             branches.extend(contact_branches(fates, n)?);
         }
-        (branches, traps_and_gaps(fates, Vec::new(), to)?)
+        (branches, traps_and_gaps(fates, Vec::new(), to)?, BranchGround::ContactParts)
     };
     let whole = Interval::new(0.0, top)?;
     let basins =
         interval_basins_from_known(fates, &traps, &branches, whole, refinement)?.within(window)?;
-    // The widest of the windows ((n+1)π, α*_{n+1}).
-    let spacing = (0..to).map(|n| alpha_star(n + 1) - (n + 1) as f64 * PI).fold(0.0, f64::max)
-        / (samples - 1) as f64;
-    let ground = if !searched {
-        BranchGround::ContactParts
-    } else if branches.is_empty() || branches_are_proved(mass_ratio, to) {
-        BranchGround::Proved
-    } else {
-        BranchGround::Spacing { spacing }
-    };
     let stop_reason = basins.stop_reason();
     let probes = Probes { compared: 0, wrong: 0, first_wrong: None };
     let mut found = HopperBasins { basins, ground, probes };
@@ -175,6 +169,11 @@ pub fn hopper_basins(
     };
     found.basins = found.basins.with_stop_reason(stop_reason);
     Ok(found)
+}
+
+/// The greatest width of the windows ((n+1)π, α*_{n+1}) for n < `to`.
+fn widest_window(to: u64) -> f64 {
+    (0..to).map(|n| alpha_star(n + 1) - (n + 1) as f64 * PI).fold(0.0, f64::max)
 }
 
 /// The traps of α*_0 … α*_`to`−1 and the gaps between `branches` below `top` in which the hopper is grounded, with labels.

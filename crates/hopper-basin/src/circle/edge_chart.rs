@@ -206,20 +206,14 @@ impl EdgeChart {
         Ok((offset, error + self.slope_error + 4.0 * f64::EPSILON))
     }
 
-    /// Ψ of p + `y`. The relative error of δ is a third of the relative error of Ψ: from some 10⁻⁴⁵ on the fraction is not known.
-    /// Then [`share`](Self::share) still has a value.
+    /// Ψ of p + `y`, on all of the circle's [domain](PhaseBasins::domain). The relative error of δ is a third of the relative error of
+    /// Ψ: from some 10⁻⁴⁵ on the fraction is not known. Then [`share`](Self::share) still has a value.
     ///
     /// # Errors
-    /// As [`offset`](Self::offset); [`FatouCoordinate::phase`] has no value on the side of the basin.
-    pub fn phase(&self, coordinate: &FatouCoordinate, y: Offset) -> Result<Phase, Error> {
-        let (delta, relative) = self.offset(y)?;
-        let phase = coordinate.phase(delta)?;
-        let error = phase.error() + phase_error(coordinate, delta, relative);
-        Ok(Phase::new(phase.whole().clone(), phase.fraction(), error))
-    }
-
-    /// As [`phase`](Self::phase), on all of the circle's domain.
-    fn phase_on(&self, circle: &PhaseBasins, y: Offset) -> Result<Phase, Error> {
+    /// [`Error::OtherCircle`] unless `circle` is that of n at this mass ratio; as [`offset`](Self::offset); [`PhaseBasins::phase`] has no
+    /// value on the side of the basin.
+    pub fn phase(&self, circle: &PhaseBasins, y: Offset) -> Result<Phase, Error> {
+        self.check(circle)?;
         let (delta, relative) = self.offset(y)?;
         let phase = circle.phase(delta)?;
         let error = phase.error() + phase_error(circle.coordinate(), delta, relative);
@@ -229,7 +223,7 @@ impl EdgeChart {
     /// The label of p + `y`; `None` if the circle does not have one for all phases within the error.
     ///
     /// # Errors
-    /// [`Error::OtherCircle`] unless `circle` is that of n at this mass ratio; as [`phase`](Self::phase).
+    /// As [`phase`](Self::phase).
     pub fn label(&self, circle: &PhaseBasins, y: Offset) -> Result<Option<Label>, Error> {
         self.check(circle)?;
         let (delta, relative) = self.offset(y)?;
@@ -240,7 +234,7 @@ impl EdgeChart {
         if delta.mantissa() == 0.0 {
             return Ok(None);
         }
-        let phase = self.phase(circle.coordinate(), y)?;
+        let phase = self.phase(circle, y)?;
         Ok(circle.label_at(phase.fraction(), phase.error() + circle.phase_error()))
     }
 
@@ -287,7 +281,7 @@ impl EdgeChart {
         to: Offset,
         moved: f64,
     ) -> Result<LocalFractions, Error> {
-        let (one, other) = (self.phase_on(circle, from)?, self.phase_on(circle, to)?);
+        let (one, other) = (self.phase(circle, from)?, self.phase(circle, to)?);
         let coordinate = circle.coordinate();
         let one_moves = moved * turns_to_leave(coordinate, self.offset(from)?.0);
         let other_moves = moved * turns_to_leave(coordinate, self.offset(to)?.0);

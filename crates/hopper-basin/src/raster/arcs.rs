@@ -49,12 +49,12 @@ impl Arcs {
     /// if there is no such pair.
     fn around(&self, offset: f64, error: f64) -> &[Point] {
         let (least, most) = (offset - error, offset + error);
-        // As points may overlap, those next to the places found by one end are tried.
+        // As points may overlap, those next to the place found by one end are tried. Few points lie within an error.
         let mut first = self.points.partition_point(|point| point.offsets.1 <= least);
         while first > 0 && !(self.points[first - 1].offsets.1 <= least) {
             first -= 1;
         }
-        let mut last = self.points.partition_point(|point| point.offsets.0 < most);
+        let mut last = first;
         while last < self.points.len() && !(self.points[last].offsets.0 >= most) {
             last += 1;
         }

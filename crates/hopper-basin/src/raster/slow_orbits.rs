@@ -82,9 +82,10 @@ impl<'a> Strip<'a> {
             self.end_with(at, known, hops, n);
             return None;
         }
+        // An edge that is not known costs most. Few speeds are so near to it that they need it, unless the window is deep.
         let decided = self.end_beside_known_edge(at)
-            || (self.find_edge(at, n) && self.end_beside_known_edge(at))
-            || self.end_with_signs(at, n);
+            || self.end_with_signs(at, n)
+            || (self.find_edge(at, n) && self.end_beside_known_edge(at));
         if !decided {
             self.end_alone(at);
         }

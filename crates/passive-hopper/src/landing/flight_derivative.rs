@@ -44,14 +44,25 @@ impl FlightDerivative {
         let tau = landing.time;
         // One sine and one cosine, of h = τ/2: 1 − cos τ = 2 sin² h loses no digits at small τ.
         let (sin_half, cos_half) = pxfm::f_sincos(0.5 * tau);
-        let versine = 2.0 * sin_half * sin_half;
-        let (sin, cos) = (2.0 * sin_half * cos_half, 1.0 - versine);
+        let sin = 2.0 * sin_half * cos_half;
+        // Below τ = 1 the plain difference cancels.
+        let delay = if tau < 1.0 { -pxfm::f_sinmx(tau) } else { tau - sin };
+        Self::from_functions(start, landing, kappa, (sin, 2.0 * sin_half * sin_half, delay))
+    }
+
+    /// From sin τ, 1 − cos τ and τ − sin τ. Their errors of some ulps are among those of the derivative's coefficients.
+    pub(crate) fn from_functions(
+        start: TakeOff,
+        landing: &Landing,
+        kappa: f64,
+        (sin, versine, delay): (f64, f64, f64),
+    ) -> Self {
+        let cos = 1.0 - versine;
         FlightDerivative {
             sin,
             cos,
             versine,
-            // Below τ = 1 the plain difference cancels.
-            delay: if tau < 1.0 { -pxfm::f_sinmx(tau) } else { tau - sin },
+            delay,
             closing_speed: landing.closing_speed,
             excess: landing.excess,
             kappa,

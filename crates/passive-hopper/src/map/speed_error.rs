@@ -98,82 +98,118 @@ pub(crate) fn tangent_of_square(
     factors: MassFactors,
 ) -> Option<SquareTangent> {
     let mut start = TakeOff { excess: 0.0, velocity: alpha };
-    let flights = landings.iter().map(|landing| {
-        let derivative = FlightDerivative::new(start, landing, factors.kappa);
+    let mut sums = TangentSums::new(alpha, changes, factors);
+    for landing in landings {
+        sums.add(landing, &FlightDerivative::new(start, landing, factors.kappa));
         start = landing.take_off();
-        (landing, derivative)
-    });
-    tangent_of_flights(alpha, changes, flights, factors)
+    }
+    sums.tangent()
 }
 
-/// As [`tangent_of_square`], from the derivatives of all flights.
-pub(crate) fn tangent_of_flights<'a>(
+/// The sums over the flights of a hop from which its tangent follows.
+#[derive(Debug, Clone)]
+pub(crate) struct TangentSums {
     alpha: f64,
     changes: Changes,
-    flights: impl Iterator<Item = (&'a Landing, FlightDerivative)>,
-    MassFactors { mu, kappa }: MassFactors,
-) -> Option<SquareTangent> {
-    let mut start = TakeOff { excess: 0.0, velocity: alpha };
-    let mut by_speed = Variation { excess: 0.0, velocity: 1.0 };
-    let mut by_kappa = Variation { excess: 0.0, velocity: 0.0 };
-    // Σ Γ ∂Γ by the speed and by κ; Σ Γ².
-    let (mut speed_sum, mut kappa_sum, mut squares) = (0.0, 0.0, 0.0);
-    // For the largest changes: the terms of ΓdΓ by absolute value, and the part of the second order from a change of x′.
-    let (mut sizes, mut bend) = (0.0, 0.0);
-    let mut largest_change = 0.0_f64;
-    let mut count = 0.0;
-    for (landing, flight) in flights {
-        count += 1.0;
+    factors: MassFactors,
+    /// x at the start of the next flight.
+    excess: f64,
+    /// The derivatives of the state there.
+    by_speed: Variation,
+    by_kappa: Variation,
+    /// Σ Γ ∂Γ by the speed and by κ; Σ Γ².
+    speed_sum: f64,
+    kappa_sum: f64,
+    squares: f64,
+    /// For the largest changes: the terms of ΓdΓ by absolute value, and the part of the second order from a change of x′.
+    sizes: f64,
+    bend: f64,
+    largest_change: f64,
+    flights: f64,
+}
+
+impl TangentSums {
+    pub(crate) fn new(alpha: f64, changes: Changes, factors: MassFactors) -> Self {
+        TangentSums {
+            alpha,
+            changes,
+            factors,
+            excess: 0.0,
+            by_speed: Variation { excess: 0.0, velocity: 1.0 },
+            by_kappa: Variation { excess: 0.0, velocity: 0.0 },
+            speed_sum: 0.0,
+            kappa_sum: 0.0,
+            squares: 0.0,
+            sizes: 0.0,
+            bend: 0.0,
+            largest_change: 0.0,
+            flights: 0.0,
+        }
+    }
+
+    /// Adds the next flight.
+    pub(crate) fn add(&mut self, landing: &Landing, flight: &FlightDerivative) {
+        let (changes, kappa) = (self.changes, self.factors.kappa);
+        self.flights += 1.0;
         let gamma = landing.closing_speed;
         if !(gamma > 0.0) {
-            return None;
+            self.largest_change = f64::INFINITY;
+            return;
         }
         let size = Variation {
-            excess: changes.speed * by_speed.excess.abs() + changes.kappa * by_kappa.excess.abs(),
-            velocity: changes.speed * by_speed.velocity.abs()
-                + changes.kappa * by_kappa.velocity.abs(),
+            excess: changes.speed * self.by_speed.excess.abs()
+                + changes.kappa * self.by_kappa.excess.abs(),
+            velocity: changes.speed * self.by_speed.velocity.abs()
+                + changes.kappa * self.by_kappa.velocity.abs(),
         };
         let (most, most_closing) = flight.bound(size);
         // |dτ|: the bound of V′ is |dV| + |dτ| + κ |dΓ|.
         let time = (most.velocity - size.velocity - kappa * most_closing).abs();
-        largest_change = largest_change.max(time / landing.time.min(1.0)).max(most_closing / gamma);
-        if start.excess > 0.0 {
+        let mut change = (time / landing.time.min(1.0)).max(most_closing / gamma);
+        if self.excess > 0.0 {
             // Just above nπ the stretch after a landing changes much faster than the times.
-            largest_change = largest_change.max(size.excess / start.excess);
+            change = change.max(size.excess / self.excess);
         }
-        let (after, closing) = flight.carry(by_speed);
-        speed_sum += gamma * closing;
-        by_speed = after;
+        self.largest_change = self.largest_change.max(change);
+        let (after, closing) = flight.carry(self.by_speed);
+        self.speed_sum += gamma * closing;
+        self.by_speed = after;
         if changes.kappa > 0.0 {
-            let (mut after, closing) = flight.carry(by_kappa);
+            let (mut after, closing) = flight.carry(self.by_kappa);
             after.velocity += gamma;
-            kappa_sum += gamma * closing;
-            by_kappa = after;
+            self.kappa_sum += gamma * closing;
+            self.by_kappa = after;
         }
-        squares += gamma * gamma;
-        sizes += gamma * most_closing;
-        bend += gamma * most.excess * time;
-        start = landing.take_off();
+        self.squares += gamma * gamma;
+        self.sizes += gamma * most_closing;
+        self.bend += gamma * most.excess * time;
+        self.excess = landing.excess;
     }
-    if !(largest_change <= LARGEST_CHANGE) {
-        return None;
+
+    /// The tangent; `None` if the changes are too large for the expansion.
+    pub(crate) fn tangent(&self) -> Option<SquareTangent> {
+        let &TangentSums { alpha, changes, flights, largest_change, squares, sizes, .. } = self;
+        if !(largest_change <= LARGEST_CHANGE) {
+            return None;
+        }
+        let MassFactors { mu, kappa } = self.factors;
+        // dμ = (1 − 2κ) dκ − dκ²
+        let slope_of_mu = 1.0 - 2.0 * kappa;
+        let change_of_mu = (slope_of_mu.abs() + changes.kappa) * changes.kappa;
+        let second = changes.speed * changes.speed
+            + 2.0 * mu * (SECOND_ORDER * flights * largest_change * sizes + self.bend)
+            + changes.kappa * changes.kappa * squares
+            + CHANGES_OF_BOTH * change_of_mu * sizes;
+        let terms = alpha * changes.speed + mu * sizes + change_of_mu * squares;
+        let tangent = SquareTangent {
+            changes,
+            by_speed: 2.0 * (alpha - mu * self.speed_sum),
+            by_kappa: -(slope_of_mu * squares + 2.0 * mu * self.kappa_sum),
+            rounding: SLOPE_ULPS * flights * f64::EPSILON * terms,
+            second,
+        };
+        tangent.change().is_finite().then_some(tangent)
     }
-    // dμ = (1 − 2κ) dκ − dκ²
-    let slope_of_mu = 1.0 - 2.0 * kappa;
-    let change_of_mu = (slope_of_mu.abs() + changes.kappa) * changes.kappa;
-    let second = changes.speed * changes.speed
-        + 2.0 * mu * (SECOND_ORDER * count * largest_change * sizes + bend)
-        + changes.kappa * changes.kappa * squares
-        + CHANGES_OF_BOTH * change_of_mu * sizes;
-    let terms = alpha * changes.speed + mu * sizes + change_of_mu * squares;
-    let tangent = SquareTangent {
-        changes,
-        by_speed: 2.0 * (alpha - mu * speed_sum),
-        by_kappa: -(slope_of_mu * squares + 2.0 * mu * kappa_sum),
-        rounding: SLOPE_ULPS * count * f64::EPSILON * terms,
-        second,
-    };
-    tangent.change().is_finite().then_some(tangent)
 }
 
 #[cfg(test)]
