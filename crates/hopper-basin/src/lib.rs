@@ -20,7 +20,7 @@
 //! | [`hop_columns`] | the number of hops until each of these fates is known |
 //! | [`RASTER_VERSION`], [`SHARE_VERSION`] | raised when a raster gets other bits, for work that is continued later |
 //! | [`coverage_raster`], [`CoverageRaster`], [`CoverageColumn`] | the share of every basin in each pixel, with bounds: needles thinner than a pixel are not missed |
-//! | [`CoverageLimits`], [`CoverageGround`] | how far pixels are resolved, and what their shares stand on |
+//! | [`CoverageLimits`], [`CoverageGround`], [`CoverageSummary`] | how far pixels are resolved, and what their shares stand on |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
 //! | [`hump_fractions`], [`fractions_over_mass_ratio`] | basin fractions with bounds or 95 % intervals, at one M and over M with [`known_kinks`] |
 //! | [`tipping`], [`random_tipping`], [`tipping_along_drift`] | the fate of a speed after M changes, at once or from hop to hop |
@@ -92,6 +92,7 @@ pub use circle::upwards::Upwards;
 pub use coverage::coverage_column::CoverageColumn;
 pub use coverage::coverage_limits::{CoverageGround, CoverageLimits};
 pub use coverage::coverage_raster::{CoverageRaster, coverage_raster};
+pub use coverage::coverage_summary::CoverageSummary;
 pub use coverage::images::{ImagedSpeed, SpeedImage, SpeedImages, falling_laps};
 pub use coverage::laps_sweep::{LapsSweep, Resolution};
 pub use error::Error;

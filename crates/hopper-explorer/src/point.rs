@@ -32,13 +32,26 @@ pub(crate) fn point_json(mass_ratio: f64, alpha: f64, hops: usize) -> Result<Jso
         HopperFate::Grounded => answer.null("trap"),
         HopperFate::Undecided(reason) => answer.null("trap").text("reason", &reason_text(reason)),
     };
-    let orbit = Orbit::follow(fates.map(), alpha, hops)?;
+    let orbit = BoundedOrbit::follow(fates.map(), alpha, hops)?;
+    // The last hop may be one that does not end.
+    let tried = orbit.speeds.iter().take(hops);
+    let details = tried.map(|&speed| hop_json(fates.map(), speed)).collect::<Result<Vec<_>, _>>()?;
     Ok(answer
-        .truth("grounded", orbit.grounded)
-        .text("arithmetic", orbit.arithmetic)
-        .json("speeds", numbers(orbit.speeds.iter().map(|&(speed, _)| speed)))
-        .json("errors", numbers(orbit.speeds.iter().map(|&(_, error)| error)))
-        .json("orbit", objects(orbit.hops)))
+        .truth("grounded", orbit.end == ExtendedStep::Grounded)
+        .text("arithmetic", arithmetic_text(orbit.arithmetic))
+        .json("speeds", numbers(orbit.speeds))
+        .json("errors", numbers(orbit.errors))
+        .json("orbit", objects(details)))
+}
+
+fn arithmetic_text(arithmetic: Option<Arithmetic>) -> &'static str {
+    match arithmetic {
+        None => "53 bits",
+        Some(Arithmetic::Bits106) => "106 bits",
+        Some(Arithmetic::Bits256) => "256 bits",
+        Some(Arithmetic::Bits512) => "512 bits",
+        Some(Arithmetic::Bits1024) => "1024 bits",
+    }
 }
 
 /// A trap, its interval with the bound on its error.
@@ -66,46 +79,6 @@ fn reason_text(reason: UndecidedReason) -> String {
         UndecidedReason::Map { at } => {
             format!("the hop from {at:?} cannot be decided in 1024 bits")
         }
-    }
-}
-
-/// An orbit with bounds on its errors.
-struct Orbit {
-    /// α_k with a bound on its error.
-    speeds: Vec<(f64, f64)>,
-    hops: Vec<Json>,
-    grounded: bool,
-    arithmetic: &'static str,
-}
-
-impl Orbit {
-    fn follow(map: &LiftOffMap, alpha: f64, most: usize) -> Result<Self, Refusal> {
-        let mut orbit = BoundedOrbit::new(map, alpha)?;
-        let mut found = Orbit {
-            speeds: vec![(alpha, 0.0)],
-            hops: Vec::new(),
-            grounded: false,
-            arithmetic: "f64",
-        };
-        for _ in 0..most {
-            found.hops.push(hop_json(map, orbit.speed())?);
-            match orbit.hop()? {
-                ExtendedStep::LiftsOff => found.speeds.push((orbit.speed(), orbit.error())),
-                ExtendedStep::Grounded => {
-                    found.grounded = true;
-                    break;
-                }
-                ExtendedStep::Inconclusive => break,
-            }
-        }
-        found.arithmetic = match orbit.arithmetic() {
-            None => "53 bits",
-            Some(Arithmetic::Bits106) => "106 bits",
-            Some(Arithmetic::Bits256) => "256 bits",
-            Some(Arithmetic::Bits512) => "512 bits",
-            Some(Arithmetic::Bits1024) => "1024 bits",
-        };
-        Ok(found)
     }
 }
 

@@ -19,8 +19,7 @@ pub fn draw_coverage(window: &Window, raster: &ShareRaster) -> Result<Svg, Error
     let pixels = coverage_png(window.name, raster)?;
     let grid = raster.grid();
     let all = (0..grid.rows).flat_map(|row| (0..grid.columns).map(move |column| (column, row)));
-    let open =
-        all.filter(|&(column, row)| undecided_share(raster, column, row) > SHARED_OUT).count();
+    let open = all.filter(|&(column, row)| raster.undecided(column, row) > SHARED_OUT).count();
     let yellow = (open > 0).then_some(HopperFate::UNDECIDED);
     Ok(draw_pixels(window, &pixels, raster.labels().iter().copied().chain(yellow)))
 }
@@ -41,7 +40,7 @@ pub fn coverage_pixels(raster: &ShareRaster) -> Vec<u8> {
     let mut pixels = Vec::with_capacity(3 * grid.columns * grid.rows);
     for row in (0..grid.rows).rev() {
         for column in 0..grid.columns {
-            let decided = 1.0 - undecided_share(raster, column, row);
+            let decided = 1.0 - raster.undecided(column, row);
             let whole = if decided >= 1.0 - SHARED_OUT { decided } else { 1.0 };
             let shares = raster.at(column, row).unwrap_or_default();
             let parts = raster.labels().iter().zip(shares);
@@ -50,10 +49,4 @@ pub fn coverage_pixels(raster: &ShareRaster) -> Vec<u8> {
         }
     }
     pixels
-}
-
-/// The part of a pixel without a label.
-pub fn undecided_share(raster: &ShareRaster, column: usize, row: usize) -> f64 {
-    let shares = raster.at(column, row).unwrap_or_default();
-    1.0 - shares.iter().map(|&share| f64::from(share)).sum::<f64>()
 }

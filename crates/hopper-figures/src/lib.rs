@@ -5,7 +5,8 @@
 //! | [`draw_basins`], [`Window`] | a raster of fates with axes, legend and the frame of an inset |
 //! | [`label_png`], [`legend`] | its pixels alone; its legend alone |
 //! | [`draw_shares`], [`share_png`], [`share_pixels`], [`share_words`] | a raster whose pixels cover several fates |
-//! | [`draw_coverage`], [`coverage_png`], [`coverage_pixels`], [`undecided_share`] | the same over (M, α), with undecided parts |
+//! | [`draw_coverage`], [`coverage_png`], [`coverage_pixels`] | the same over (M, α), with undecided parts |
+//! | [`ZoomPixels`], [`draw_zoom_frame`], [`draw_zoom`] | the frames of a zoom into an edge, and all of them side by side |
 //! | [`draw_hops`], [`hop_color`] | a raster of numbers of hops, with axes and scale; one of its colours |
 //! | [`fate_colors`] | the colour and the name of every fate |
 //! | [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
@@ -39,10 +40,11 @@ mod motion;
 mod motion_frames;
 mod motion_plot;
 mod shares;
+mod zoom;
 
 pub use animation::{AnimationForm, animation, frame_png};
 pub use basins::{Inset, PIXELS, Window, draw_basins, draw_pixels, label_png, legend};
-pub use coverage::{coverage_pixels, coverage_png, draw_coverage, undecided_share};
+pub use coverage::{coverage_pixels, coverage_png, draw_coverage};
 pub use error::Error;
 pub use graph::{cuts, cuts_between, graph_pieces};
 pub use hops::{draw_hops, hop_color};
@@ -52,3 +54,4 @@ pub use motion::{Motion, MotionEvent, Sample};
 pub use motion_frames::{SECONDS_A_FRAME, draw_frame, frame_times};
 pub use motion_plot::draw_motion;
 pub use shares::{draw_shares, share_pixels, share_png, share_words};
+pub use zoom::{ZoomPixels, draw_zoom, draw_zoom_frame};

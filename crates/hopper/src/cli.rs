@@ -31,7 +31,7 @@ Exit status:
   0    done; also if the reader of the output closes it early
   1    failed: a file could not be written, or a number could not be computed
   2    misuse: an argument or a line of the input is wrong, and the message says how to mend it
-  130  interrupted (143: terminated); the same call continues
+  130  interrupted (143: terminated); the same call continues, or begins anew if it writes no folder
 ";
 
 /// The commands.

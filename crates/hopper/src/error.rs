@@ -63,6 +63,12 @@ pub(crate) enum Error {
         /// How far the job is.
         done: String,
     },
+    /// A signal has ended a search that keeps nothing.
+    #[error("interrupted: nothing of the search is kept; the same call, given again, begins anew")]
+    Ended {
+        /// The exit status of the signal.
+        status: u8,
+    },
     /// A figure could not be encoded.
     #[error(transparent)]
     Figure(#[from] journal_figures::Error),
@@ -74,7 +80,7 @@ impl Error {
         match self {
             Error::ClosedOutput => 0,
             Error::Misuse(_) | Error::Input { .. } => 2,
-            Error::Interrupted { status, .. } => *status,
+            Error::Interrupted { status, .. } | Error::Ended { status } => *status,
             _ => 1,
         }
     }

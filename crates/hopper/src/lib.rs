@@ -25,12 +25,13 @@
 //! ```
 //!
 //! # Exit status
-//! 0: done. 1: failed. 2: the call or its input is wrong. 130 and 143: interrupted, and can be continued.
+//! 0: done. 1: failed. 2: the call or its input is wrong. 130 and 143: interrupted; the same call continues, or begins anew if it writes no folder.
 
 mod basins;
 mod cli;
 mod commands;
 mod error;
+mod interrupt;
 mod options;
 mod output;
 mod program;

@@ -50,7 +50,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>, streams: Streams<'_>) 
         Ok(()) | Err(Error::ClosedOutput) => 0,
         Err(error) => {
             // If standard error is closed, the exit status is the only message.
-            let kind = if matches!(error, Error::Interrupted { .. }) { "" } else { "error: " };
+            let interrupted = matches!(error, Error::Interrupted { .. } | Error::Ended { .. });
+            let kind = if interrupted { "" } else { "error: " };
             let _ = writeln!(messages, "{kind}{}", refusal::one_line(&error.to_string()));
             error.exit_status()
         }

@@ -6,7 +6,7 @@
 mod basin_calls;
 
 use basin_calls::{Folder, basins, ends, signal, text, undisturbed};
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 /// 20 tiles of labels.
 const JOB: [&str; 3] = ["--pixels", "320", "40"];
@@ -44,6 +44,25 @@ fn a_signal_ends_a_call_with_its_status_and_the_same_call_goes_on() {
         assert!(text.contains(&format!("{tiles} of 50 tiles found")), "{text}");
         assert!(folder.files() == whole);
         folder.remove();
+    }
+}
+
+/// A search of some minutes is ended at once. It prints nothing, and has no files.
+#[test]
+fn a_signal_ends_a_search_with_its_status() {
+    for (name, status) in [("-INT", 130), ("-TERM", 143)] {
+        let mut call = Command::new(env!("CARGO_BIN_EXE_hopper"));
+        call.args(["intervals", "-M", "50", "--samples", "1000000", "--to", "64"]);
+        let mut call = call.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        // A signal before the program watches for signals ends it by the system, without a status.
+        std::thread::sleep(std::time::Duration::from_secs(1));
+        assert!(call.try_wait().unwrap().is_none());
+        signal(&call, name);
+        let output = call.wait_with_output().unwrap();
+        let text = text(&output);
+        assert_eq!(output.status.code(), Some(status), "{text}");
+        assert!(text.starts_with("interrupted: nothing of the search is kept"), "{text}");
+        assert!(output.stdout.is_empty());
     }
 }
 

@@ -22,7 +22,7 @@
 //! | [`LiftOffMap::images_into`], [`LiftOffMap::images_with_status`], [`HopStatus`] | the same for plain arrays, NaN for grounded |
 //! | [`LiftOffMap::hop_within`], [`HopWithin`] | the hop of a speed that is known to within an error |
 //! | [`ExtendedOrbit`], [`Arithmetic`], [`OrbitTangent`] | an orbit in 106 to 1024 bits, with a bound on its error; the orbits beside it |
-//! | [`BoundedOrbit`] | an orbit in the shortest arithmetic that suffices, with a bound on the error of each speed |
+//! | [`BoundedOrbit`], [`FollowedOrbit`] | an orbit in the shortest arithmetic that suffices, with a bound on the error of each speed |
 //! | [`LocalHop`], [`LocalFlight`], [`Slopes`] | the hop in (n, δ), α = α*_n + δ; derivatives |
 //! | [`printed_image`] | the map by the paper's Eqs. (6)–(8), for comparison |
 //! | [`alpha_star`], [`FixedPointSpeed`], [`index_below`] | the fixed points tan α* = α*, as `f64` and to 100 bits; the index of the fixed point below a speed |
@@ -101,7 +101,7 @@ pub use landing::flight_ends::{Landing, TakeOff};
 pub use landing::half_flight::HalfFlight;
 pub use landing::local_flight::LocalFlight;
 pub use landing::next_landing::MaximumTest;
-pub use map::bounded_orbit::BoundedOrbit;
+pub use map::bounded_orbit::{BoundedOrbit, FollowedOrbit};
 pub use map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep, OrbitTangent};
 pub use map::hop_within::HopWithin;
 pub use map::lift_off_map::{Hop, LiftOffMap};

@@ -117,7 +117,9 @@ impl Pace {
         let mut line = format!("{done} of {} {}, {percent:.0} %", self.total, self.unit);
         let pieces_per_second = computed as f64 / elapsed.as_secs_f64();
         // Without a finished piece nothing is known about the speed.
-        if computed > 0 && pieces_per_second.is_finite() {
+        if computed == 0 {
+            line += &format!(", {} so far", duration(elapsed.as_secs_f64()));
+        } else if pieces_per_second.is_finite() {
             let left = self.total.saturating_sub(done) as f64 / pieces_per_second;
             if let Some((amount, name)) = self.each {
                 line += &format!(", {:.1e} {name}/s", pieces_per_second * amount as f64);
@@ -152,13 +154,13 @@ mod tests {
         let each = Some((16_384, "pixels"));
         let pace = Pace { unit: "tiles", total: 256, found: 137, each };
         let line = |computed, seconds| pace.line(computed, Duration::from_secs(seconds));
-        assert_eq!(line(0, 30), "137 of 256 tiles, 54 %");
+        assert_eq!(line(0, 30), "137 of 256 tiles, 54 %, 30 s so far");
         assert_eq!(line(19, 38), "156 of 256 tiles, 61 %, 8.2e3 pixels/s, 3 min 20 s left");
         assert_eq!(line(119, 60), "256 of 256 tiles, 100 %, 3.2e4 pixels/s, 0 s left");
         assert_eq!(line(1, 0), "138 of 256 tiles, 54 %");
         assert_eq!(
             Pace { total: 0, found: 0, ..pace }.line(0, Duration::ZERO),
-            "0 of 0 tiles, 0 %"
+            "0 of 0 tiles, 0 %, 0 s so far"
         );
         let plain = Pace { each: None, ..pace };
         assert_eq!(plain.line(119, Duration::from_secs(60)), "256 of 256 tiles, 100 %, 0 s left");

@@ -55,6 +55,18 @@ impl Offset {
         self.to_string().parse().unwrap_or(0.0)
     }
 
+    /// −log₁₀ |δ|, the number of decades below 1; ∞ for the offset 0.
+    ///
+    /// ```
+    /// use hopper_asymptotics::Offset;
+    /// assert_eq!(Offset::new(-1.0, -300)?.depth(), 300.0);
+    /// assert_eq!(Offset::from(0.0).depth(), f64::INFINITY);
+    /// # Ok::<(), hopper_asymptotics::Error>(())
+    /// ```
+    pub fn depth(self) -> f64 {
+        -(pxfm::f_log10(self.mantissa.abs()) + self.exponent as f64)
+    }
+
     /// For exponents beyond [`LARGEST_EXPONENT`](Self::LARGEST_EXPONENT), which a phase may have.
     pub(crate) fn deep(mantissa: f64, exponent: i64) -> Self {
         Offset { mantissa, exponent }

@@ -104,6 +104,28 @@ impl FollowedEdge {
         Ok(None)
     }
 
+    /// The same boundary point at increasing mass ratios; `None` where the branch does not reach, as in [`at`](Self::at). It is followed
+    /// from its own mass ratio outwards in both directions, from each mass ratio to the next.
+    ///
+    /// # Errors
+    /// [`passive_hopper::Error`] if one of the mass ratios is none that a hopper has.
+    pub fn at_all(&self, mass_ratios: &[f64]) -> Result<Vec<Option<Self>>, Error> {
+        let right_from = mass_ratios.partition_point(|&other| other < self.mass_ratio);
+        let mut edges = vec![None; mass_ratios.len()];
+        let mut follow = |places: &mut dyn Iterator<Item = usize>| -> Result<(), Error> {
+            let mut here = *self;
+            for place in places {
+                let Some(next) = here.at(MassRatio::new(mass_ratios[place])?)? else { break };
+                edges[place] = Some(next);
+                here = next;
+            }
+            Ok(())
+        };
+        follow(&mut (right_from..mass_ratios.len()))?;
+        follow(&mut (0..right_from).rev())?;
+        Ok(edges)
+    }
+
     /// The chart about the point; `None` if its derivatives cannot be found.
     ///
     /// # Errors

@@ -85,6 +85,12 @@ impl ShareRaster {
         inside.then(|| self.shares.get(first..first + count))?
     }
 
+    /// The share of a pixel that no label has; 1 for a blank column and outside the raster.
+    pub fn undecided(&self, column: usize, row: usize) -> f64 {
+        let shares = self.at(column, row).unwrap_or_default();
+        1.0 - shares.iter().map(|&share| f64::from(share)).sum::<f64>()
+    }
+
     /// The mean share of every label over the columns that are not blank.
     pub fn means(&self) -> Vec<(Label, f64)> {
         let count = self.labels.len();

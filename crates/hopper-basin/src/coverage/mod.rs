@@ -11,6 +11,7 @@
 //!   line_basins.rs        the intervals of a column: by the sweep, or by the fates of samples
 //!   coverage_column.rs    one column: intervals with certain ends, and shares of pixels
 //!   coverage_raster.rs    columns side by side
+//!   coverage_summary.rs   what a raster stands on, and how much of it is undecided
 //! ```
 //!
 //! This room uses `traps`, `fates`, `basins` and `raster` for the map's laps, and the rasters of shares of `circle`.
@@ -18,6 +19,7 @@
 pub(crate) mod coverage_column;
 pub(crate) mod coverage_limits;
 pub(crate) mod coverage_raster;
+pub(crate) mod coverage_summary;
 pub(crate) mod images;
 pub(crate) mod laps_sweep;
 pub(crate) mod line_basins;

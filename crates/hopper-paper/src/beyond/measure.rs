@@ -28,7 +28,7 @@ const CURVE: CurveLimits = CurveLimits {
     difference: 0.005,
     relative: 0.3,
     shortest: 1e-4,
-    budget: 400,
+    budget: 600,
     matching: basin_of_attraction::Matching::ByLabel,
 };
 
@@ -117,6 +117,13 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
         .collect();
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let data = csv_file("measure.csv", &header, rows)?;
+    let steep = all.jumps().map(|step| {
+        let row =
+            [step.from, step.to, step.label.code().into(), step.before.value, step.after.value];
+        row.map(Some).to_vec()
+    });
+    let steep = csv_file("measure_jumps.csv", &["from", "to", "label", "before", "after"], steep)?;
+    let places: Vec<String> = all.jumps().map(|step| format!("{:.4}", step.from)).collect();
     Ok(Finding {
         figure: Figure {
             name: "beyond_measure",
@@ -128,8 +135,9 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                 "Basin fractions of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], humps weighted equally as in the paper; \
                  where the branches of the map are proved ($M$ ≤ 0.83 and more) by intervals down to 10^{{−7}}, with bounds up \
                  to rounding; beyond, by one random point in each of {} equal parts, with 95 % intervals. {} mass ratios: \
-                 steps are halved until neighbours differ by at most 30 % or 0.005. {} steps remain larger: {} of \
-                 2·10^{{−4}} of $M$ at most, the others because their ranges overlap or the budget is used up. Ticks at the top: the crises of \
+                 steps are halved until neighbours differ by at most 30 % or 0.005. {} steps remain larger, {} of them of \
+                 2·10^{{−4}} of $M$ at most, at $M$ = {}: a fraction jumps there, or rises from zero with a vertical tangent, as behind \
+                 a crisis or an onset of grounding. Ticks at the top: the crises of \
                  the humps 1 to 5, the onsets of grounding, and their inverses. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
                  there it falls through its fixed point. Between it and its inverse the measure falls and \
                  rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
@@ -139,10 +147,11 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                 FractionLimits::default().points,
                 all.points().len(),
                 all.unresolved().len(),
-                all.jumps().count(),
+                places.len(),
+                places.join(", "),
             ),
             svg,
-            data: vec![data],
+            data: vec![data, steep],
         },
         table: three_ways()?,
     })

@@ -1,6 +1,6 @@
 //! What a call has besides its options, and what it has to do.
 
-use crate::basins::interrupt::Interrupt;
+use crate::interrupt::Interrupt;
 use std::io::Write;
 
 /// The pieces of a job.

@@ -13,11 +13,10 @@ use crate::error::Error;
 use crate::output::number;
 use basin_of_attraction::{Grid, PixelShares};
 use hopper_basin::{
-    CoverageColumn, CoverageGround, CoverageLimits, SHARE_VERSION, ShareColumn, ShareRaster,
+    CoverageColumn, CoverageLimits, CoverageSummary, SHARE_VERSION, ShareColumn, ShareRaster,
     Upwards,
 };
-use hopper_figures::{draw_coverage, undecided_share};
-use passive_hopper::MassRatio;
+use hopper_figures::draw_coverage;
 use serde_json::{Value, json};
 use std::path::Path;
 
@@ -108,7 +107,7 @@ pub(crate) fn run(
             let raster = ShareRaster::from_columns(grid, Upwards::LiftOffSpeed, columns)?;
             let notes = vec![ground(&grid, limits, &raster, call)?];
             let drawing = draw_coverage(&window(&grid, "shares"), &raster)?;
-            finish(&job, &raster, &drawing, notes, (finished.kept, count))?
+            finish(&job, &raster, &drawing, notes, (finished.kept, count), &call.interrupt)?
         }
     };
     tables.shares = tables::shares(&legend);
@@ -127,39 +126,24 @@ fn ground(
     raster: &ShareRaster,
     call: &mut Call<'_>,
 ) -> Result<Value, Error> {
-    let (mut by_laps, mut spacing) = (0, None);
-    for at in 0..grid.columns {
-        match CoverageGround::of(MassRatio::new(grid.x_at(at))?, grid.y, grid.rows, limits)? {
-            CoverageGround::Laps => by_laps += 1,
-            CoverageGround::Spacing { speeds } => spacing = Some(speeds),
-        }
-    }
-    let (mut sum, mut most, mut above) = (0.0, 0.0, 0_u64);
-    for row in 0..grid.rows {
-        for column in 0..grid.columns {
-            let open = undecided_share(raster, column, row);
-            sum += open;
-            most = f64::max(most, open);
-            // Shares are stored in `f32`.
-            above += u64::from(open > limits.tolerance + 1e-6);
-        }
-    }
-    let mean = sum / (grid.columns * grid.rows) as f64;
+    let found = CoverageSummary::new(raster, limits)?;
     call.note(&format!(
-        "undecided: {:.4} % of the area, at most {most:.3} of a pixel; {above} pixels above {}; {by_laps} of {} columns by laps, which \
-         miss no basin",
-        100.0 * mean,
+        "undecided: {:.4} % of the area, at most {:.3} of a pixel; {} pixels above {}; {} of {} columns by laps, which miss no basin",
+        100.0 * found.mean_undecided,
+        found.most_undecided,
+        found.above_tolerance,
         limits.tolerance,
+        found.columns_by_laps,
         grid.columns
     ));
     Ok(json!({
         "tolerance": limits.tolerance,
-        "mean_undecided": mean,
-        "most_undecided_of_a_pixel": most,
-        "pixels_above_tolerance": above,
-        "columns_by_laps": by_laps,
-        "columns_by_samples": grid.columns - by_laps,
-        "spacing_of_samples": spacing,
+        "mean_undecided": found.mean_undecided,
+        "most_undecided_of_a_pixel": found.most_undecided,
+        "pixels_above_tolerance": found.above_tolerance,
+        "columns_by_laps": found.columns_by_laps,
+        "columns_by_samples": grid.columns - found.columns_by_laps,
+        "spacing_of_samples": found.spacing,
     }))
 }
 

@@ -1,10 +1,10 @@
 //! The layers of a raster: the labels of fates, and the numbers of hops until they are known.
 
-use crate::basins::interrupt::Interrupt;
 use crate::basins::job_folder::{JobFolder, Results};
 use crate::basins::picture::Picture;
 use crate::basins::pieces::Finished;
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use basin_of_attraction::{Grid, Label, LabelImage};
 use hopper_basin::{HopperFate, basin_columns, hop_columns};
 use hopper_figures::{Window, draw_basins, draw_hops};

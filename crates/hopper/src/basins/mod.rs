@@ -8,12 +8,11 @@
 //!
 //! A job is cut into pieces: tiles of a raster ([`rasters`], [`layer`]), columns of shares ([`shares`], [`coverage`]) or frames of a zoom ([`zoom`]).
 //! A folder has one job ([`job_folder`]). Its pieces are found or computed ([`pieces`]) with the progress shown and signals
-//! obeyed ([`interrupt`]); [`call`] has what they need. [`picture`] and [`column_bytes`] are forms of data.
+//! obeyed ([`Interrupt`]); [`call`] has what they need. [`picture`] and [`column_bytes`] are forms of data.
 
 mod call;
 mod column_bytes;
 mod coverage;
-mod interrupt;
 mod job_folder;
 mod layer;
 mod options;
@@ -26,9 +25,9 @@ mod window;
 mod zoom;
 
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::streams::Streams;
 use call::Call;
-use interrupt::Interrupt;
 use job_folder::Share;
 pub(crate) use options::{Options, PAGE};
 

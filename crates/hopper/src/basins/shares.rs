@@ -11,6 +11,7 @@ use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
 use crate::basins::window::{chart, pair_of_pixels, place, range};
 use crate::error::Error;
+use crate::interrupt::Interrupt;
 use crate::output::number;
 use basin_of_attraction::{Grid, Interval};
 use hopper_asymptotics::Offset;
@@ -20,7 +21,6 @@ use hopper_basin::{
 };
 use hopper_figures::{draw_shares, share_words};
 use journal_figures::{Svg, render};
-use passive_hopper::MassRatio;
 use resumable_job::{Element, Order, Pieces, npy_header};
 use serde_json::{Value, json};
 use std::path::Path;
@@ -105,7 +105,7 @@ pub(crate) fn run(
                 ShareRaster::from_columns(grid, upwards, columns.collect::<Result<_, _>>()?)?;
             let notes = edges.iter().map(|edges| speeds_by_column(n, edges, call)).collect();
             let drawing = draw_shares(n, &raster)?;
-            finish(&job, &raster, &drawing, notes, (finished.kept, count))?
+            finish(&job, &raster, &drawing, notes, (finished.kept, count), &call.interrupt)?
         }
     };
     tables.shares = tables::shares(&legend);
@@ -121,10 +121,13 @@ pub(crate) fn finish(
     drawing: &Svg,
     notes: Vec<Value>,
     pieces: (Pieces, usize),
+    interrupt: &Interrupt,
 ) -> Result<Value, Error> {
+    interrupt.check()?;
     job.write(PICTURE_FILE, &render("shares", drawing, 2.0)?.png)?;
     let (mut legend, mut files) = (Vec::new(), vec![PICTURE_FILE.to_owned()]);
     for (at, (label, mean)) in raster.means().into_iter().enumerate() {
+        interrupt.check()?;
         let file = format!("share_{}.npy", label.code());
         let grid = raster.grid();
         let mut array = npy_header(Order::C, Element::U16, grid.rows, grid.columns);
@@ -156,21 +159,8 @@ fn followed(
         )));
     }
     let start = FollowedEdge::new(&chart)?;
-    // From the columns next to the start outwards in both directions, each from its neighbour.
-    let mut edges = vec![None; grid.columns];
-    let right_from = (0..grid.columns).position(|at| grid.x_at(at) >= start.mass_ratio);
-    let right_from = right_from.unwrap_or(grid.columns);
-    let mut follow = |columns: &mut dyn Iterator<Item = usize>| -> Result<(), Error> {
-        let mut here = start;
-        for at in columns {
-            let Some(next) = here.at(MassRatio::new(grid.x_at(at))?)? else { break };
-            edges[at] = Some(next);
-            here = next;
-        }
-        Ok(())
-    };
-    follow(&mut (right_from..grid.columns))?;
-    follow(&mut (0..right_from).rev())?;
+    let mass_ratios: Vec<f64> = (0..grid.columns).map(|at| grid.x_at(at)).collect();
+    let edges = start.at_all(&mass_ratios)?;
     if edges.iter().all(Option::is_none) {
         return Err(Error::Misuse(format!(
             "--preimage {mass_ratio} {speed}: the preimage near the speed {speed} at M = {mass_ratio} exists at no mass ratio of the raster, {} to {}; give \
@@ -234,18 +224,14 @@ fn grid(
 
 /// −log₁₀ of two distances, the larger one first.
 fn depths(offsets: &[Offset]) -> Result<Interval, Error> {
-    let depth = |offset: &Offset| {
-        let size = pxfm::f_log10(offset.mantissa().abs());
-        -(size + offset.exponent() as f64)
-    };
     let text = |offset: &Offset| format!("{}e{}", offset.mantissa(), offset.exponent());
     let refused = |reason: &str| {
         let given: Vec<String> = offsets.iter().map(text).collect();
         Error::misuse("--offset", given.join(" "), reason)
     };
     match offsets {
-        [far, near] if depth(far) < depth(near) => {
-            let depths = Interval::new(depth(far), depth(near))
+        [far, near] if far.depth() < near.depth() => {
+            let depths = Interval::new(far.depth(), near.depth())
                 .map_err(|_| refused("give two distances other than 0, such as 1e-2 1e-300"))?;
             // Fewer doubles than pixels lie in a narrower one.
             if !(depths.length() > 1e-12 * depths.right.abs()) {

@@ -11,12 +11,11 @@ use crate::error::Error;
 use crate::output::number;
 use basin_of_attraction::Label;
 use hopper_basin::{
-    CircleLimits, EdgeChart, Fates, FollowedEdge, LocalFractions, PhaseBasins, SHARE_VERSION,
-    edge_frame, edge_window, frame_slant,
+    CircleLimits, EdgeChart, Fates, FollowedEdge, PhaseBasins, SHARE_VERSION, edge_frame,
+    edge_window,
 };
-use hopper_figures::fate_colors::mixed;
-use hopper_figures::{legend, share_pixels};
-use journal_figures::{Anchor, Frame, Svg, animated_png, render, rgb_png, ticks};
+use hopper_figures::{ZoomPixels, draw_zoom, draw_zoom_frame};
+use journal_figures::{animated_png, render};
 use serde_json::json;
 use std::path::Path;
 
@@ -85,24 +84,24 @@ pub(crate) fn run(
         None => {
             let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default())?;
             let finished = compute(&job, &work, call, |at| {
-                Ok(drawn(zoom, &fates, (&chart, &edge), &circle, step * at as f64)?.bytes())
+                Ok(bytes(&drawn(zoom, &fates, (&chart, &edge), &circle, step * at as f64)?))
             })?;
             if let Share::Part(part) = job.share {
                 tables.push_part(part, FRAMES, &finished);
                 return Ok(tables);
             }
-            let drawn = (0..frames).map(|at| Drawn::new(&finished.kept.finished(at)?, zoom));
+            let drawn = (0..frames).map(|at| frame(&finished.kept.finished(at)?, zoom));
             let drawn = drawn.collect::<Result<Vec<_>, Error>>()?;
             let mut pngs = Vec::with_capacity(frames);
             let mut files = Vec::with_capacity(frames + 2);
             for (at, frame) in drawn.iter().enumerate() {
                 call.interrupt.check()?;
-                let svg = draw_frame(zoom, &chart, &edge, step * at as f64, frame)?;
+                let svg = draw_zoom_frame(&chart, &edge, step * at as f64, (columns, rows), frame)?;
                 pngs.push(render("frame", &svg, 1.5)?.png);
                 files.push(format!("zoom_{at:04}.png"));
                 job.write(&files[at], &pngs[at])?;
             }
-            let overview = render("zoom", &draw_all(zoom, &chart, &drawn)?, 2.0)?;
+            let overview = render("zoom", &draw_zoom(&chart, step, rows, &drawn)?, 2.0)?;
             job.write(OVERVIEW, &overview.png)?;
             job.write(ANIMATION, &animated_png(ANIMATION, &pngs, SECONDS)?)?;
             let (point, rest, error) = chart.point();
@@ -133,16 +132,10 @@ fn drawn(
     (chart, edge): (&EdgeChart, &FollowedEdge),
     circle: &PhaseBasins,
     depth: f64,
-) -> Result<Drawn, Error> {
+) -> Result<ZoomPixels, Error> {
     let strip = edge_window(fates, chart, circle, depth, zoom.rows)?;
     let window = edge_frame(fates, (chart, edge), circle, depth, (zoom.columns, zoom.rows))?;
-    let mut labels: Vec<Label> = strip.iter().flat_map(LocalFractions::labels).collect();
-    labels.extend(window.labels());
-    labels.sort_unstable();
-    labels.dedup();
-    let mix = |pixel: &LocalFractions| mixed(pixel.labels().map(|l| (l, pixel.of(l).lower)));
-    let strip = strip.iter().rev().flat_map(mix).collect();
-    Ok(Drawn { labels, strip, window: share_pixels(&window) })
+    Ok(ZoomPixels::new(&strip, &window))
 }
 
 /// The options, if they make sense, with an even number of rows: the edge lies between two of them.
@@ -166,103 +159,29 @@ fn checked(zoom: &Zoom) -> Result<Zoom, Error> {
     Ok(Zoom { rows: rows.next_multiple_of(2), ..zoom.clone() })
 }
 
-/// A frame in colours, the highest row first.
-struct Drawn {
-    /// In increasing order.
-    labels: Vec<Label>,
-    /// One column, at the mass ratio of the middle.
-    strip: Vec<u8>,
-    /// The window of mass ratio and speed.
-    window: Vec<u8>,
+/// A finished frame: the number of labels, the labels, the strip and the window.
+fn bytes(frame: &ZoomPixels) -> Vec<u8> {
+    let mut bytes = (frame.labels.len() as u16).to_le_bytes().to_vec();
+    bytes.extend(frame.labels.iter().flat_map(|label| label.code().to_le_bytes()));
+    bytes.extend(&frame.strip);
+    bytes.extend(&frame.window);
+    bytes
 }
 
-impl Drawn {
-    /// The number of labels, the labels, the strip and the window.
-    fn bytes(&self) -> Vec<u8> {
-        let mut bytes = (self.labels.len() as u16).to_le_bytes().to_vec();
-        bytes.extend(self.labels.iter().flat_map(|label| label.code().to_le_bytes()));
-        bytes.extend(&self.strip);
-        bytes.extend(&self.window);
-        bytes
+/// The inverse of [`bytes`].
+fn frame(bytes: &[u8], zoom: &Zoom) -> Result<ZoomPixels, Error> {
+    let short =
+        || Error::Unreadable("a finished frame has another number of bytes than its pixels".into());
+    let (count, rest) = bytes.split_first_chunk::<2>().ok_or_else(short)?;
+    let count = 2 * usize::from(u16::from_le_bytes(*count));
+    let (labels, rest) = rest.split_at_checked(count).ok_or_else(short)?;
+    let (strip, window) = rest.split_at_checked(3 * zoom.rows).ok_or_else(short)?;
+    if window.len() != 3 * zoom.rows * zoom.columns {
+        return Err(short());
     }
-
-    /// The inverse of [`bytes`](Self::bytes).
-    fn new(bytes: &[u8], zoom: &Zoom) -> Result<Self, Error> {
-        let short = || {
-            Error::Unreadable("a finished frame has another number of bytes than its pixels".into())
-        };
-        let (count, rest) = bytes.split_first_chunk::<2>().ok_or_else(short)?;
-        let count = 2 * usize::from(u16::from_le_bytes(*count));
-        let (labels, rest) = rest.split_at_checked(count).ok_or_else(short)?;
-        let (strip, window) = rest.split_at_checked(3 * zoom.rows).ok_or_else(short)?;
-        if window.len() != 3 * zoom.rows * zoom.columns {
-            return Err(short());
-        }
-        let labels = labels
-            .as_chunks::<2>()
-            .0
-            .iter()
-            .map(|pair| Label::from_code(u16::from_le_bytes(*pair)));
-        Ok(Drawn { labels: labels.collect(), strip: strip.to_vec(), window: window.to_vec() })
-    }
-}
-
-/// One frame, with the scale written in.
-fn draw_frame(
-    zoom: &Zoom,
-    chart: &EdgeChart,
-    edge: &FollowedEdge,
-    depth: f64,
-    drawn: &Drawn,
-) -> Result<Svg, Error> {
-    let mut svg = Svg::new(440.0, 500.0);
-    let frame = Frame::linear(70.0, 64.0, 350.0, 380.0, (-1.0, 1.0), (-1.0, 1.0));
-    let image = rgb_png("zoom", zoom.columns, zoom.rows, &drawn.window)?;
-    svg.image(frame.left, frame.top, frame.width, frame.height, &image);
-    let slant = frame_slant(edge);
-    let x_label = format!("mass ratio $M$ − {},   $w$ = {slant:.3} $h$", zoom.mass_ratio);
-    frame.axes(&mut svg, &half_heights("$w$"), &half_heights("$h$"), &x_label, "speed $α$ − $p$");
-    legend(&mut svg, frame.left, drawn.labels.iter().copied());
-    let scale = format!("$h$ = 10^{{{}}}", exponent(depth));
-    svg.text(frame.left, 54.0, Anchor::Start, 16.0, &scale);
-    let point = format!("$p$ ≈ {:?}", chart.point().0);
-    svg.text(frame.left + frame.width, 54.0, Anchor::End, 11.5, &point);
-    Ok(svg)
-}
-
-/// The middle strips of all frames side by side.
-fn draw_all(zoom: &Zoom, chart: &EdgeChart, all: &[Drawn]) -> Result<Svg, Error> {
-    let mut svg = Svg::new(860.0, 480.0);
-    let last = zoom.step * zoom.frames as f64;
-    let x = (-0.5 * zoom.step, last - 0.5 * zoom.step);
-    let frame = Frame::linear(70.0, 54.0, 760.0, 370.0, x, (-1.0, 1.0));
-    let row = |row: usize| all.iter().flat_map(move |drawn| &drawn.strip[3 * row..3 * row + 3]);
-    let pixels: Vec<u8> = (0..zoom.rows).flat_map(row).copied().collect();
-    let image = rgb_png("zoom", all.len(), zoom.rows, &pixels)?;
-    svg.image(frame.left, frame.top, frame.width, frame.height, &image);
-    let scales = ticks((0.0, last - zoom.step), 8);
-    let scales: Vec<(f64, String)> = scales
-        .into_iter()
-        .map(|(depth, _)| (depth, format!("10^{{{}}}", exponent(depth))))
-        .collect();
-    frame.axes(&mut svg, &scales, &half_heights("$h$"), "half height $h$", "speed $α$ − $p$");
-    let mut labels: Vec<Label> = all.iter().flat_map(|drawn| drawn.labels.clone()).collect();
-    labels.sort_unstable();
-    labels.dedup();
-    legend(&mut svg, frame.left, labels.into_iter());
-    let point = format!("$M$ = {}, $p$ ≈ {:?}", zoom.mass_ratio, chart.point().0);
-    svg.text(frame.left + frame.width, 28.5, Anchor::End, 11.5, &point);
-    Ok(svg)
-}
-
-/// The middle and both ends of an axis.
-fn half_heights(half: &str) -> Vec<(f64, String)> {
-    vec![(-1.0, format!("−{half}")), (0.0, "0".into()), (1.0, half.into())]
-}
-
-/// −`depth` as text.
-fn exponent(depth: f64) -> String {
-    if depth == 0.0 { "0".into() } else { format!("−{depth}") }
+    let labels =
+        labels.as_chunks::<2>().0.iter().map(|pair| Label::from_code(u16::from_le_bytes(*pair)));
+    Ok(ZoomPixels { labels: labels.collect(), strip: strip.to_vec(), window: window.to_vec() })
 }
 
 #[cfg(test)]
@@ -305,13 +224,13 @@ mod tests {
         let chart = EdgeChart::near(&fates, zoom.speed).unwrap();
         let edge = FollowedEdge::new(&chart).unwrap();
         let circle = PhaseBasins::new(&fates, chart.n(), CircleLimits::default()).unwrap();
-        let bytes = [1.0, 50.0]
-            .map(|depth| drawn(&zoom, &fates, (&chart, &edge), &circle, depth).unwrap().bytes());
-        for bytes in &bytes {
-            assert_eq!(Drawn::new(bytes, &zoom).unwrap().bytes(), *bytes);
-            assert!(Drawn::new(&bytes[..bytes.len() - 1], &zoom).is_err());
+        let all = [1.0, 50.0]
+            .map(|depth| bytes(&drawn(&zoom, &fates, (&chart, &edge), &circle, depth).unwrap()));
+        for own in &all {
+            assert_eq!(bytes(&frame(own, &zoom).unwrap()), *own);
+            assert!(frame(&own[..own.len() - 1], &zoom).is_err());
         }
-        let found = (FRAME_VERSION, resumable_job::digest(&bytes.concat()));
+        let found = (FRAME_VERSION, resumable_job::digest(&all.concat()));
         assert_eq!(found, (1, "7c479e53d6159aad".to_owned()));
     }
 }

@@ -1,6 +1,7 @@
 //! `hopper intervals`: the basins at one mass ratio as exact intervals, and their fractions with bounds.
 
 use crate::commands::page::{Example, Page};
+use crate::commands::search;
 use crate::error::Error;
 use crate::options::form::OutputOptions;
 use crate::options::values;
@@ -48,7 +49,8 @@ pub(crate) const PAGE: Page = Page {
              For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are proved to be complete. Above, they\n\
              are sampled: a branch narrower than the spacing may be missed, and the table `search` says so. Above 50 they are\n\
              followed on the contact parts alone, and the sudden windows stay undecided: their needles are narrower than f64 resolves.\n\
-             The time grows with --samples times --to: 64 windows of a million samples take minutes. Ctrl-C ends the call.",
+             The time grows with --samples times --to: 64 windows of a million samples take minutes. How long it has searched is\n\
+             shown on a terminal, elsewhere every 30 s. Ctrl-C ends the call, and the same call begins anew.",
     tables: &[&FRACTIONS, &SEARCH, &INTERVALS],
     examples: &[
         Example { about: "Fractions of the first five humps.", line: "hopper intervals -M 0.2" },
@@ -138,7 +140,7 @@ static INTERVALS: TableKind = TableKind {
 };
 
 /// Runs the command.
-pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> {
+pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Error> {
     let form = options.output.form(PAGE.tables)?;
     let &Options { from, to, undecided, shortest, .. } = options;
     if from >= to {
@@ -150,8 +152,10 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
     let count = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
     let refinement =
         Refinement { undecided, shortest, intervals: count(options.most), ..Refinement::default() };
-    let fates = Fates::new(options.mass_ratio)?;
-    let found = hopper_basins(&fates, from, to, count(options.samples), refinement)?;
+    let (mass_ratio, samples) = (options.mass_ratio, count(options.samples));
+    let found = search::run(&options.output, &mut streams, move || {
+        Ok(hopper_basins(&Fates::new(mass_ratio)?, from, to, samples, refinement)?)
+    })?;
     let mut intervals = Table::new(&INTERVALS);
     if form.shows(&INTERVALS, PAGE.tables) {
         for part in found.basins.intervals() {

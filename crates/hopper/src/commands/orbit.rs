@@ -206,26 +206,17 @@ struct Orbit {
 
 impl Orbit {
     fn follow(map: &LiftOffMap, speed: f64, hops: usize) -> Result<Self, Error> {
-        let mut orbit = BoundedOrbit::new(map, speed)?;
-        let (mut speeds, mut errors) = (vec![speed], vec![0.0]);
         // The hop after the last one is tried as well, to see whether the hopper is grounded there.
-        let mut end = ExtendedStep::LiftsOff;
-        while end == ExtendedStep::LiftsOff && speeds.len() <= hops + 1 {
-            end = orbit.hop()?;
-            if end == ExtendedStep::LiftsOff && speeds.len() <= hops {
-                speeds.push(orbit.speed());
-                errors.push(orbit.error());
-            } else if end == ExtendedStep::LiftsOff {
-                break;
-            }
-        }
-        let arithmetic = match orbit.arithmetic() {
+        let mut found = BoundedOrbit::follow(map, speed, hops.saturating_add(1))?;
+        let undecided = found.end == ExtendedStep::Inconclusive && found.speeds.len() <= hops;
+        found.speeds.truncate(hops.saturating_add(1));
+        found.errors.truncate(hops.saturating_add(1));
+        let arithmetic = match found.arithmetic {
             None => "f64".into(),
             Some(arithmetic) => format!("{arithmetic:?}"),
         };
-        let grounded = end == ExtendedStep::Grounded;
-        let undecided = end == ExtendedStep::Inconclusive && speeds.len() <= hops;
-        Ok(Orbit { speeds, errors, grounded, undecided, arithmetic })
+        let grounded = found.end == ExtendedStep::Grounded;
+        Ok(Orbit { speeds: found.speeds, errors: found.errors, grounded, undecided, arithmetic })
     }
 
     fn hops(&self) -> usize {

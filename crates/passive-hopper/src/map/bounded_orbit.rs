@@ -40,7 +40,48 @@ pub struct BoundedOrbit<'a> {
     extended: Option<(Arithmetic, ExtendedOrbit)>,
 }
 
+/// The speeds of an orbit from its start on, as [`BoundedOrbit::follow`] found them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FollowedOrbit {
+    /// The lift-off speeds; the first one is the start.
+    pub speeds: Vec<f64>,
+    /// Bounds on the distances of the exact orbit from them.
+    pub errors: Vec<f64>,
+    /// How the last hop ended. After [`ExtendedStep::LiftsOff`] the orbit goes on.
+    pub end: ExtendedStep,
+    /// The arithmetic that the orbit needed; `None` for `f64`.
+    pub arithmetic: Option<Arithmetic>,
+}
+
 impl<'a> BoundedOrbit<'a> {
+    /// Follows the orbit of `alpha` under `map` for `hops` hops, or until the hopper is grounded or a hop is inconclusive.
+    ///
+    /// ```
+    /// use passive_hopper::{BoundedOrbit, ExtendedStep, LiftOffMap, MassRatio};
+    /// let map = LiftOffMap::new(MassRatio::new(0.2)?);
+    /// let orbit = BoundedOrbit::follow(&map, 5.5, 3)?;
+    /// assert_eq!((orbit.speeds.len(), orbit.errors.len()), (4, 4));
+    /// assert_eq!((orbit.end, orbit.arithmetic), (ExtendedStep::LiftsOff, None));
+    /// # Ok::<(), passive_hopper::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`new`](Self::new) and [`hop`](Self::hop).
+    pub fn follow(map: &'a LiftOffMap, alpha: f64, hops: usize) -> Result<FollowedOrbit, Error> {
+        let mut orbit = Self::new(map, alpha)?;
+        let (mut speeds, mut errors) = (vec![alpha], vec![0.0]);
+        let mut end = ExtendedStep::LiftsOff;
+        while speeds.len() <= hops {
+            end = orbit.hop()?;
+            if end != ExtendedStep::LiftsOff {
+                break;
+            }
+            speeds.push(orbit.speed());
+            errors.push(orbit.error());
+        }
+        Ok(FollowedOrbit { speeds, errors, end, arithmetic: orbit.arithmetic() })
+    }
+
     /// The orbit that starts at exactly `alpha`, under `map`.
     ///
     /// # Errors
