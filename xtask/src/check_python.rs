@@ -6,6 +6,7 @@
 use crate::error::Error;
 use crate::python_environment::{call, environment_python, first_python};
 use crate::repository::repository;
+use std::ffi::OsStr;
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::{Command, ExitCode, Stdio};
@@ -40,11 +41,28 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         install.env("PATH", path);
     }
     call(&inside, install.env("CARGO_TARGET_DIR", target.join("build")).current_dir(&root))?;
+    let program = hopper_program(&cargo)?;
     let mut tests = Command::new(&inside);
+    tests.env("HOPPER_PROGRAM", program);
     // Without this, Python would write its compiled files into the repository.
     tests.args(["-m", "pytest", "-p", "no:cacheprovider"]).env("PYTHONDONTWRITEBYTECODE", "1");
     call(&inside, tests.current_dir(package))?;
     Ok(ExitCode::SUCCESS)
+}
+
+/// The program `hopper`, built: a test compares its files with those of the package.
+fn hopper_program(cargo: &OsStr) -> Result<PathBuf, Error> {
+    let mut build = Command::new(cargo);
+    build.args(["build", "--quiet", "--locked", "--package", "hopper"]).current_dir(repository());
+    match build.status() {
+        Ok(status) if status.success() => {}
+        Ok(_) => return Err(Error::Builds(1)),
+        Err(source) => return Err(Error::Cargo { program: cargo.to_owned(), source }),
+    }
+    // Cargo has put it beside this program, which has the same profile.
+    let own = std::env::current_exe();
+    let own = own.map_err(|source| Error::File { path: "xtask".into(), source })?;
+    Ok(own.with_file_name(format!("hopper{}", std::env::consts::EXE_SUFFIX)))
 }
 
 /// Ends with an error in a Python that is too old, or has no virtual environments.

@@ -2,7 +2,7 @@
 
 use crate::arrays::shaped;
 use crate::errors::value_error;
-use crate::interruptible::{Watch, in_background};
+use crate::interruptible::{Watch, in_background, progress_function};
 use basin_of_attraction::{Grid, Interval, Label, Refinement, columns_in_parallel};
 use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, basin_columns};
 use passive_hopper::MassRatio;
@@ -40,8 +40,8 @@ type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 /// The label of every pixel of a window of (M, α): arrays of M, of α, and of labels (uint16) with the shape (M, α).
 ///
 /// Each label is the fate of its pixel's middle. label_name names the labels. `alpha` is the window of the paper, from α*_1 to α*_6,
-/// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end. Ctrl-C
-/// ends the computation.
+/// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end;
+/// `progress=True` shows a bar of tqdm. Ctrl-C ends the computation.
 #[pyfunction]
 #[pyo3(signature = (M = (0.1, 1.0), alpha = None, shape = (512, 512), progress = None))]
 #[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
@@ -87,6 +87,7 @@ pub(crate) fn basin_region<'py>(
         Some(pool) => pool.install(|| labels_of(&grid, begin..end, watch)),
         None => labels_of(&grid, begin..end, watch),
     };
+    let progress = progress_function(py, progress)?;
     let codes = in_background(py, work, value_error, |done| match &progress {
         Some(progress) => progress.call1((done, end - begin)).map(drop),
         None => Ok(()),

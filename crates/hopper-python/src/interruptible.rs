@@ -25,6 +25,16 @@ pub(crate) fn pieces<E: Send>(
     py.check_signals()
 }
 
+/// The function of (done, all) that an argument `progress` of a user asks for.
+pub(crate) fn progress_function<'py>(
+    py: Python<'py>,
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let Some(progress) = progress else { return Ok(None) };
+    let own = py.import("passive_hopper._progress")?.call_method1("function_of", (progress,))?;
+    Ok((!own.is_none()).then_some(own))
+}
+
 /// What a computation in the background and its caller tell each other.
 #[derive(Debug, Default)]
 pub(crate) struct Watch {

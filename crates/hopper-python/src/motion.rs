@@ -2,7 +2,7 @@
 
 use crate::arrays::shaped;
 use crate::errors::value_error;
-use crate::interruptible::{Watch, in_background};
+use crate::interruptible::{Watch, in_background, progress_function};
 use hopper_figures::{AnimationForm, MotionEvent, animation, frame_png, frame_times};
 use passive_hopper::{MassRatio, Phase};
 use pyo3::exceptions::PyValueError;
@@ -80,6 +80,7 @@ pub(crate) fn animation_bytes<'py>(
             return Err(PyValueError::new_err(text));
         }
     };
+    let progress = progress_function(py, progress)?;
     let first = move |_: &Watch| {
         let motion = motion_of(alpha, mass_ratio, hops)?;
         let times = frame_times(&motion)?;

@@ -1,10 +1,5 @@
 """Basins of any labelling, and attractors of any map."""
 
-import os
-import signal
-import threading
-import time
-
 import numpy as np
 import pytest
 from passive_hopper import labelling
@@ -142,14 +137,7 @@ def test_an_exception_of_a_map_passes_unchanged():
         Attractors(lambda x: x, region=[(0, 1)], starts=[[0.5, 0.5]])
 
 
-@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
-def test_ctrl_c_ends_a_search():
-    def interrupt():
-        time.sleep(0.3)
-        os.kill(os.getpid(), signal.SIGINT)
-
-    thread = threading.Thread(target=interrupt)
-    thread.start()
-    with pytest.raises(KeyboardInterrupt):
-        Attractors(lambda x: (x * 3.9 * (1 - x)), region=[(0, 1)], starts=np.linspace(0.1, 0.9, 1000)[:, None].tolist(), cells=10**7, budget=10**9)
-    thread.join()
+def test_ctrl_c_ends_a_search(ctrl_c):
+    starts = np.linspace(0.1, 0.9, 1000)[:, None].tolist()
+    with ctrl_c():
+        Attractors(lambda x: (x * 3.9 * (1 - x)), region=[(0, 1)], starts=starts, cells=10**7, budget=10**9)

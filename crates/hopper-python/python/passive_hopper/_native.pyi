@@ -99,7 +99,7 @@ def basin_labels(
     M: tuple[float, float] = ...,
     alpha: tuple[float, float] | None = ...,
     shape: tuple[int, int] = ...,
-    progress: Callable[[int, int], Any] | None = ...,
+    progress: Callable[[int, int], Any] | bool | None = ...,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.uint16]]: ...
 def interval_basins(
     mass_ratio: float,
@@ -119,7 +119,7 @@ def animation_bytes(
     mass_ratio: float,
     hops: int = 3,
     form: str = "gif",
-    progress: Callable[[int, int], Any] | None = None,
+    progress: Callable[[int, int], Any] | bool | None = None,
 ) -> bytes: ...
 RASTER_VERSION: int
 
@@ -129,7 +129,7 @@ def basin_region(
     shape: tuple[int, int],
     columns: tuple[int, int],
     threads: int | None = None,
-    progress: Callable[[int, int], Any] | None = None,
+    progress: Callable[[int, int], Any] | bool | None = None,
 ) -> NDArray[np.uint16]: ...
 def first_window() -> tuple[float, float]: ...
 def pixel_middles(

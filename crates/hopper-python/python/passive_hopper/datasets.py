@@ -19,14 +19,15 @@ def basins(
     M: tuple[float, float] = (0.1, 1.0),
     alpha: tuple[float, float] | None = None,
     shape: tuple[int, int] = (512, 512),
-    progress: Callable[[int, int], Any] | None = None,
+    progress: Callable[[int, int], Any] | bool | None = None,
     store: str | os.PathLike[str] | None = None,
     client: distributed.Client | None = None,
 ) -> xarray.Dataset:
     """The basins over a window of (M, α), as an ``xarray.Dataset`` with the dimensions ``M`` and ``alpha``.
 
     ``alpha`` is the window of the paper, from α*_1 to α*_6, unless given. Each label is the fate of its pixel's middle. The variable
-    ``label`` has the attributes ``flag_values`` and ``flag_meanings`` of the CF conventions. ``progress(done, all)`` counts columns.
+    ``label`` has the attributes ``flag_values`` and ``flag_meanings`` of the CF conventions. ``progress(done, all)`` counts columns;
+    ``progress=True`` shows a bar of tqdm.
 
     >>> from passive_hopper import basins
     >>> found = basins(shape=(8, 8))

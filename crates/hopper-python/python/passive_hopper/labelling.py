@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._native import Attractors, BoxCount, Interval, LabelImage, UncertaintyExponent
+from ._progress import function_of
 
 if TYPE_CHECKING:
     import xarray
@@ -89,12 +90,13 @@ def basins_of(
     window: Mapping[str, tuple[float, float]],
     shape: tuple[int, int] = (512, 512),
     names: Mapping[int, str] | None = None,
-    progress: Callable[[int, int], Any] | None = None,
+    progress: Callable[[int, int], Any] | bool | None = None,
 ) -> xarray.Dataset:
     """The labels of a window of the plane by any labelling, as an ``xarray.Dataset``.
 
     ``label(x, y)`` gets two arrays of one shape, and returns the labels. ``window`` has the two coordinates with their ends, as
-    ``{"x": (-2, 2), "y": (-2, 2)}``; ``names`` names labels. Each label is that of its pixel's middle. ``progress(done, all)`` counts columns.
+    ``{"x": (-2, 2), "y": (-2, 2)}``; ``names`` names labels. Each label is that of its pixel's middle. ``progress(done, all)`` counts columns;
+    ``progress=True`` shows a bar of tqdm.
 
     >>> from passive_hopper.labelling import basins_of
     >>> found = basins_of(lambda x, y: x > y, {"x": (0, 1), "y": (0, 1)}, shape=(4, 4), names={1: "above"})
@@ -113,6 +115,7 @@ def basins_of(
         raise ValueError(f"a window has two coordinates with their ends, not {len(window)}")
     (first, across), (second, up) = window.items()
     xs, ys = _native.pixel_middles((across, up), shape)
+    progress = function_of(progress)
     labels = numpy.empty((len(xs), len(ys)), dtype=numpy.uint16)
     width = max(1, _PIXELS_AT_A_TIME // len(ys))
     for begin in range(0, len(xs), width):

@@ -78,12 +78,12 @@ def motion(alpha: float, M: float = 0.2, hops: int = 10) -> xarray.Dataset:
 def animate(
     motion: xarray.Dataset,
     path: str | os.PathLike[str],
-    progress: Callable[[int, int], Any] | None = None,
+    progress: Callable[[int, int], Any] | bool | None = None,
 ) -> str | os.PathLike[str]:
     """Draws a motion, from :func:`motion`, as an animation: a file ``….gif``, or ``….apng`` (animated PNG). Returns the path.
 
     It is the drawing of the program ``hopper orbit --animate``: the hopper on the left, and a cursor on the curves of both masses.
-    ``progress(done, all)`` counts the frames.
+    ``progress(done, all)`` counts the frames; ``progress=True`` shows a bar of tqdm.
     """
     ending = os.path.splitext(os.fspath(path))[1].removeprefix(".").lower()
     form = "apng" if ending == "png" else ending

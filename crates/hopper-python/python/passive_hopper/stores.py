@@ -13,6 +13,7 @@ import warnings
 from pathlib import Path
 
 from . import _native
+from ._progress import function_of
 from .datasets import coordinates, flag_attributes, import_xarray, job_attributes
 
 #: Columns of a region. More make larger files and later progress; fewer make many small files. 64 columns of 16384 pixels are 2 MB.
@@ -27,6 +28,7 @@ def write_basins(store, job, client=None, progress=None):
     """The raster of a job (M, α, shape) in a store, as a lazy Dataset. What is finished there is kept."""
     xarray = import_xarray("basins", "basin_labels gives the same as arrays.")
     _import_zarr()
+    progress = function_of(progress)
     path = Path(os.path.abspath(os.fspath(store)))
     _open_or_make(path, job)
     columns = job[2][0]
