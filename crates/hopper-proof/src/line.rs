@@ -16,6 +16,9 @@ const FINER_BELOW: f64 = 0.2;
 /// Passes over a part. The gaps that are left have then the size of an ulp.
 const PASSES: usize = 40;
 
+/// The smallest width that is resolved, over what may stay open of a part.
+const FINEST: f64 = 1e-3;
+
 /// Most parts of a hump below the window. More affect the time only.
 const MOST_PARTS_BELOW: f64 = 64.0;
 
@@ -63,14 +66,18 @@ impl ProvedLine {
                 &mut sweep,
                 Interval { left: from, right: to },
                 count as usize,
-                Resolution { tolerance, speeds, passes: PASSES },
+                Resolution { tolerance, speeds, passes: PASSES, finest: FINEST },
             );
         }
         let edges = PixelShares::edges(window, parts).map_err(hopper_basin::Error::from)?;
         for pair in edges.windows(2) {
             let n = index_below(pair[0])?;
             let tolerance = open * FINER_BELOW.powi(i32::try_from(last - n).unwrap_or(i32::MAX));
-            sweep.add_pixel(pair[0], pair[1], Resolution { tolerance, speeds, passes: PASSES });
+            sweep.add_pixel(
+                pair[0],
+                pair[1],
+                Resolution { tolerance, speeds, passes: PASSES, finest: FINEST },
+            );
         }
         Ok(ProvedLine { intervals: sweep.into_known() })
     }

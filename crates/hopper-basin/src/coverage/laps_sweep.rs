@@ -30,10 +30,6 @@ const MOST_IMAGES: usize = 2;
 /// resolved than needed. It affects the time only.
 const FINER: f64 = 0.25;
 
-/// The smallest width that is resolved, over what may stay open of a pixel. Below it a pixel would have more gaps than this allows. With a
-/// smaller one the turns next to a fixed point, of which there are ever more, take the time.
-const FINEST: f64 = 1e-3;
-
 /// A pass that leaves more than this part of what was open is the last one: what is open lies at preimages of what is open below the pixel.
 const STALLED: f64 = 0.8;
 
@@ -73,6 +69,9 @@ pub struct Resolution {
     /// Most passes over a pixel. A pass leaves some hundredths of each gap that it divides, and resolves gaps of a quarter of the width that the
     /// one before did. A small tolerance needs more.
     pub passes: usize,
+    /// The smallest width that is resolved, over what may stay open of a pixel. Much below it a pixel would have more gaps than it may have. With a
+    /// smaller one the turns next to a fixed point, of which there are ever more, take the time.
+    pub finest: f64,
 }
 
 /// The intervals of known label, from 0 up to the speed that the sweep has reached.
@@ -153,12 +152,12 @@ impl<I: SpeedImages> LapsSweep<I> {
                 Part::Open(a, b) => b.speed - a.speed,
             };
             let open = parts.iter().map(open).sum::<f64>();
-            let stalled = finest <= FINEST * allowed && open > STALLED * open_before;
+            let stalled = finest <= resolution.finest * allowed && open > STALLED * open_before;
             if self.budget == 0 || open <= allowed || stalled {
                 return;
             }
             open_before = open;
-            finest = (FINER * finest).max(FINEST * allowed);
+            finest = (FINER * finest).max(resolution.finest * allowed);
         }
     }
 

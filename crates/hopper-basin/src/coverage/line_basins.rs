@@ -13,8 +13,9 @@ use passive_hopper::{alpha_star, index_below};
 const PIXELS_BELOW: usize = 512;
 const TOLERANCE_BELOW: f64 = 0.01;
 
-/// Passes over a pixel: the last one resolves 10⁻⁴ of the gaps of the first.
+/// Passes over a pixel, and the width that the last one resolves, over that of the first.
 const PASSES: usize = 8;
+const FINEST: f64 = 1.0 / 16_384.0;
 
 /// The pixels of each image of a window that is narrower than some pixels below it. Without them such a window lies in few pixels, and
 /// much of it would stay open.
@@ -36,7 +37,12 @@ pub(crate) fn by_laps(
 ) -> Result<Vec<(Interval, Label)>, Error> {
     let [bottom, .., top] = *edges else { return Ok(Vec::new()) };
     let mut sweep = LapsSweep::new(LapImages::new(fates.map(), top)?, traps_up_to(fates, top)?);
-    let fine = Resolution { tolerance: limits.tolerance, speeds: limits.speeds, passes: PASSES };
+    let fine = Resolution {
+        tolerance: limits.tolerance,
+        speeds: limits.speeds,
+        passes: PASSES,
+        finest: FINEST,
+    };
     let below = Resolution { tolerance: limits.tolerance.min(TOLERANCE_BELOW), ..fine };
     let mut lower = Vec::new();
     if bottom > 0.0 {
