@@ -51,7 +51,7 @@ fn images_of_intervals_hold_those_of_their_speeds() {
     let mut known = 0;
     for k in 1..=3000u32 {
         let ratio = 0.02 + 2.5 * part(k, 0.618_033_988_749_895).powi(2);
-        let width = 10f64.powf(-1.0 - 8.0 * part(k, 0.324_717_957_244_746));
+        let width = 10f64.powi(-1 - (k % 9) as i32);
         let strip = Strip::between(ratio, ratio * (1.0 + 0.01 * width)).unwrap();
         let images = ProvedImages::new(strip, 40.0).unwrap();
         let low = 1.0 + 30.0 * part(k, 0.754_877_666_246_693);

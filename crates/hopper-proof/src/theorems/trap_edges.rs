@@ -30,7 +30,7 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
             let inside = proved_trap(n, &strip)?.right;
             // A speed beyond with f below α*_n, as near as it is found.
             let outside = (4..192)
-                .map(|k| inside + f64::EPSILON * 2f64.powf(0.25 * f64::from(k)))
+                .map(|k| inside + f64::EPSILON * 2f64.powi(k / 4) * (1.0 + 0.25 * f64::from(k % 4)))
                 .find(|&speed| falls_below(n, speed, &strip));
             match outside {
                 Some(outside) => widest = widest.max(outside - inside),
