@@ -23,13 +23,18 @@ def ctrl_c():
             if not ended.wait(0.3):
                 os.kill(os.getpid(), signal.SIGINT)
 
+        # A process that a script started in the background ignores the signal, and Python then has no handler for it.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
         thread = threading.Thread(target=interrupt)
         thread.start()
-        with pytest.raises(KeyboardInterrupt):
-            try:
-                yield
-            finally:
-                ended.set()
-        thread.join()
+        try:
+            with pytest.raises(KeyboardInterrupt):
+                try:
+                    yield
+                finally:
+                    ended.set()
+            thread.join()
+        finally:
+            signal.signal(signal.SIGINT, before)
 
     return interrupted
