@@ -32,6 +32,10 @@ impl SpeedImage {
         }
     }
 
+    pub(crate) fn kind(self) -> std::mem::Discriminant<Self> {
+        std::mem::discriminant(&self)
+    }
+
     /// The length of the interval; 0 if there is none.
     pub(crate) fn width(self) -> f64 {
         match self {
@@ -77,6 +81,9 @@ pub trait SpeedImages {
 
     /// The images of all speeds between two speeds of one sweep.
     fn of_all_between(&self, a: &ImagedSpeed, b: &ImagedSpeed) -> SpeedImage;
+
+    /// Images of intervals are bounds, which halving makes sharper. Where they are exact, a gap is divided at preimages alone.
+    fn are_sharper_on_halves(&self) -> bool;
 
     /// Critical points, increasing: the sweep divides gaps there. With fewer of them more stays open.
     fn critical_points(&self) -> &[f64];
@@ -135,6 +142,10 @@ impl SpeedImages for LapImages<'_> {
         let inside = self.critical[first..].iter().take_while(|&&speed| speed <= high).count();
         let values = &self.values[first..first + inside];
         values.iter().fold(a.reached.with(b.reached), |all, &value| all.with(value))
+    }
+
+    fn are_sharper_on_halves(&self) -> bool {
+        false
     }
 
     fn critical_points(&self) -> &[f64] {

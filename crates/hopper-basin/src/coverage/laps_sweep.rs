@@ -33,6 +33,9 @@ const FINER: f64 = 0.25;
 /// A pass that leaves more than this part of what was open is the last one: what is open lies at preimages of what is open below the pixel.
 const STALLED: f64 = 0.8;
 
+/// The width of the image of one speed, over that of a gap, from which a gap is divided so much further inside. It affects the time only.
+const BLURRED: f64 = 1e-3;
+
 /// A part of the hop from a speed next to a fixed point: the image of so much above the speed lies below the speed.
 const TURN: f64 = 0.9;
 
@@ -243,8 +246,9 @@ impl<I: SpeedImages> LapsSweep<I> {
         if b.speed - a.speed <= finest || self.budget == 0 {
             return parts.push(Part::Open(a, b));
         }
-        let all = self.images.of_all_between(&a, &b);
-        if all == SpeedImage::Unknown {
+        let loose = self.images.are_sharper_on_halves();
+        let unknown = || self.images.of_all_between(&a, &b) == SpeedImage::Unknown;
+        if a.reached.kind() != b.reached.kind() || (loose && unknown()) {
             // The edge of grounding has no known interval as its image: it is bisected. So is the place of an undecided hop, and an interval
             // on which the map is not known to be monotone.
             let middle = a.speed.midpoint(b.speed);
@@ -294,8 +298,9 @@ impl<I: SpeedImages> LapsSweep<I> {
                 break;
             };
             // An image of one speed is wide if it holds for many mass ratios.
-            let blur = 0.5 * at_a.width().max(at_b.width());
+            let width = 0.5 * at_a.width().max(at_b.width());
             let (low, high) = (from.min(to), from.max(to));
+            let blur = if width > BLURRED * (high - low) { width } else { 0.0 };
             let first = self.known.partition_point(|(own, _)| own.right <= low);
             // On a line, the narrowest interval whose preimage counts.
             let narrowest = finest * (high - low) / (b.speed - a.speed);
@@ -324,7 +329,7 @@ impl<I: SpeedImages> LapsSweep<I> {
                 cuts.extend((own.left > low).then(|| self.end(x + margin)));
                 cuts.extend((own.right < high).then(|| self.end(y - margin)));
             }
-            if cuts.is_empty() {
+            if cuts.is_empty() && self.images.are_sharper_on_halves() {
                 // One interval holds the images of both ends, and not those of all between: a bound on these was too wide.
                 cuts.push(self.end(a.speed.midpoint(b.speed)));
             }

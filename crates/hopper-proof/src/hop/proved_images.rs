@@ -198,6 +198,10 @@ impl SpeedImages for ProvedImages {
         self.by_turns(a, b).unwrap_or_else(by_slope)
     }
 
+    fn are_sharper_on_halves(&self) -> bool {
+        true
+    }
+
     fn critical_points(&self) -> &[f64] {
         &self.cuts
     }
