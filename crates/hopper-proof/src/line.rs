@@ -56,29 +56,26 @@ impl ProvedLine {
         let last = index_below(high)?;
         let traps = traps_up_to(&strip, high)?;
         let mut sweep = LapsSweep::new(ProvedImages::new(strip, high)?, traps);
+        let mut add = |range: Interval, parts: usize| -> Result<(), Error> {
+            let edges = PixelShares::edges(range, parts).map_err(hopper_basin::Error::from)?;
+            for pair in edges.windows(2) {
+                let below = last - index_below(pair[0])?;
+                let tolerance = open * FINER_BELOW.powi(i32::try_from(below).unwrap_or(i32::MAX));
+                let resolution = Resolution { tolerance, speeds, passes: PASSES, finest: FINEST };
+                sweep.add_pixel(pair[0], pair[1], resolution);
+            }
+            Ok(())
+        };
         // Below the window: the humps, in parts of a similar height.
         let height = window.length() / parts as f64;
         for n in 0..=index_below(low)? {
-            let (from, to) = (alpha_star(n), alpha_star(n + 1).min(low));
-            let count = ((to - from) / height).ceil().clamp(1.0, MOST_PARTS_BELOW);
-            let tolerance = open * FINER_BELOW.powi(i32::try_from(last - n).unwrap_or(i32::MAX));
-            add_parts(
-                &mut sweep,
-                Interval { left: from, right: to },
-                count as usize,
-                Resolution { tolerance, speeds, passes: PASSES, finest: FINEST },
-            );
+            let (left, right) = (alpha_star(n), alpha_star(n + 1).min(low));
+            if left < right {
+                let count = ((right - left) / height).ceil().clamp(1.0, MOST_PARTS_BELOW);
+                add(Interval { left, right }, count as usize)?;
+            }
         }
-        let edges = PixelShares::edges(window, parts).map_err(hopper_basin::Error::from)?;
-        for pair in edges.windows(2) {
-            let n = index_below(pair[0])?;
-            let tolerance = open * FINER_BELOW.powi(i32::try_from(last - n).unwrap_or(i32::MAX));
-            sweep.add_pixel(
-                pair[0],
-                pair[1],
-                Resolution { tolerance, speeds, passes: PASSES, finest: FINEST },
-            );
-        }
+        add(window, parts)?;
         Ok(ProvedLine { intervals: sweep.into_known() })
     }
 
@@ -103,24 +100,6 @@ impl ProvedLine {
     /// The intervals from the lowest up.
     pub fn intervals(&self) -> &[(Interval, Label)] {
         &self.intervals
-    }
-}
-
-/// Equal parts of a range, one after the other.
-fn add_parts(
-    sweep: &mut LapsSweep<ProvedImages>,
-    range: Interval,
-    count: usize,
-    resolution: Resolution,
-) {
-    let part = range.length() / count as f64;
-    let mut from = range.left;
-    for k in 1..=count {
-        let to = if k == count { range.right } else { range.left + part * k as f64 };
-        if from < to {
-            sweep.add_pixel(from, to, resolution);
-            from = to;
-        }
     }
 }
 

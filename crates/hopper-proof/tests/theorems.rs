@@ -21,6 +21,15 @@ fn the_quick_theorems_are_proved() {
     }
 }
 
+/// What the lemmas do not cover is refused, and there is no window 0.
+#[test]
+fn windows_beyond_the_lemmas_are_not_proved() {
+    for heaviest in [1.5, -1.0, 0.0, f64::NAN, f64::INFINITY] {
+        assert!(rising(&[(1, heaviest)]).is_err(), "{heaviest}");
+    }
+    assert!(!rising(&[(0, 0.5)]).unwrap().is_proved());
+}
+
 /// The windows of the library's table rise: every row of it is proved here.
 #[test]
 fn the_map_rises_in_the_windows_of_the_library() {

@@ -16,7 +16,7 @@ const MOST_BOXES: usize = 2_000_000;
 /// The map rises on window n for all M up to `heaviest` ≤ 1, as (n, `heaviest`) are listed.
 ///
 /// # Errors
-/// [`Error::MassRatios`] for a mass ratio that is not between 0 and 1.
+/// [`Error::MassRatios`] for a mass ratio that is not between 0 and 1: Theorem 81 has this range for M ≤ 1 alone.
 pub fn rising(windows: &[(u64, f64)]) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         "rising",
@@ -24,10 +24,14 @@ pub fn rising(windows: &[(u64, f64)]) -> Result<Theorem, Error> {
          α*_n, and by enclosures of the derivative elsewhere).",
     );
     for &(n, heaviest) in windows {
+        if !(heaviest <= 1.0) {
+            return Err(Error::MassRatios { low: 0.0, high: heaviest });
+        }
         let all = Strip::up_to(heaviest)?;
         let range = Enclosure::new((PI * n as f64).low, fixed_point(n).low - 0.9 * BY_THEOREM);
         let mut boxes = 0;
-        let proved = rises(range, n, &all, &mut boxes);
+        // There is no window 0.
+        let proved = n >= 1 && rises(range, n, &all, &mut boxes);
         theorem.step(
             format!("f rises on window {n} for M ≤ {heaviest}"),
             format!("{boxes} boxes of α and M"),
