@@ -9,7 +9,8 @@ export const KEYS = [
 
 export function keys(actions) {
   addEventListener("keydown", (event) => {
-    const typing = event.target.closest("input, select, textarea, dialog");
+    // A dialog that was just closed can still have the focus, for a frame.
+    const typing = event.target.closest("input, select, textarea, dialog[open]");
     if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
     // Space and Enter belong to a focused button.
     if (event.target.closest("button, summary") && [" ", "Enter"].includes(event.key)) return;
