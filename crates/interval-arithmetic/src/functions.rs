@@ -10,22 +10,30 @@ pub const PI: Enclosure = Enclosure { low: std::f64::consts::PI, high: 3.141_592
 /// enclosed to some ulps of itself, far less than 1.
 const LARGEST_ARGUMENT: f64 = 1e9;
 
-/// The least and the greatest value of a function that has the value 1 at 2kπ + `shift`, −1 half a turn later, and is
-/// monotone between. `value` is the function, correctly rounded.
+/// All values of a sine or a cosine.
+const ALL: Enclosure = Enclosure::new(-1.0, 1.0);
+
+/// Both ends are numbers whose place among the multiples of π can be found.
 #[inline]
-fn wave(x: Enclosure, value: fn(f64) -> f64, shift: f64) -> Enclosure {
-    if !(x.magnitude() <= LARGEST_ARGUMENT && x.low <= x.high) {
-        return Enclosure::new(-1.0, 1.0);
-    }
-    let (at_low, at_high) = (value(x.low), value(x.high));
+fn has_places(x: Enclosure) -> bool {
+    x.magnitude() <= LARGEST_ARGUMENT && x.low <= x.high
+}
+
+/// The least and the greatest value of a function that has the value 1 at (2k + `shift`)π, −1 half a turn later, and is
+/// monotone between. `at_low` and `at_high` are its values at the ends, within one `f64`.
+#[inline]
+fn wave(x: Enclosure, at_low: f64, at_high: f64, shift: f64) -> Enclosure {
     let mut low = down(at_low.min(at_high)).max(-1.0);
     let mut high = up(at_low.max(at_high)).min(1.0);
+    if x.low == x.high {
+        return Enclosure { low, high };
+    }
     // The extrema are at kπ + shift·π. Candidates reach one further than the rounded places, on both sides.
     let pi = std::f64::consts::PI;
     let first = (x.low / pi - shift).floor() as i64;
     let last = (x.high / pi - shift).ceil() as i64;
     if last - first > 3 {
-        return Enclosure::new(-1.0, 1.0);
+        return ALL;
     }
     for k in first..=last {
         let place = PI * (k as f64 + shift);
@@ -52,13 +60,24 @@ impl Enclosure {
     /// ```
     #[inline]
     pub fn sin(self) -> Self {
-        wave(self, pxfm::f_sin, 0.5)
+        self.sin_cos().0
     }
 
     /// The cosines of the numbers, in radians. An interval with an argument above 10⁹ has all of [−1, 1].
     #[inline]
     pub fn cos(self) -> Self {
-        wave(self, pxfm::f_cos, 0.0)
+        self.sin_cos().1
+    }
+
+    /// The sines and the cosines of the numbers: one computation for both.
+    #[inline]
+    pub fn sin_cos(self) -> (Self, Self) {
+        if !has_places(self) {
+            return (ALL, ALL);
+        }
+        let at_low = pxfm::f_sincos(self.low);
+        let at_high = if self.low == self.high { at_low } else { pxfm::f_sincos(self.high) };
+        (wave(self, at_low.0, at_high.0, 0.5), wave(self, at_low.1, at_high.1, 0.0))
     }
 
     /// The arc tangents of the numbers.

@@ -1,36 +1,8 @@
 //! The first landing after a gradual lift-off, over an interval of speeds.
 
+use crate::hop::half_time::AtHalfTime;
 use crate::hop::landing_time::first_landing_time;
-use crate::hop::time_functions::TimeFunctions;
 use interval_arithmetic::Enclosure;
-
-/// The closed forms of a flight from (0, α) that lasts 2h, at one h (docs/theory.md, Section 1).
-#[derive(Debug, Clone, Copy)]
-struct AtHalfTime {
-    sin: Enclosure,
-    /// D = h − SC.
-    d: Enclosure,
-    /// u = hC − S.
-    u: Enclosure,
-}
-
-impl AtHalfTime {
-    fn new(h: f64) -> Self {
-        let half = Enclosure::new(h, h);
-        let (sin, cos) = (half.sin(), half.cos());
-        AtHalfTime { sin, d: 0.5 * TimeFunctions::at(2.0 * h).p, u: half * cos - sin }
-    }
-    fn rho(&self) -> Enclosure {
-        self.u / self.d
-    }
-    fn closing_speed(&self) -> Enclosure {
-        2.0 * self.u.squared() / self.d
-    }
-    /// W = −Su.
-    fn w(&self) -> Enclosure {
-        -(self.sin * self.u)
-    }
-}
 
 /// The first landing over an interval of speeds: half the time, and the closed forms at its ends.
 #[derive(Debug, Clone, Copy)]
@@ -43,14 +15,10 @@ pub(crate) struct FirstLanding {
 impl FirstLanding {
     /// Over the speeds of `alpha`, which lie on one contact part or in one window.
     pub(crate) fn over(alpha: Enclosure) -> Option<Self> {
-        let low = first_landing_time(alpha.low)?.time.low;
-        let high = if alpha.low == alpha.high {
-            first_landing_time(alpha.low)?.time.high
-        } else {
-            first_landing_time(alpha.high)?.time.high
-        };
-        let half = Enclosure::new(0.5 * low, 0.5 * high);
-        Some(FirstLanding { half, ends: [AtHalfTime::new(half.low), AtHalfTime::new(half.high)] })
+        let first = first_landing_time(alpha.low)?;
+        let last = if alpha.low == alpha.high { first } else { first_landing_time(alpha.high)? };
+        let ends = [first.before, last.after];
+        Some(FirstLanding { half: Enclosure::new(ends[0].h, ends[1].h), ends })
     }
 
     /// The values of a function that is monotone in h, from its ends.

@@ -2,7 +2,7 @@
 
 use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
-use crate::hop::landing_time::landing_times;
+use crate::hop::landing_time::landings_between;
 use crate::hop::strip::Strip;
 use crate::hop::time_functions::TimeFunctions;
 use interval_arithmetic::{Enclosure, PI};
@@ -128,8 +128,9 @@ impl Following {
     /// After the next landing, and whether a sudden lift-off follows it; `None` if that is open.
     fn next(self, kappa: Enclosure) -> Option<(Self, bool)> {
         let Following { x, v, .. } = self;
-        let time = landing_times(x, v)?;
-        let at = TimeFunctions::over(time);
+        let ends = landings_between(x, v)?;
+        let at = TimeFunctions::between(&ends);
+        let time = Enclosure::new(2.0 * ends[0].h, 2.0 * ends[1].h);
         // Γ = τ − V r − (1 + x) sin τ; it is never negative at a landing.
         let closing = at.p - v * at.r - x * at.sin;
         let closing = Enclosure::new(closing.low.max(0.0), closing.high);

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   strip.rs            mass ratios, as κ and μ
-//!   time_functions.rs   the functions of the time of flight, without cancellation
+//!   half_time.rs        the functions of half a time of flight, without cancellation
+//!   time_functions.rs   those of a time of flight, over intervals
 //!   landing_time.rs     a landing, enclosed by two signs
 //!   first_landing.rs    the first landing over an interval of speeds
 //!   hop_enclosure.rs    F = α′² with its derivatives, by interval arithmetic
@@ -11,6 +12,7 @@
 //! ```
 
 pub(crate) mod first_landing;
+pub(crate) mod half_time;
 pub(crate) mod hop_enclosure;
 pub(crate) mod landing_time;
 pub(crate) mod proved_images;

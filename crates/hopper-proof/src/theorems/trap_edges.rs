@@ -7,7 +7,7 @@ use crate::theorems::theorem::Theorem;
 use crate::traps::{Touch, falls_below, proved_trap};
 
 /// The widest enclosure of Δ_n that counts.
-const WIDTH: f64 = 4e-12;
+const WIDTH: f64 = 1e-12;
 
 /// Δ_n, enclosed for n up to `humps` at `count` mass ratios between the crisis and 1, equally spaced.
 ///
@@ -38,7 +38,7 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
             }
         }
         theorem.step(
-            format!("Δ_{n} is enclosed to 4e-12 at {count} mass ratios from M_c({n}) to 1"),
+            format!("Δ_{n} is enclosed to {WIDTH:e} at {count} mass ratios from M_c({n}) to 1"),
             format!(
                 "widest {widest:.1e}, not enclosed {missing}; Δ_{n}(1) = {:.12}",
                 proved_trap(n, &Strip::at(1.0)?)?.right - fixed_point(n).middle()

@@ -1,6 +1,11 @@
 //! The public form of [`HalfTime`], in `f64`.
 
+use crate::landing::first_landing::first_root;
+use crate::landing::fixed_point_interval::FixedPointInterval;
+use crate::landing::flight_ends::TakeOff;
 use crate::landing::half_time::HalfTime;
+use crate::landing::next_landing::{before_maximum, next_root};
+use crate::model::motion::LARGEST_LIFT_OFF_SPEED;
 
 /// A flight from the ground, given by half its time h: every quantity at the landing in closed form, without
 /// cancellation.
@@ -29,6 +34,35 @@ impl HalfFlight {
     #[inline]
     pub fn at(h: f64) -> Self {
         HalfFlight(HalfTime::at(h))
+    }
+
+    /// The flight from a take-off to its first landing, by a search for h. The relative error of h is about 10⁻⁹; one step of Newton's method, (V −
+    /// `start_speed`)/`start_speed_slope`, takes it to that of an `f64`.
+    ///
+    /// `None` if there is no flight: for x < 0, for x = 0 with V ≤ 0, or if V or x is no number up to [`LARGEST_LIFT_OFF_SPEED`].
+    ///
+    /// ```
+    /// use passive_hopper::{HalfFlight, TakeOff};
+    /// let flight = HalfFlight::of(TakeOff { excess: 0.0, velocity: 7.0 }).ok_or("no flight")?;
+    /// assert!((flight.start_speed(0.0) - 7.0).abs() < 1e-8);
+    /// assert_eq!(HalfFlight::of(TakeOff { excess: 0.0, velocity: -1.0 }), None);
+    /// # Ok::<(), &str>(())
+    /// ```
+    pub fn of(start: TakeOff) -> Option<Self> {
+        let TakeOff { excess, velocity } = start;
+        let known = velocity.abs() <= LARGEST_LIFT_OFF_SPEED && excess <= LARGEST_LIFT_OFF_SPEED;
+        let root = match excess {
+            _ if !known => return None,
+            0.0 if velocity > 0.0 => first_root(&FixedPointInterval::of(velocity), velocity),
+            _ if excess > 0.0 => next_root(start, before_maximum(start)),
+            _ => return None,
+        };
+        Some(HalfFlight(root.half))
+    }
+
+    /// h, half the time of flight.
+    pub fn half_time(&self) -> f64 {
+        self.0.h
     }
 
     /// S = sin h.
