@@ -160,6 +160,43 @@ impl Following {
     }
 }
 
+/// The hop from the middle of an interval of speeds. From it, and from the derivatives by α, the mean value form encloses the states
+/// after a landing: their widths then add, where interval arithmetic alone multiplies them.
+struct Centre {
+    /// α − the middle, over the interval.
+    distance: Enclosure,
+    state: Following,
+}
+
+impl Centre {
+    /// `None` for a single speed, which is narrow as it is.
+    fn of(alpha: Enclosure, kappa: Enclosure) -> Option<Self> {
+        let middle = Enclosure::new(alpha.middle(), alpha.middle());
+        if alpha.low == alpha.high {
+            return None;
+        }
+        let state = Following::from_window(middle, &FirstLanding::over(middle)?, kappa)?;
+        Some(Centre { distance: alpha - middle, state })
+    }
+
+    fn next(self, kappa: Enclosure) -> Option<Self> {
+        Some(Centre { state: self.state.next(kappa)?.0, ..self })
+    }
+
+    /// The part of the states of all hops that the mean value form allows.
+    fn narrowed(&self, all: Following) -> Option<Following> {
+        let form = |at: Enclosure, slope: Enclosure, all: Enclosure| {
+            (at + slope * self.distance).intersection(&all)
+        };
+        Some(Following {
+            x: form(self.state.x, all.by_speed.0, all.x)?,
+            v: form(self.state.v, all.by_speed.1, all.v)?,
+            losses: form(self.state.losses, all.losses_by_speed, all.losses)?,
+            ..all
+        })
+    }
+}
+
 impl HopEnclosure {
     /// All hops, by interval arithmetic alone: narrow only where the intervals are. `None` if the intervals do not tell the number of
     /// sudden lift-offs.
@@ -176,9 +213,11 @@ impl HopEnclosure {
             });
         }
         let mut state = Following::from_window(alpha, &first, kappa)?;
+        let mut centre = Centre::of(alpha, kappa);
         for _ in 0..MOST_SUDDEN {
             let (next, again) = state.next(kappa)?;
-            state = next;
+            centre = centre.and_then(|centre| centre.next(kappa));
+            state = centre.as_ref().and_then(|centre| centre.narrowed(next)).unwrap_or(next);
             if !again {
                 return Some(HopEnclosure {
                     square: alpha.squared() - mu * state.losses,
