@@ -104,7 +104,7 @@ pub fn interval_basins_from_known(
     };
     let mut pending: Vec<LabelledInterval> = known
         .iter()
-        .map(|&(interval, label)| LabelledInterval { interval, label, level: 0 })
+        .map(|&(interval, label)| LabelledInterval { interval, label, level: Some(0) })
         .collect();
     let mut parts: Vec<LabelledInterval> = pending.iter().filter_map(inside).collect();
     let mut undecided = window.length() - total_length(&parts);
@@ -120,7 +120,7 @@ pub fn interval_basins_from_known(
             break StopReason::IntervalLimit;
         }
         let follow = |part: &LabelledInterval| {
-            part.level < refinement.levels && part.interval.length() >= threshold
+            part.level < Some(refinement.levels) && part.interval.length() >= threshold
         };
         let (mut now, mut later): (Vec<LabelledInterval>, Vec<LabelledInterval>) =
             pending.drain(..).partition(follow);
@@ -130,7 +130,7 @@ pub fn interval_basins_from_known(
                 threshold = refinement.shortest.max(threshold / THRESHOLD_STEP);
                 continue;
             }
-            let last_level = pending.iter().all(|part| part.level >= refinement.levels);
+            let last_level = pending.iter().all(|part| part.level >= Some(refinement.levels));
             break if last_level { StopReason::LevelLimit } else { StopReason::ShortestInterval };
         }
         later.extend(now.split_off(now.len().min(ROUND)));
@@ -183,7 +183,7 @@ fn preimages(
 ) -> Vec<LabelledInterval> {
     let found = branches.iter().filter_map(|branch| branch.preimage(map, &part.interval)).collect();
     let outside = IntervalSet::union(found).minus(trapped);
-    let (label, level) = (part.label, part.level + 1);
+    let (label, level) = (part.label, part.level.map(|level| level + 1));
     outside
         .intervals()
         .iter()
@@ -370,7 +370,10 @@ mod tests {
             let x = -2.19 + 4.38 * (f64::from(k) + 0.37) / 1000.0;
             let (fate, steps) = classify(&cubic, &set, x, 1000);
             let part = basins.intervals().iter().find(|part| part.interval.contains(x));
-            assert_eq!(part.map(|p| (Fate::Trapped(p.label), p.level)), Some((fate, steps)));
+            assert_eq!(
+                part.map(|p| (Fate::Trapped(p.label), p.level.unwrap())),
+                Some((fate, steps))
+            );
         }
     }
 }

@@ -15,8 +15,8 @@ pub struct LabelledInterval {
     pub interval: Interval,
     /// The label of the trap that its orbits enter.
     pub label: Label,
-    /// The number of steps after which the orbits enter the trap.
-    pub level: usize,
+    /// The number of steps after which the orbits enter the trap; `None` if it is not counted, or not the same for all of them.
+    pub level: Option<usize>,
 }
 
 /// The basins in a window, as disjoint labelled intervals.
@@ -36,6 +36,43 @@ pub(crate) fn total_length(parts: &[LabelledInterval]) -> f64 {
 }
 
 impl IntervalBasins {
+    /// Intervals that are known from elsewhere, without levels: disjoint, from left to right. Their parts outside the window are left
+    /// out, and so are intervals whose label is no basin. The reason tells why no more is known.
+    ///
+    /// ```
+    /// use basin_of_attraction::{Interval, IntervalBasins, StopReason};
+    /// let (low, high) = (Interval::new(0.0, 0.25)?, Interval::new(0.5, 1.0)?);
+    /// let known = [(low, 1.into()), (high, 2.into())];
+    /// let window = Interval::new(0.0, 1.0)?;
+    /// let basins = IntervalBasins::from_known(window, &known, StopReason::AllFollowed)?;
+    /// assert_eq!((basins.label(0.75), basins.undecided()), (Some(2.into()), 0.25));
+    /// # Ok::<(), basin_of_attraction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::BadInterval`] for a window or an interval that is reversed or not finite, or that begins before the end of the one
+    /// before.
+    pub fn from_known(
+        window: Interval,
+        known: &[(Interval, Label)],
+        stop_reason: StopReason,
+    ) -> Result<IntervalBasins, Error> {
+        let mut end = f64::NEG_INFINITY;
+        for &(Interval { left, right }, _) in known {
+            Interval::new(left, right)?;
+            Interval::new(end.max(f64::MIN), left)?;
+            end = right;
+        }
+        let part = |&(interval, label): &(Interval, Label)| LabelledInterval {
+            interval,
+            label,
+            level: None,
+        };
+        let parts = known.iter().map(part).collect();
+        let all = IntervalBasins { window, parts, stop_reason, grounds: Vec::new() };
+        Ok(all.within(window)?.without_undecided())
+    }
+
     /// The window.
     pub fn window(&self) -> Interval {
         self.window
@@ -71,7 +108,7 @@ impl IntervalBasins {
     /// let (trap, window) = (Interval::new(0.0, 0.125)?, Interval::new(0.0, 1.0)?);
     /// let limits = Refinement::default();
     /// let basin = interval_basins(&halve, &[(trap, Label::from(1))], &[branch], window, limits)?;
-    /// let steps = basin.relabelled(|part| Label::from(part.level as u8));
+    /// let steps = basin.relabelled(|part| Label::from(part.level.unwrap_or(0) as u8));
     /// assert_eq!(steps.label(0.2), Some(Label::from(1)));
     /// assert_eq!(steps.label(0.8), Some(Label::from(3)));
     /// # Ok::<(), basin_of_attraction::Error>(())
@@ -176,11 +213,12 @@ impl IntervalBasins {
         Bounds { lower: (resolved - rounding).max(0.0), upper }
     }
 
-    /// The number and the total length of the intervals with a label, by level.
+    /// The number and the total length of the intervals with a label, by level; those without a level are left out.
     pub fn levels(&self, label: Label) -> BTreeMap<usize, (usize, f64)> {
         let mut levels = BTreeMap::new();
         for part in self.parts.iter().filter(|part| part.label == label) {
-            let (count, length) = levels.entry(part.level).or_insert((0, 0.0));
+            let Some(level) = part.level else { continue };
+            let (count, length) = levels.entry(level).or_insert((0, 0.0));
             *count += 1;
             *length += part.interval.length();
         }

@@ -119,7 +119,7 @@ fn a_fixed_point_that_attracts_from_one_side_leaves_a_countable_set() {
 
 /// The intervals as `colours` basins: the label of an interval is its level modulo `colours`.
 fn coloured(levels: &IntervalBasins, colours: usize) -> IntervalBasins {
-    levels.clone().relabelled(|part| Label::from((part.level % colours) as u8))
+    levels.clone().relabelled(|part| Label::from((part.level.unwrap() % colours) as u8))
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn countably_many_basins_have_their_measures_and_their_entropy() {
     let refinement = Refinement { shortest: 0.0, undecided: 0.0, levels: 19, intervals: 1 << 21 };
     let stages = interval_basins(&map, &[gap], &branches, interval(0.0, 1.0), refinement)
         .unwrap()
-        .relabelled(|part| Label::from(part.level as u8 + 1));
+        .relabelled(|part| Label::from(part.level.unwrap() as u8 + 1));
     let part = |n: i32| (2.0f64 / 3.0).powi(n - 1) / 3.0;
     for n in 1..=12 {
         let found = stages.resolved_length(Label::from(n as u8));

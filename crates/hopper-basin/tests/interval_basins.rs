@@ -21,25 +21,22 @@ fn basins(fates: &Fates, samples: usize) -> HopperBasins {
     hopper_basins(fates, 1, 6, samples, refinement).unwrap()
 }
 
-/// A search with 400 samples in each window misses branches at these mass ratios. At M = 5 it calls this speed decaying.
+/// Branches that a search with 400 samples in each window misses would give wrong labels here. At M = 5 this speed was called decaying.
 #[test]
-fn above_the_proved_mass_ratios_no_search_calls_itself_resolved() {
+fn above_the_proved_mass_ratios_windows_stay_undecided_and_no_label_is_wrong() {
     for m in [0.92, 2.0, 5.0] {
         let fates = fates(m);
         let found = basins(&fates, 400);
-        assert!(matches!(found.ground, BranchGround::Spacing { spacing } if spacing > 0.0), "{m}");
-        let reason = found.basins.stop_reason();
-        assert_ne!(reason, StopReason::Resolved, "{m}");
-        // Wrong branches show themselves by intervals that overlap, or by probes.
-        assert_eq!(reason == StopReason::Contradiction, m > 1.0, "{m} {:?}", found.probes);
+        assert_eq!(found.ground, BranchGround::ContactParts, "{m}");
+        assert_ne!(found.basins.stop_reason(), StopReason::Resolved, "{m}");
         let probes = found.probe(&fates, 20_000, 7).unwrap();
-        assert_eq!(probes.wrong > 0, m > 1.0, "{m} {probes:?}");
-        if let Some(speed) = probes.first_wrong {
-            assert_ne!(found.basins.label(speed), Some(fates.fate(speed).unwrap().label()));
-        }
+        assert!(probes.wrong == 0 && probes.compared > 5_000, "{m} {probes:?}");
     }
     let speed = 15.718_418_184_199_06;
     assert_eq!(fates(5.0).fate(speed).unwrap(), HopperFate::Incessant { n: 2 });
+    // Speeds of a contact part are grounded between the two crises of hump 0.
+    let found = hopper_basins(&fates(1.0), 0, 2, 400, Refinement::default()).unwrap();
+    assert!(found.basins.resolved_length(HopperFate::GROUNDED) > 0.1);
 }
 
 #[test]
@@ -102,5 +99,5 @@ fn at_extreme_mass_ratios_the_traps_are_the_basins() {
     let fates = fates(60.0);
     let found = hopper_basins(&fates, 0, 30, 400, Refinement::default()).unwrap();
     assert_eq!((found.ground, found.probes.wrong), (BranchGround::ContactParts, 0));
-    assert!(found.basins.intervals().iter().any(|part| part.level > 0));
+    assert!(found.basins.intervals().iter().any(|part| part.level > Some(0)));
 }

@@ -6,8 +6,10 @@
 //! | [`ProvedImages`] | hops from all speeds of an interval, enclosed with rounding outwards |
 //! | [`proved_trap`], [`Touch`] | traps and crises, enclosed |
 //! | [`ProvedLine`] | the basins of a line of speeds, for all mass ratios of a strip |
+//! | [`proved_basins`], [`basins_at_every_mass_ratio`] | all basins at one M as intervals |
 //! | [`fixed_point`] | α*_n, enclosed |
 
+mod basins;
 mod cell;
 mod error;
 mod fixed_points;
@@ -16,6 +18,7 @@ mod line;
 mod theorems;
 mod traps;
 
+pub use basins::{basins_at_every_mass_ratio, proved_basins};
 pub use cell::Cell;
 pub use error::Error;
 pub use fixed_points::fixed_point;

@@ -1,9 +1,12 @@
 //! Proved basins: never another fate than that of the orbit, and most of a window.
 #![allow(clippy::unwrap_used)]
 
-use basin_of_attraction::{Grid, Interval};
-use hopper_basin::{Fates, HopperFate, basin_raster, first_humps};
-use hopper_proof::{Cell, Error, ProvedCells, ProvedFractions, ProvedLine, Strip, proved_points};
+use basin_of_attraction::{Grid, Interval, Refinement, StopReason};
+use hopper_basin::{BranchGround, Fates, HopperFate, basin_raster, first_humps};
+use hopper_proof::{
+    Cell, Error, ProvedCells, ProvedFractions, ProvedLine, Strip, basins_at_every_mass_ratio,
+    proved_basins, proved_points,
+};
 use passive_hopper::MassRatio;
 use std::ops::ControlFlow::Continue;
 
@@ -115,5 +118,43 @@ fn what_is_no_question_is_refused() {
     for (parts, open) in [(0, 0.1), (4, 0.0), (4, 2.0), (4, f64::NAN)] {
         let refused = ProvedLine::new(strip, window, parts, open, 100);
         assert!(matches!(refused, Err(Error::Share { .. })), "{parts} {open}");
+    }
+}
+
+/// Where the map's branches are not known, intervals come from enclosures. A search with sampled branches had 64 to 839 wrong labels here.
+#[test]
+fn basins_as_intervals_have_no_wrong_label_at_any_mass_ratio() {
+    for (m, undecided) in [(0.95, 0.5), (2.0, 2.0), (5.0, 5.0), (20.0, 8.0)] {
+        let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
+        let refinement = Refinement { undecided, ..Refinement::default() };
+        let found = basins_at_every_mass_ratio(&fates, 1, 6, 400, refinement).unwrap();
+        assert_eq!(found.ground, BranchGround::Enclosures, "{m}");
+        assert_eq!(found.basins.stop_reason(), StopReason::Resolved, "{m}");
+        assert!(found.basins.undecided() <= undecided, "{m} {}", found.basins.undecided());
+        let probes = found.probe(&fates, 20_000, 7).unwrap();
+        assert!(probes.wrong == 0 && probes.compared > 8_000, "{m} {probes:?}");
+    }
+}
+
+#[test]
+fn basins_as_intervals_take_the_sharper_ground() {
+    let at = |m: f64, refinement| {
+        let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
+        basins_at_every_mass_ratio(&fates, 1, 2, 400, refinement)
+    };
+    let coarse = Refinement { undecided: 0.01, ..Refinement::default() };
+    assert_eq!(at(0.2, coarse).unwrap().ground, BranchGround::Proved);
+    assert_eq!(at(100.0, coarse).unwrap().ground, BranchGround::ContactParts);
+    // Few intervals are allowed: the first sweep is the last one.
+    let few = Refinement { undecided: 0.0, intervals: 1, ..Refinement::default() };
+    let found = at(2.0, few).unwrap();
+    assert_eq!(found.basins.stop_reason(), StopReason::IntervalLimit);
+    let fates = Fates::new(MassRatio::new(2.0).unwrap()).unwrap();
+    for (from, to) in [(2, 2), (3, 1), (0, u64::MAX), (u64::MAX, u64::MAX)] {
+        assert!(proved_basins(&fates, from, to, coarse).is_err(), "{from} {to}");
+    }
+    for undecided in [-1.0, f64::NAN] {
+        let refinement = Refinement { undecided, ..Refinement::default() };
+        assert!(proved_basins(&fates, 1, 2, refinement).is_err(), "{undecided}");
     }
 }

@@ -37,6 +37,9 @@ pub(crate) enum Error {
     /// A fate or a basin could not be computed.
     #[error(transparent)]
     Basin(#[from] hopper_basin::Error),
+    /// A basin could not be enclosed.
+    #[error(transparent)]
+    Proof(#[from] hopper_proof::Error),
     /// A file could not be written, or another run is at work in its folder.
     #[error(transparent)]
     Job(#[from] resumable_job::Error),

@@ -10,15 +10,12 @@ use basin_of_attraction::{
     interval_basins_from_known,
 };
 use passive_hopper::alpha_star;
-use std::f64::consts::PI;
 
 /// All basins between two fixed points, as intervals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HopperBasins {
     /// The intervals, with labels as in [`HopperFate::label`]. Their [`stop_reason`](IntervalBasins::stop_reason) is
-    /// [`Resolved`](StopReason::Resolved) only where the branches are proved to be complete; else a search without other limits
-    /// ends with [`SampledBranches`](StopReason::SampledBranches), or with [`Contradiction`](StopReason::Contradiction) if a
-    /// probe has another fate than its interval.
+    /// [`Contradiction`](StopReason::Contradiction) if a probe has another fate than its interval; that has not been seen.
     pub basins: IntervalBasins,
     /// What the labels of whole intervals stand on.
     pub ground: BranchGround,
@@ -26,28 +23,19 @@ pub struct HopperBasins {
     pub probes: Probes,
 }
 
-/// What the completeness of the branches of the map stands on.
+/// What the labels of whole intervals stand on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum BranchGround {
-    /// On proof: the critical points of the contact parts are known (docs/theory.md, Corollary 28), and the map rises in the
+    /// On branches of the map that are proved to be all: the critical points of the contact parts are known (docs/theory.md, Corollary 28), and the map rises in the
     /// sudden windows (docs/theory.md, Theorems 48 and 81). For M ≤ 0.905 with three windows, and for M ≤ 0.9
     /// with up to ten.
     Proved,
-    /// On sampling: branches of the map narrower than `spacing` may be missed in the sudden windows, and then whole intervals
-    /// have wrong labels. On the contact parts all branches are known. For M > 0.9056 a hop may have several sudden lift-offs, and
-    /// branches are missed: count points with [`basin_fractions`](crate::basin_fractions), which needs no branches.
-    Spacing {
-        /// The largest distance of two neighbouring samples, in units of speed.
-        spacing: f64,
-    },
-    /// On proof, and for a part of the window: for M > 50 only the branches on the contact parts are followed, all of which are known.
-    /// The sudden windows stay undecided. Needles in them are narrower than any spacing of `f64` there (docs/theory.md,
-    /// Section 4: 10⁻²² at M = 50), and a hop may have hundreds of landings.
+    /// On the branches of the contact parts, which are known at every M. The sudden windows, where a hop may have several sudden
+    /// lift-offs, stay undecided, and so does what maps into them.
     ContactParts,
+    /// On images of whole intervals, enclosed with rounding outwards; no branch is followed. This is what the crate hopper-proof gives.
+    Enclosures,
 }
-
-/// The largest M whose sudden windows are searched for branches.
-const LARGEST_SEARCHED: f64 = 50.0;
 
 /// A comparison of intervals with the fates of random speeds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,7 +85,8 @@ const PROBES: usize = 1000;
 /// Seed of these speeds.
 const SEED: u64 = 1;
 
-/// The basins of all fates on [α*_`from`, α*_`to`]. Each sudden window is searched for branches with `samples` points.
+/// The basins of all fates on [α*_`from`, α*_`to`]. Each sudden window is searched for branches with `samples` points, where it is proved
+/// which there are; elsewhere the windows stay undecided. The crate hopper-proof has the basins at every M.
 ///
 /// The result states what it rests on ([`HopperBasins::ground`]), and compares itself with the fates of a thousand speeds
 /// ([`HopperBasins::probes`]).
@@ -136,44 +125,30 @@ pub fn hopper_basins(
     // Orbits fall below the window: all branches of the map down to zero are needed.
     let (branches, traps, ground) = if has_whole_humps(fates, to)? {
         (Vec::new(), traps_and_gaps(fates, Vec::new(), to)?, BranchGround::Proved)
-    } else if mass_ratio.value() <= LARGEST_SEARCHED {
+    } else if branches_are_proved(mass_ratio, to) {
         let branches = branches(fates, 0, to, samples)?;
         let traps = traps_and_grounding(fates, &branches, to, top)?;
-        let ground = if branches_are_proved(mass_ratio, to) {
-            BranchGround::Proved
-        } else {
-            BranchGround::Spacing { spacing: widest_window(to) / (samples - 1) as f64 }
-        };
-        (branches, traps, ground)
+        (branches, traps, BranchGround::Proved)
     } else {
-        // For M ≥ 3.06, the inverse of the first grounding, no speed of a contact part is grounded.
-        let mut branches = Vec::new();
+        let (mut branches, mut gaps) = (Vec::new(), Vec::new());
         for n in 0..to {
-            branches.extend(contact_branches(fates, n)?);
+            let found = contact_branches(fates, n)?;
+            let between = found.windows(2).map(|pair| (pair[0].domain.right, pair[1].domain.left));
+            gaps.extend(between.filter_map(|(left, right)| grounded_between(fates, left, right)));
+            branches.extend(found);
         }
-        (branches, traps_and_gaps(fates, Vec::new(), to)?, BranchGround::ContactParts)
+        (branches, traps_and_gaps(fates, gaps, to)?, BranchGround::ContactParts)
     };
     let whole = Interval::new(0.0, top)?;
     let basins =
         interval_basins_from_known(fates, &traps, &branches, whole, refinement)?.within(window)?;
-    let stop_reason = basins.stop_reason();
     let probes = Probes { compared: 0, wrong: 0, first_wrong: None };
     let mut found = HopperBasins { basins, ground, probes };
     found.probes = found.probe(fates, PROBES, SEED)?;
-    let stop_reason = match stop_reason {
-        _ if found.probes.wrong > 0 => StopReason::Contradiction,
-        StopReason::Resolved if matches!(ground, BranchGround::Spacing { .. }) => {
-            StopReason::SampledBranches
-        }
-        reason => reason,
-    };
-    found.basins = found.basins.with_stop_reason(stop_reason);
+    if found.probes.wrong > 0 {
+        found.basins = found.basins.with_stop_reason(StopReason::Contradiction);
+    }
     Ok(found)
-}
-
-/// The greatest width of the windows ((n+1)π, α*_{n+1}) for n < `to`.
-fn widest_window(to: u64) -> f64 {
-    (0..to).map(|n| alpha_star(n + 1) - (n + 1) as f64 * PI).fold(0.0, f64::max)
 }
 
 /// The traps of α*_0 … α*_`to`−1 and the gaps between `branches` below `top` in which the hopper is grounded, with labels.
@@ -224,12 +199,13 @@ fn traps_and_gaps(
 fn grounded(fates: &Fates, branches: &[Branch], top: f64) -> Vec<(Interval, Label)> {
     let starts = branches.iter().map(|branch| branch.domain.left).chain([top]);
     let ends = std::iter::once(0.0).chain(branches.iter().map(|branch| branch.domain.right));
-    ends.zip(starts)
-        .filter_map(|(left, right)| {
-            // The gap without the ends of the branches. It is empty where two branches meet at a critical point.
-            let (left, right) = (left.next_up(), right.next_down());
-            let stops = left < right && fates.image(0.5 * (left + right)) == Image::Stops;
-            stops.then_some((Interval { left, right }, HopperFate::GROUNDED))
-        })
-        .collect()
+    ends.zip(starts).filter_map(|(left, right)| grounded_between(fates, left, right)).collect()
+}
+
+/// The gap between the ends of two branches, with its label, if the hopper is grounded in it.
+fn grounded_between(fates: &Fates, left: f64, right: f64) -> Option<(Interval, Label)> {
+    // The gap without the ends of the branches. It is empty where two branches meet at a critical point.
+    let (left, right) = (left.next_up(), right.next_down());
+    let stops = left < right && fates.image(0.5 * (left + right)) == Image::Stops;
+    stops.then_some((Interval { left, right }, HopperFate::GROUNDED))
 }

@@ -31,7 +31,7 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
         let own = basins
             .intervals()
             .iter()
-            .filter(|part| part.label == Label::from(1) && part.level == level);
+            .filter(|part| part.label == Label::from(1) && part.level == Some(level));
         own.filter(|part| part.interval.length() >= SHORTEST).count()
     };
     let levels = basins.levels(1.into());

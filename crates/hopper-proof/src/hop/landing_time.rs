@@ -61,7 +61,11 @@ impl LandingTime {
             }
             AtHalfTime::new(end)
         };
-        Some(LandingTime { branch, before: look(-1.0, bracket.low), after: look(1.0, bracket.high) })
+        Some(LandingTime {
+            branch,
+            before: look(-1.0, bracket.low),
+            after: look(1.0, bracket.high),
+        })
     }
 }
 

@@ -8,7 +8,8 @@ use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use basin_of_attraction::{Label, Refinement, StopReason};
-use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, hopper_basins};
+use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate};
+use hopper_proof::basins_at_every_mass_ratio;
 use passive_hopper::MassRatio;
 
 /// Options.
@@ -46,9 +47,9 @@ const MOST_HUMPS: u64 = 64;
 pub(crate) const PAGE: Page = Page {
     units: "Speeds and lengths in m₂gω/k.",
     limits: "Fixed points 0 to 64; up to 10000000 intervals; samples up to 1000000 for each window.\n\
-             For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are proved to be complete. Above, they\n\
-             are sampled: a branch narrower than the spacing may be missed, and the table `search` says so. Above 50 they are\n\
-             followed on the contact parts alone, and the sudden windows stay undecided: their needles are narrower than f64 resolves.\n\
+             For M up to 0.83 (of many humps) or 0.905 (of few) the branches of the map are followed, which are proved to be all.\n\
+             Above, images of intervals are enclosed with rounding outwards, and hops are not counted; --shortest and --samples have no\n\
+             effect. The larger M is, the more stays undecided; above 50 the sudden windows do. The table `search` says which.\n\
              The time grows with --samples times --to: 64 windows of a million samples take minutes. How long it has searched is\n\
              shown on a terminal, elsewhere every 30 s. Ctrl-C ends the call, and the same call begins anew.",
     tables: &[&FRACTIONS, &SEARCH, &INTERVALS],
@@ -104,14 +105,9 @@ static SEARCH: TableKind = TableKind {
         },
         Column { name: "stopped", unit: "", meaning: "why the search ended" },
         Column {
-            name: "branches",
+            name: "ground",
             unit: "",
-            meaning: "whether the branches of the map are proved to be complete",
-        },
-        Column {
-            name: "spacing",
-            unit: SPEED,
-            meaning: "branches narrower than this may be missing, if they are sampled",
+            meaning: "what the labels stand on: branches of the map that are proved to be all, or enclosed images",
         },
         Column {
             name: "probes",
@@ -154,7 +150,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         Refinement { undecided, shortest, intervals: count(options.most), ..Refinement::default() };
     let (mass_ratio, samples) = (options.mass_ratio, count(options.samples));
     let found = search::run(&options.output, &mut streams, move || {
-        Ok(hopper_basins(&Fates::new(mass_ratio)?, from, to, samples, refinement)?)
+        let fates = Fates::new(mass_ratio)?;
+        Ok(basins_at_every_mass_ratio(&fates, from, to, samples, refinement)?)
     })?;
     let mut intervals = Table::new(&INTERVALS);
     if form.shows(&INTERVALS, PAGE.tables) {
@@ -190,18 +187,17 @@ fn fractions(found: &HopperBasins) -> Table {
 fn search(found: &HopperBasins) -> Table {
     let mut table = Table::new(&SEARCH);
     let window = found.basins.window();
-    let (branches, spacing) = match found.ground {
-        BranchGround::Proved => ("proved", None),
-        BranchGround::Spacing { spacing } => ("sampled", Some(spacing)),
-        BranchGround::ContactParts => ("contact parts", None),
+    let ground = match found.ground {
+        BranchGround::Proved => "branches",
+        BranchGround::ContactParts => "contact parts",
+        BranchGround::Enclosures => "enclosures",
     };
     table.push([
         window.left.into(),
         window.right.into(),
         found.basins.undecided().into(),
         stopped(found.basins.stop_reason()).into(),
-        branches.into(),
-        spacing.into(),
+        ground.into(),
         found.probes.compared.into(),
         found.probes.wrong.into(),
     ]);
@@ -230,9 +226,9 @@ fn stopped(reason: StopReason) -> &'static str {
         StopReason::SampledBranches => {
             "no more than --undecided is left, but the branches are sampled"
         }
-        StopReason::Contradiction => "contradiction: a branch is missing; take more --samples",
+        StopReason::Contradiction => "contradiction: a branch is missing; please report this",
         StopReason::ShortestInterval => "the others are shorter than --shortest",
         StopReason::LevelLimit => "the largest level is reached",
-        StopReason::IntervalLimit => "--most intervals are found",
+        StopReason::IntervalLimit => "--most intervals are found, or as many speeds are tried",
     }
 }
