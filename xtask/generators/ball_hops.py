@@ -179,7 +179,12 @@ def landing_times(x, v):
         return landing(x, v)
     if x.is_zero():
         return landing(x, v.lower()).union(landing(x, v.upper()))
-    return landing(x.lower(), v.lower()).union(landing(x.upper(), v.upper()))
+    last = landing(x.upper(), v.upper())
+    if not x.lower() > 0:
+        if v.lower() > 0:
+            raise Undecided("a landing at s = 1")
+        return arb(0).union(last)  # from x = 0 such a flight ends at once
+    return landing(x.lower(), v.lower()).union(last)
 
 
 def time_less_sine(t):
@@ -191,10 +196,11 @@ def time_less_sine(t):
 class Hop:
     """F = square of the next lift-off speed, below 0 where the hopper is grounded, over all alpha and kappa of two balls.
 
-    `by_alpha` and `by_kappa` are its derivatives, None where the hop may or may not have one more short flight.
+    `by_alpha` and `by_kappa` are its derivatives, None where the hop may or may not have one more short flight. `in_window` says that all
+    speeds are in a window, whose first landing is sudden (docs/theory.md, Theorem 8): balls lose this at the end of a window.
     """
 
-    def __init__(self, alpha, kappa, derivatives=True):
+    def __init__(self, alpha, kappa, derivatives=True, in_window=False):
         x, v = arb(0), alpha
         x_a, v_a, x_k, v_k = arb(0), arb(1), arb(0), arb(0)
         self.flights = 0
@@ -213,6 +219,7 @@ class Hop:
             closing = lag - v * rise - x * sin
             next_x = (x + v * t - t * t / 2).intersection(stretch - 1)
             next_v = momentum + kappa * closing
+            before = x_a, v_a, x_k, v_k
             if derivatives:
                 # G(t; x, V) = 0 defines t: its derivative follows from those of G.
                 t_a = (rise * x_a + lag * v_a) / closing
@@ -226,13 +233,22 @@ class Hop:
             x, v = next_x, next_v
             if x < 0:
                 break
+            if in_window and self.flights == 1:
+                continue
             if not x > 0:
                 self.square = self.next_to_joint(x, v, kappa)
                 return
         self.square = v * v + 2 * x + kappa * x * x
         if derivatives:
-            self.by_alpha = 2 * (v * v_a + (1 + kappa * x) * x_a)
-            self.by_kappa = 2 * (v * v_k + (1 + kappa * x) * x_k) + x * x
+            # The derivative of V^2 + 2x + kappa x^2 after the last flight. The terms with dt add up to -2 kappa (1 + kappa x) closing dt, in
+            # which the closing speed cancels.
+            x_a, v_a, x_k, v_k = before
+            tilt = 1 + kappa * x
+            change = lambda dx, dv: 2 * tilt * ((1 - kappa * rise) * dx + (t - kappa * lag) * dv) + 2 * v * (
+                (1 - kappa * rise) * dv - kappa * sin * dx
+            )
+            self.by_alpha = change(x_a, v_a)
+            self.by_kappa = change(x_k, v_k) + 2 * v * closing + x * x
 
     @staticmethod
     def next_to_joint(x, v, kappa):
@@ -258,7 +274,7 @@ class Hop:
         return found
 
 
-def square_bounds(alphas, kappas, halvings=6):
+def square_bounds(alphas, kappas):
     """Lower and upper bound of F over two intervals, each given by its ends: from ends where F is monotone, from the middle and the slope
     elsewhere.
 
@@ -269,12 +285,6 @@ def square_bounds(alphas, kappas, halvings=6):
     low, high = whole.square.lower(), whole.square.upper()
     slopes = (whole.by_alpha, whole.by_kappa)
     if any(slope is None or not slope.is_finite() for slope in slopes):
-        # Next to a short flight the closing speed is not told from zero. Narrower parameters tell it.
-        if halvings > 0 and sides[0][2].rad() < 0.01 * sides[1][2].rad():
-            middle = sides[1][2].mid()
-            parts = (kappas[0], middle), (middle, kappas[1])
-            bounds = [square_bounds(alphas, part, halvings - 1) for part in parts]
-            return min(b[0] for b in bounds), max(b[1] for b in bounds)
         return low, high
     for side in (-1, 1):
         places, spread = [], arb(0)

@@ -7,8 +7,10 @@
 //! | [`proved_trap`], [`Touch`] | traps and crises, enclosed |
 //! | [`ProvedLine`] | the basins of a line of speeds, for all mass ratios of a strip |
 //! | [`fixed_point`] | α*_n, enclosed |
+//! | [`Theorem`], [`Evidence`] | a statement with the steps of its proof, and the numbers with which another program checks it |
 
 mod cell;
+mod certificate;
 mod error;
 mod fixed_points;
 mod hop;
@@ -17,6 +19,7 @@ mod theorems;
 mod traps;
 
 pub use cell::Cell;
+pub use certificate::{BasinInterval, CERTIFICATE_VERSION, Evidence};
 pub use error::Error;
 pub use fixed_points::fixed_point;
 pub use hop::proved_images::ProvedImages;
