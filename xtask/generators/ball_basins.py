@@ -178,7 +178,7 @@ class Basins:
             return False
         if most < 0:
             if fate != GROUNDED:
-                raise Refuted(f"all speeds of [{low!r}, {high!r}] are grounded, not {fate!r}")
+                raise Refuted(f"all speeds of [{float(low)!r}, {float(high)!r}] are grounded, not {fate!r}")
             return True
         if not least > 0:
             return False
@@ -187,6 +187,8 @@ class Basins:
         found = self.holder(first, last)
         if found is not None and found != fate:
             raise Refuted(f"all speeds of [{float(low)!r}, {float(high)!r}] have the fate {found!r}, not {fate!r}")
+        if found is None and fate != GROUNDED and last < star(fate):
+            raise Refuted(f"all speeds of [{float(low)!r}, {float(high)!r}] fall below alpha*_{fate}")
         if found is None and further > 0:
             return self.all_have_fate(first, last, fate, further - 1)
         return found is not None

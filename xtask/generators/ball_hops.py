@@ -187,6 +187,12 @@ def landing_times(x, v):
     return landing(x.lower(), v.lower()).union(last)
 
 
+def falls_to(time, y, v):
+    """The stretch s falls up to this time. A landing before it has s <= 1: as long as s > 1, G'' > 0 and G > 0."""
+    sin, cos = arb(0).union(time).sin_cos()
+    return v * cos - y * sin < 0
+
+
 def time_less_sine(t):
     """t - sin t over a ball; it rises."""
     low, high = t.lower(), t.upper()
@@ -219,7 +225,7 @@ class Hop:
             closing = lag - v * rise - x * sin
             next_x = (x + v * t - t * t / 2).intersection(stretch - 1)
             next_v = momentum + kappa * closing
-            before = x_a, v_a, x_k, v_k
+            before, before_v = (x_a, v_a, x_k, v_k), v
             if derivatives:
                 # G(t; x, V) = 0 defines t: its derivative follows from those of G.
                 t_a = (rise * x_a + lag * v_a) / closing
@@ -235,6 +241,8 @@ class Hop:
                 break
             if in_window and self.flights == 1:
                 continue
+            if in_window and falls_to(t.upper(), y, before_v):
+                break
             if not x > 0:
                 self.square = self.next_to_joint(x, v, kappa)
                 return
@@ -260,13 +268,12 @@ class Hop:
         upper = x.upper()
         if upper > 0:
             last = landing(upper, v.upper()).upper()
+            start = arb(0).union(upper)
+            if not falls_to(last, 1 + start, v):
+                raise Undecided("a long flight at s = 1")
             t = arb(0).union(last)
             sin, cos = t.sin_cos()
-            start = arb(0).union(upper)
-            # While s falls, s > 1 means G'' > 0 and G > 0: the landing comes after, with s < 1, and contact follows.
             spring = v * cos - (1 + start) * sin
-            if not spring < 0:
-                raise Undecided("a long flight at s = 1")
             momentum = v - t
             found = found.union(
                 energy(start + v * t - t * t / 2, momentum + kappa * (spring - momentum))

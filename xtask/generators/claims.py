@@ -156,7 +156,8 @@ class RisingBox(Kind):
             low, high, first, last = work.pop()
             alpha, kappa = arb(low).union(arb(high)), arb(first).union(arb(last))
             try:
-                if Hop(alpha, kappa, in_window=True).by_alpha > 0:
+                by_alpha = Hop(alpha, kappa, in_window=True).by_alpha
+                if by_alpha is not None and by_alpha > 0:
                     continue
             except Undecided:
                 pass

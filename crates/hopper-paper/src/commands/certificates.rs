@@ -35,7 +35,6 @@ fn header(theorem: &Theorem) -> Value {
         "version": CERTIFICATE_VERSION,
         "theorem": theorem.name,
         "statement": theorem.statement,
-        "proved": theorem.is_proved(),
         "lines": theorem.evidence.len(),
     })
 }
