@@ -29,6 +29,8 @@ LEFT_REACH, LEFT_REACH_LIGHT = "0.0109", "0.0586"
 # Most parts of an interval, and hops of a single speed.
 MOST_PARTS = 5000
 MOST_HOPS = 20000
+# Parts with fewer speeds than this part of the range of kappa are divided by kappa.
+NARROW_PART = 0.01
 # Hops of an image that lies between two intervals.
 FURTHER_IMAGES = 2
 # Bits of the first attempt, and of the last.
@@ -124,20 +126,25 @@ class Basins:
         """Condition 1 for one interval. Returns the number of its parts."""
         left, right, fate = self.intervals[at]
         begins_at_star = self.contains_no_other_star(left, right, fate)
-        parts, work = 0, [(left, right)]
+        parts, work = 0, [(left, right, self.kappas)]
         while work:
-            low, high = work.pop()
+            low, high, kappas = work.pop()
             parts += 1
             if parts > MOST_PARTS:
                 raise Unconfirmed(f"the speeds [{low!r}, {high!r}] of the interval [{left!r}, {right!r}], after {MOST_PARTS} parts")
             if low == left and begins_at_star and self.stays_right_of(fate, high):
                 continue
-            if self.all_have_fate(arb(low), arb(high), fate, FURTHER_IMAGES):
+            if self.all_have_fate(arb(low), arb(high), kappas, fate, FURTHER_IMAGES):
+                continue
+            first, last = kappas
+            if high - low < NARROW_PART * (last - first):
+                middle = first.union(last).mid()
+                work += [(low, high, (first, middle)), (low, high, (middle, last))]
                 continue
             middle = 0.5 * (low + high)
             if not low < middle < high:
                 raise Unconfirmed(f"the speed {low!r} of the interval [{left!r}, {right!r}]")
-            work += [(middle, high), (low, middle)]
+            work += [(middle, high, kappas), (low, middle, kappas)]
         return parts
 
     def stays_right_of(self, n, high):
@@ -153,27 +160,27 @@ class Basins:
         loss = mu * a * beta**4 / 8
         return loss * delta.root(3) * arb(RIGHT_CONSTANT) < 1
 
-    def square_bounds(self, low, high):
+    def square_bounds(self, low, high, kappas):
         """Bounds of F over speeds from `low` to `high`."""
         above = last_star_below(low) + 1
         reach = arb(LEFT_REACH_LIGHT if self.light else LEFT_REACH)
         if not (high < star(above) and star(above) - low <= reach):
-            return square_bounds((low, high), self.kappas)
+            return square_bounds((low, high), kappas)
         # Left of alpha*_n the landings nearly coincide, and balls lose the signs of the derivatives. There F rises with alpha, and for M <= 1
         # it falls with kappa.
         if self.light:
-            ends = (low, self.kappas[1]), (high, self.kappas[0])
+            ends = (low, kappas[1]), (high, kappas[0])
             first, last = (Hop(*end, derivatives=False).square for end in ends)
             return first.lower(), last.upper()
-        return square_bounds((low, low), self.kappas)[0], square_bounds((high, high), self.kappas)[1]
+        return square_bounds((low, low), kappas)[0], square_bounds((high, high), kappas)[1]
 
-    def all_have_fate(self, low, high, fate, further):
+    def all_have_fate(self, low, high, kappas, fate, further):
         """All speeds from `low` to `high` lead into an interval of this fate, or to the ground. False if that is open.
 
         An image between two intervals is followed for `further` hops.
         """
         try:
-            least, most = self.square_bounds(low, high)
+            least, most = self.square_bounds(low, high, kappas)
         except Undecided:
             return False
         if most < 0:
@@ -190,7 +197,7 @@ class Basins:
         if found is None and fate != GROUNDED and last < star(fate):
             raise Refuted(f"all speeds of [{float(low)!r}, {float(high)!r}] fall below alpha*_{fate}")
         if found is None and further > 0:
-            return self.all_have_fate(first, last, fate, further - 1)
+            return self.all_have_fate(first, last, kappas, fate, further - 1)
         return found is not None
 
 

@@ -39,6 +39,17 @@ def sign(ball):
     return 1 if ball > 0 else -1 if ball < 0 else 0
 
 
+def squared(ball):
+    """The squares, not below those of the ends."""
+    low, high = abs(ball.lower()), abs(ball.upper())
+    return ball * ball if ball.contains(0) else (low * low).union(high * high)
+
+
+def energy(x, v, kappa):
+    """V^2 + 2x + kappa x^2, which contact does not change: the square of the next lift-off speed."""
+    return squared(v) + 2 * x + kappa * x * x
+
+
 def height(t, x, v):
     s, c = t.sin_cos()
     return x + v * t - t * t / 2 - ((1 + x) * c - 1) - v * s
@@ -246,7 +257,7 @@ class Hop:
             if not x > 0:
                 self.square = self.next_to_joint(x, v, kappa)
                 return
-        self.square = v * v + 2 * x + kappa * x * x
+        self.square = energy(x, v, kappa)
         if derivatives:
             # The derivative of V^2 + 2x + kappa x^2 after the last flight. The terms with dt add up to -2 kappa (1 + kappa x) closing dt, in
             # which the closing speed cancels.
@@ -263,8 +274,7 @@ class Hop:
         """F after landings with s below and above 1: contact follows, or one more flight, which is short."""
         if not v < 0:
             raise Undecided("a landing at s = 1")
-        energy = lambda x, v: v * v + 2 * x + kappa * x * x
-        found = energy(x, v)
+        found = energy(x, v, kappa)
         upper = x.upper()
         if upper > 0:
             last = landing(upper, v.upper()).upper()
@@ -276,7 +286,7 @@ class Hop:
             spring = v * cos - (1 + start) * sin
             momentum = v - t
             found = found.union(
-                energy(start + v * t - t * t / 2, momentum + kappa * (spring - momentum))
+                energy(start + v * t - t * t / 2, momentum + kappa * (spring - momentum), kappa)
             )
         return found
 

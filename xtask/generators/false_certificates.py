@@ -12,7 +12,7 @@ import tempfile
 
 from flint import ctx
 
-from ball_basins import BITS, Refuted, Unconfirmed, star
+from ball_basins import BITS, GROUNDED, Refuted, Unconfirmed, star
 from ball_hops import Undecided
 from check_certificate import check
 
@@ -114,21 +114,21 @@ def points(lines):
 
 
 def cells(lines):
-    at = next(at for at, line in enumerate(lines) if line["kind"] == "basins") + 1
-    list = lines[at]["intervals"]
-    swapped = copy.deepcopy(list)
-    place = next(k for k, (_, _, fate) in enumerate(list) if k > len(list) // 2 and fate != 0)
+    at = next(at for at, line in enumerate(lines) if line.get("kind") == "basins") + 1
+    own = lines[at]["intervals"]
+    swapped = copy.deepcopy(own)
+    place = next(k for k, (_, _, fate) in enumerate(own) if k > len(own) // 2 and fate != 0)
     swapped[place][2] = 0
-    yield "a label swapped", [changed(lines, at, intervals=swapped)], f"line"
+    yield "a label swapped", [changed(lines, at, intervals=swapped)], "line"
     # One label swapped below the window: no area tells it.
-    below = copy.deepcopy(list)
-    if below[0][1] < lines[1]["speeds"][0]:
-        below[0][2] = "grounded"
+    below = copy.deepcopy(own)
+    if below[1][1] < lines[1]["speeds"][0]:
+        below[1][2] = 0 if below[1][2] != 0 else GROUNDED
         yield "a label swapped below the window", [changed(lines, at, intervals=below)], f"line {at + 1}"
-    wider = copy.deepcopy(list)
+    wider = copy.deepcopy(own)
     wider[place][1] = 0.5 * (wider[place][1] + wider[place + 1][0])
     yield "an interval too long", [changed(lines, at, intervals=wider)], f"line {at + 1}"
-    yield "an interval left out", [changed(lines, at, intervals=without(list, place))], "line"
+    yield "an interval left out", [changed(lines, at, intervals=without(own, place))], "line"
     yield "a strip left out", [without(lines, at)], f"line {at + 1}"
     low, high = lines[-1]["share"]
     yield "an area shrunk", [changed(lines, len(lines) - 1, share=[low, 0.5 * (low + high)])], f"line {len(lines)}"
