@@ -1,6 +1,7 @@
 //! The commands: one table of names, and the programs that run them.
 
 use crate::check_builds;
+use crate::check_certificates;
 use crate::check_explorer;
 use crate::check_python;
 use crate::error::Error;
@@ -33,7 +34,7 @@ const BASINS: Option<Program> = Some(("hopper", Some("basins")));
 type Program = (&'static str, Option<&'static str>);
 
 /// All commands, in the order of the help.
-const TASKS: [Task; 20] = [
+const TASKS: [Task; 21] = [
     Task {
         name: "reproduce-paper",
         about: "Compute every figure and number of the paper, check every claim, write a report",
@@ -125,6 +126,11 @@ const TASKS: [Task; 20] = [
         program: None,
     },
     Task {
+        name: "check-certificates",
+        about: "Prove theorems, and check their certificates by a second program: needs Python and its package index",
+        program: None,
+    },
+    Task {
         name: "check-explorer",
         about: "Test the explorer in a headless Chromium: needs node, npm and Chromium",
         program: None,
@@ -170,6 +176,7 @@ fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
     match arguments.first().map(|argument| argument.to_string_lossy()) {
         None if task.name == "check-builds" => check_builds::run(),
         None if task.name == "check-python" => check_python::run(),
+        None if task.name == "check-certificates" => check_certificates::run(),
         None => tidy::run(),
         Some(option) if option == "--help" || option == "-h" => print(&format!(
             "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",

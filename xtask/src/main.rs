@@ -4,6 +4,7 @@
 //! is part of a program in `crates/`; `cargo xtask` builds that program and becomes it.
 
 mod check_builds;
+mod check_certificates;
 mod check_explorer;
 mod check_python;
 mod commands;

@@ -8,9 +8,11 @@
 //! | [`ProvedLine`] | the basins of a line of speeds, for all mass ratios of a strip |
 //! | [`proved_basins`], [`basins_at_every_mass_ratio`] | all basins at one M as intervals |
 //! | [`fixed_point`] | α*_n, enclosed |
+//! | [`Theorem`], [`Evidence`] | a statement with the steps of its proof, and the numbers with which another program checks it |
 
 mod basins;
 mod cell;
+mod certificate;
 mod error;
 mod fixed_points;
 mod hop;
@@ -20,6 +22,7 @@ mod traps;
 
 pub use basins::{basins_at_every_mass_ratio, proved_basins};
 pub use cell::Cell;
+pub use certificate::{BasinInterval, CERTIFICATE_VERSION, Evidence};
 pub use error::Error;
 pub use fixed_points::fixed_point;
 pub use hop::proved_images::ProvedImages;

@@ -97,6 +97,11 @@ impl ProvedLine {
         if inside.any(|(_, other)| other != label) { Cell::Cut } else { Cell::Open }
     }
 
+    /// The intervals, without the line.
+    pub(crate) fn into_intervals(self) -> Vec<(Interval, Label)> {
+        self.intervals
+    }
+
     /// The intervals from the lowest up.
     pub fn intervals(&self) -> &[(Interval, Label)] {
         &self.intervals
@@ -104,7 +109,7 @@ impl ProvedLine {
 }
 
 /// The traps that are proved, from α*_0 up to a speed.
-fn traps_up_to(strip: &Strip, top: f64) -> Result<Vec<(Interval, Label)>, Error> {
+pub(crate) fn traps_up_to(strip: &Strip, top: f64) -> Result<Vec<(Interval, Label)>, Error> {
     let mut traps = Vec::new();
     for n in 0..=index_below(top)? {
         // A trap that is not proved is left out; then more stays open.

@@ -15,6 +15,11 @@ const FILES: [&str; 4] = [
 /// The largest speed of the test. The enclosures reach further; rows beyond it have no fixed point with a label.
 const LARGEST_SPEED: f64 = 1e5;
 
+/// The image of a part may reach beyond that of the whole: by the rounding, relative to 1 + α′, and by a part of the width of the image, since
+/// mean value forms from other points are other bounds. In 300 000 boxes one image did so by more than the rounding, by 0.006 of the width.
+const ROUNDING: f64 = 1e-12;
+const OTHER_FORM: f64 = 0.05;
+
 #[test]
 fn every_decided_image_holds_the_reference() {
     let (mut decided, mut open) = (0, 0);
@@ -44,27 +49,40 @@ fn every_decided_image_holds_the_reference() {
     assert!(decided > 20 * open && decided > 2500, "{decided} decided, {open} open");
 }
 
-/// The images of single speeds of an interval, at single mass ratios of a strip, lie in the image of all.
+/// Boxes of the next test: `HOPPER_PROOF_BOXES`, or enough for seconds.
+fn boxes() -> u32 {
+    let wanted = std::env::var("HOPPER_PROOF_BOXES").ok().and_then(|text| text.parse().ok());
+    wanted.unwrap_or(12_000)
+}
+
+/// Boxes of one strip. The turns of a strip are found once.
+const BOXES_OF_A_STRIP: u32 = 20;
+
+/// The images of single speeds of an interval, at single mass ratios of a strip, lie in the image of all; and so does the image of a part of
+/// the interval.
 #[test]
 fn images_of_intervals_hold_those_of_their_speeds() {
     let part = |k: u32, step: f64| (f64::from(k) * step).fract();
-    let mut known = 0;
-    for k in 1..=3000u32 {
-        let ratio = 0.02 + 2.5 * part(k, 0.618_033_988_749_895).powi(2);
-        let width = 10f64.powi(-1 - (k % 9) as i32);
+    let (mut known, mut count) = (0, 0);
+    for strip_number in 1..=boxes().div_ceil(BOXES_OF_A_STRIP) {
+        let ratio = 0.02 + 2.5 * part(strip_number, 0.618_033_988_749_895).powi(2);
+        let width = 10f64.powi(-1 - (strip_number % 9) as i32);
         let strip = Strip::between(ratio, ratio * (1.0 + 0.01 * width)).unwrap();
         let images = ProvedImages::new(strip, 40.0).unwrap();
-        let low = 1.0 + 30.0 * part(k, 0.754_877_666_246_693);
         let end = |speed: f64| ImagedSpeed { speed, reached: images.of_speed(speed) };
-        let all = images.of_all_between(&end(low), &end(low + width));
-        known += u32::from(all != SpeedImage::Unknown);
-        for j in 0..8 {
-            let alpha = low + width * part(k + j, 0.569_840_290_998_053);
+        for j in 0..BOXES_OF_A_STRIP {
+            let k = strip_number.wrapping_mul(BOXES_OF_A_STRIP).wrapping_add(j);
+            count += 1;
+            let low = 1.0 + 30.0 * part(k, 0.754_877_666_246_693);
+            let all = images.of_all_between(&end(low), &end(low + width));
+            known += u32::from(all != SpeedImage::Unknown);
+            let place = |step: f64| low + width * part(k, step);
+            let alpha = place(0.569_840_290_998_053);
             let mass = strip.mass_ratios.low
-                + strip.mass_ratios.width() * 0.999 * part(k + j, 0.438_579_021_1);
+                + strip.mass_ratios.width() * 0.999 * part(k, 0.438_579_021_1);
             let image = map(mass).image(alpha).unwrap();
             match all {
-                SpeedImage::Unknown => {}
+                SpeedImage::Unknown => continue,
                 SpeedImage::Grounded => assert_eq!(image, None, "M = {mass}, α = {alpha}"),
                 SpeedImage::Within(low, high) => {
                     // The library's own image has an error of some ulps, more where F is small.
@@ -76,9 +94,20 @@ fn images_of_intervals_hold_those_of_their_speeds() {
                     );
                 }
             }
+            // Isotonic: a part has no image that the whole does not have, up to the rounding of another form.
+            let other = place(0.324_717_957_244_746);
+            let inner = images.of_all_between(&end(alpha.min(other)), &end(alpha.max(other)));
+            let holds = match (all, inner) {
+                (SpeedImage::Within(low, high), SpeedImage::Within(from, to)) => {
+                    let error = ROUNDING * (1.0 + high) + OTHER_FORM * (high - low);
+                    low - error <= from && to <= high + error
+                }
+                (all, inner) => all == inner || inner == SpeedImage::Unknown,
+            };
+            assert!(holds, "M = {mass}, [{alpha}, {other}]: {inner:?} {all:?}");
         }
     }
-    assert!(known > 2000, "{known}");
+    assert!(3 * known > 2 * count, "{known} of {count}");
 }
 
 /// An image of a narrow interval is at most some parts wider than the images of its ends: the median of the ratio is below 2.

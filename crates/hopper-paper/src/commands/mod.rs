@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 pub mod beyond_paper;
+mod certificates;
 mod claim_lines;
 mod figure_files;
 pub mod model_figures;

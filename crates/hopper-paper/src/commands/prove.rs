@@ -1,5 +1,6 @@
-//! `prove`: theorems about the basins, each by enclosures that are rounded outwards.
+//! `prove`: theorems about the basins, each by enclosures that are rounded outwards, with certificates.
 
+use super::certificates::write_certificate;
 use super::figure_files::write_figure;
 use crate::error::Error;
 use crate::figure::Figure;
@@ -30,7 +31,7 @@ pub struct Options {
     /// Strips of mass ratios in a column of cells: with more of them less area stays open
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     strips: u32,
-    /// Folder for pictures [default: target/proofs in the repository]
+    /// Folder for certificates and pictures [default: target/proofs in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
@@ -112,6 +113,8 @@ pub fn run(options: &Options) -> Result<(), Error> {
         let begin = Instant::now();
         let theorem = prove(name, options, &folder)?;
         print(&theorem, begin.elapsed().as_secs_f64())?;
+        let (path, bytes) = write_certificate(&theorem, &folder)?;
+        say(format_args!("{:8} certificate {}, {bytes} bytes", "", path.display()))?;
         if !theorem.is_proved() {
             open.push(name);
         }
@@ -176,7 +179,7 @@ fn points(
     let computed = basin_raster(grid, |_| ControlFlow::Continue(()))?;
     let labels = proved.counts().into_iter().map(|(label, _)| label).collect();
     write(name, window, &label_png(name, &proved)?, labels, folder)?;
-    Ok(points_theorem(name, &proved, &computed))
+    Ok(points_theorem(name, &proved, &computed)?)
 }
 
 /// Every cell of a figure: cells of one basin in its colour, cells that a boundary cuts in black, open ones in yellow.
@@ -206,7 +209,7 @@ fn cells(
     let mut labels: Vec<_> = found.areas.iter().map(|&(label, _)| label).collect();
     labels.push(hopper_basin::HopperFate::UNDECIDED);
     write(name, window, &png, labels, folder)?;
-    Ok(cells_theorem(name, &found, open))
+    Ok(cells_theorem(name, found, open)?)
 }
 
 fn write(

@@ -1,5 +1,6 @@
 //! Below the first crisis every speed from α*_1 up hops for ever.
 
+use crate::certificate::Evidence;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::{HopEnclosure, Part};
@@ -20,7 +21,8 @@ const LAST: u64 = 8;
 /// # Errors
 /// [`Error::Open`] if the crisis is not enclosed.
 pub fn everything_hops() -> Result<Theorem, Error> {
-    let crisis = Touch::new(1)?.mass_ratio();
+    let touch = Touch::new(1)?;
+    let crisis = touch.mass_ratio();
     let mut theorem = Theorem::new(
         "everything-hops",
         format!(
@@ -33,6 +35,11 @@ pub fn everything_hops() -> Result<Theorem, Error> {
     );
     let star = fixed_point(1).squared();
     let strip = Strip::at(crisis.high)?;
+    theorem.evidence.push(Evidence::Crisis {
+        n: 1,
+        mass_ratio: crisis,
+        speed: touch.speed.middle(),
+    });
     for n in 2..=LAST {
         let (begin, end) = (fixed_point(n).low, (PI * (n + 1) as f64).high);
         let mut least = f64::INFINITY;
@@ -41,7 +48,14 @@ pub fn everything_hops() -> Result<Theorem, Error> {
             // The ends lie some ulps beyond the contact part, where F is the same formula.
             let part = Enclosure::new(at(k), at(k + 1));
             let found = HopEnclosure::plain(part, Part::Contact(n), &strip);
-            least = least.min(found.map_or(f64::NEG_INFINITY, |hop| hop.square.low));
+            let bound = found.map_or(f64::NEG_INFINITY, |hop| hop.square.low);
+            least = least.min(bound);
+            theorem.evidence.push(Evidence::ContactPart {
+                n,
+                mass_ratio: crisis.high,
+                speeds: part,
+                least_square: bound,
+            });
         }
         theorem.step(
             format!("F ≥ α*_1² on the contact part of hump {n} at μ_c(1)"),
@@ -72,6 +86,12 @@ pub fn everything_hops() -> Result<Theorem, Error> {
         format!("{:.2} ≤ {:.2}", left.high, alpha.squared().low),
         left.high <= alpha.squared().low,
     );
+    theorem.evidence.push(Evidence::Losses {
+        multiple_of_pi: LAST + 1,
+        mass_ratio: crisis.high,
+        losses: left.high,
+        square: alpha.squared().low,
+    });
     theorem.step(
         "M_c(1) ≤ M₁: at most two flights a hop",
         format!("{} ≤ 0.9056", crisis.high),

@@ -1,5 +1,6 @@
 //! The fractions of the basins at one mass ratio.
 
+use crate::certificate::{BasinInterval, Evidence};
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::strip::Strip;
@@ -40,6 +41,8 @@ pub struct ProvedFractions {
     pub fractions: Vec<ProvedFraction>,
     /// The largest width of a fraction.
     pub width: f64,
+    /// The basins.
+    pub intervals: Vec<BasinInterval>,
 }
 
 /// The length of a basin between two speeds, from below.
@@ -108,7 +111,7 @@ impl ProvedFractions {
             .iter()
             .map(|found| found.uniform.width().max(found.by_humps.width()))
             .fold(0.0, f64::max);
-        Ok(ProvedFractions { mass_ratio, fractions, width })
+        Ok(ProvedFractions { mass_ratio, fractions, width, intervals: line.into_intervals() })
     }
 }
 
@@ -123,7 +126,15 @@ pub fn measures(cases: &[(f64, f64)]) -> Result<Theorem, Error> {
     );
     for &(mass_ratio, width) in cases {
         let found = ProvedFractions::new(mass_ratio, width)?;
+        let mass_ratios = Interval { left: mass_ratio, right: mass_ratio };
+        theorem.evidence.push(Evidence::Basins { mass_ratios, intervals: found.intervals });
         for ProvedFraction { label, uniform, by_humps } in &found.fractions {
+            theorem.evidence.push(Evidence::Fraction {
+                label: *label,
+                humps: HUMPS,
+                uniform: *uniform,
+                by_humps: *by_humps,
+            });
             theorem.step(
                 format!("M = {mass_ratio}, {}: to {width:e}", HopperFate::label_name(*label)),
                 format!(

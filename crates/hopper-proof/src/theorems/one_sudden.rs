@@ -1,5 +1,6 @@
 //! At most one sudden lift-off.
 
+use crate::certificate::Evidence;
 use crate::fixed_points::fixed_point;
 use crate::theorems::theorem::Theorem;
 use interval_arithmetic::Enclosure;
@@ -33,5 +34,11 @@ pub fn one_sudden() -> Theorem {
         format!("{} < {}", largest_sum.high, needed.low),
         largest_sum.high < needed.low,
     );
+    theorem.evidence.push(Evidence::OneSudden {
+        fixed_point: a,
+        largest_mass_ratio: largest.low,
+        available: largest_sum.high,
+        needed: needed.low,
+    });
     theorem
 }

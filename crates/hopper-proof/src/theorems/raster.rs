@@ -4,6 +4,7 @@
 //! divided into strips of mass ratios, and the basins of each strip are those of a [`ProvedLine`].
 
 use crate::cell::Cell;
+use crate::certificate::BasinInterval;
 use crate::error::Error;
 use crate::hop::proved_images::ProvedImages;
 use crate::hop::strip::Strip;
@@ -80,12 +81,15 @@ pub struct ProvedCells {
     pub cells: Vec<Cell>,
     /// The share of the window's area that each basin has, in the order of the labels.
     pub areas: Vec<(Label, Enclosure)>,
+    /// The strips of mass ratios, from the left, each with the basins at all its mass ratios.
+    pub strips: Vec<(Interval, Vec<BasinInterval>)>,
 }
 
 /// One column of cells: the cells upwards, and a lower bound of the area of each basin.
 struct Column {
     cells: Vec<Cell>,
     areas: Vec<(Label, f64)>,
+    strips: Vec<(Interval, Vec<BasinInterval>)>,
 }
 
 fn add_area(areas: &mut Vec<(Label, f64)>, label: Label, area: f64) {
@@ -103,7 +107,7 @@ fn column_of(
     strips: usize,
 ) -> Result<Column, Error> {
     let borders = PixelShares::edges(ratios, strips).map_err(hopper_basin::Error::from)?;
-    let mut areas = Vec::new();
+    let (mut areas, mut lines) = (Vec::new(), Vec::new());
     let mut cells: Vec<Option<Cell>> = vec![None; edges.len() - 1];
     for pair in borders.windows(2) {
         let strip = Strip::between(pair[0], pair[1])?;
@@ -126,8 +130,10 @@ fn column_of(
                 _ => Cell::Open,
             });
         }
+        lines.push((Interval { left: pair[0], right: pair[1] }, line.into_intervals()));
     }
-    Ok(Column { cells: cells.into_iter().map(|cell| cell.unwrap_or(Cell::Open)).collect(), areas })
+    let cells = cells.into_iter().map(|cell| cell.unwrap_or(Cell::Open)).collect();
+    Ok(Column { cells, areas, strips: lines })
 }
 
 impl ProvedCells {
@@ -165,7 +171,9 @@ impl ProvedCells {
             let area = Enclosure::new(area, (Enclosure::new(area, area) + open).high);
             (label, area / whole)
         };
-        Ok(ProvedCells { grid, cells, areas: sums.iter().map(share).collect() })
+        let areas = sums.iter().map(share).collect();
+        let strips = columns.into_iter().flat_map(|column| column.strips).collect();
+        Ok(ProvedCells { grid, cells, areas, strips })
     }
 
     /// The share of the cells that are open or cut.

@@ -1,8 +1,13 @@
 //! The statements that proved rasters make.
 
+use crate::cell::Cell;
+use crate::certificate::Evidence;
+use crate::error::Error;
+use crate::hop::strip::Strip;
+use crate::line::traps_up_to;
 use crate::theorems::raster::ProvedCells;
 use crate::theorems::theorem::Theorem;
-use basin_of_attraction::{Grid, LabelImage};
+use basin_of_attraction::{Grid, LabelImage, PixelShares};
 use hopper_basin::HopperFate;
 
 /// A window in words.
@@ -14,7 +19,14 @@ fn window(grid: &Grid) -> String {
 }
 
 /// Every point of a raster has the fate of its label. `computed` has the labels of [`hopper_basin::basin_raster`] for the same grid.
-pub fn points_theorem(name: &'static str, proved: &LabelImage, computed: &LabelImage) -> Theorem {
+///
+/// # Errors
+/// [`Error::MassRatios`] for a mass ratio of the raster that is none.
+pub fn points_theorem(
+    name: &'static str,
+    proved: &LabelImage,
+    computed: &LabelImage,
+) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         name,
         format!(
@@ -36,12 +48,24 @@ pub fn points_theorem(name: &'static str, proved: &LabelImage, computed: &LabelI
         format!("{other} differ"),
         other == 0,
     );
-    theorem
+    let grid = proved.grid;
+    theorem.evidence.push(Evidence::Grid(grid));
+    theorem.evidence.push(Evidence::Speeds((0..grid.rows).map(|row| grid.y_at(row)).collect()));
+    for column in 0..grid.columns {
+        let mass_ratio = grid.x_at(column);
+        let traps = traps_up_to(&Strip::at(mass_ratio)?, grid.y.right)?;
+        let labels = (0..grid.rows).map(|row| proved.labels[row * grid.columns + column]).collect();
+        theorem.evidence.push(Evidence::Points { mass_ratio, traps, labels });
+    }
+    Ok(theorem)
 }
 
 /// The area of each basin lies between two bounds, and every pixel that is coloured belongs to one basin as a whole. It is proved if at most
 /// `open` of the area is open.
-pub fn cells_theorem(name: &'static str, found: &ProvedCells, open: f64) -> Theorem {
+///
+/// # Errors
+/// [`Error::Raster`] for a raster without rows.
+pub fn cells_theorem(name: &'static str, found: ProvedCells, open: f64) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         name,
         format!(
@@ -66,5 +90,15 @@ pub fn cells_theorem(name: &'static str, found: &ProvedCells, open: f64) -> Theo
         ),
         area <= open,
     );
-    theorem
+    let grid = found.grid;
+    theorem.evidence.push(Evidence::Grid(grid));
+    let edges = PixelShares::edges(grid.y, grid.rows).map_err(hopper_basin::Error::from)?;
+    let of_one_basin = found.cells.iter().filter(|cell| matches!(cell, Cell::Basin(_))).count();
+    theorem.evidence.push(Evidence::Cells { edges, of_one_basin });
+    let strips = found.strips.into_iter();
+    let lines = strips.map(|(mass_ratios, intervals)| Evidence::Basins { mass_ratios, intervals });
+    theorem.evidence.extend(lines);
+    let areas = found.areas.into_iter();
+    theorem.evidence.extend(areas.map(|(label, share)| Evidence::Area { label, share }));
+    Ok(theorem)
 }

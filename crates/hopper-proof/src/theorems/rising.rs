@@ -1,5 +1,6 @@
 //! The map rises in its windows.
 
+use crate::certificate::Evidence;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::{HopEnclosure, Part};
@@ -29,9 +30,14 @@ pub fn rising(windows: &[(u64, f64)]) -> Result<Theorem, Error> {
         }
         let all = Strip::up_to(heaviest)?;
         let range = Enclosure::new((PI * n as f64).low, fixed_point(n).low - 0.9 * BY_THEOREM);
+        theorem.evidence.push(Evidence::RisingWindow {
+            n,
+            speeds: range,
+            largest_mass_ratio: heaviest,
+        });
         let mut boxes = 0;
         // There is no window 0.
-        let proved = n >= 1 && rises(range, n, &all, &mut boxes);
+        let proved = n >= 1 && rises(range, n, &all, &mut boxes, &mut theorem.evidence);
         theorem.step(
             format!("f rises on window {n} for M ≤ {heaviest}"),
             format!("{boxes} boxes of α and M"),
@@ -42,7 +48,13 @@ pub fn rising(windows: &[(u64, f64)]) -> Result<Theorem, Error> {
 }
 
 /// ∂F/∂α > 0 on a box, which is halved until an enclosure shows it.
-fn rises(alpha: Enclosure, n: u64, strip: &Strip, boxes: &mut usize) -> bool {
+fn rises(
+    alpha: Enclosure,
+    n: u64,
+    strip: &Strip,
+    boxes: &mut usize,
+    evidence: &mut Vec<Evidence>,
+) -> bool {
     let mut open = vec![(alpha, *strip)];
     while let Some((alpha, strip)) = open.pop() {
         *boxes += 1;
@@ -52,6 +64,7 @@ fn rises(alpha: Enclosure, n: u64, strip: &Strip, boxes: &mut usize) -> bool {
         let shown = HopEnclosure::plain(alpha, Part::Window(n), &strip)
             .is_some_and(|hop| hop.by_speed.is_positive());
         if shown {
+            evidence.push(Evidence::RisingBox { n, speeds: alpha, kappas: strip.kappa });
             continue;
         }
         // The longer side in the scale on which the slope changes.

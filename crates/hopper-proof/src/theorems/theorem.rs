@@ -1,5 +1,7 @@
 //! A statement with the steps of its proof.
 
+use crate::certificate::Evidence;
+
 /// One step of a proof: a claim that an enclosure decides.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Step {
@@ -20,12 +22,14 @@ pub struct Theorem {
     pub statement: String,
     /// The steps.
     pub steps: Vec<Step>,
+    /// The numbers with which another program can check the statement.
+    pub evidence: Vec<Evidence>,
 }
 
 impl Theorem {
     /// A statement without steps.
     pub(crate) fn new(name: &'static str, statement: impl Into<String>) -> Self {
-        Theorem { name, statement: statement.into(), steps: Vec::new() }
+        Theorem { name, statement: statement.into(), steps: Vec::new(), evidence: Vec::new() }
     }
 
     /// Adds a step.

@@ -1,5 +1,6 @@
 //! The ends of traps.
 
+use crate::certificate::Evidence;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::strip::Strip;
@@ -36,6 +37,7 @@ pub fn trap_edges(humps: u64, count: usize) -> Result<Theorem, Error> {
                 Some(outside) => widest = widest.max(outside - inside),
                 None => missing += 1,
             }
+            theorem.evidence.push(Evidence::trap(n, ratio, inside, outside));
         }
         theorem.step(
             format!("Δ_{n} is enclosed to {WIDTH:e} at {count} mass ratios from M_c({n}) to 1"),

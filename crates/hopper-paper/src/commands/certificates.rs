@@ -1,0 +1,113 @@
+//! Certificates as JSON lines: a header, and one line for each piece of evidence.
+//!
+//! docs/certificates.md tells the format. A change of a name or a meaning here is a new version of it.
+
+use crate::error::Error;
+use basin_of_attraction::Label;
+use hopper_basin::HopperFate;
+use hopper_proof::{BasinInterval, CERTIFICATE_VERSION, Evidence, Theorem};
+use repository_tools::Folder;
+use resumable_job::AtomicFile;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Writes NAME.jsonl into the folder: its path, and its size.
+pub(super) fn write_certificate(
+    theorem: &Theorem,
+    folder: &Folder,
+) -> Result<(PathBuf, usize), Error> {
+    let path = folder.path().join(format!("{}.jsonl", theorem.name));
+    let mut file = AtomicFile::create(&path)?;
+    let mut size = 0;
+    let lines = theorem.evidence.iter().map(line);
+    for value in std::iter::once(header(theorem)).chain(lines) {
+        let text = format!("{value}\n");
+        size += text.len();
+        file.append(text.as_bytes())?;
+    }
+    file.finish()?;
+    Ok((path, size))
+}
+
+fn header(theorem: &Theorem) -> Value {
+    json!({
+        "format": "passive hopper certificate",
+        "version": CERTIFICATE_VERSION,
+        "theorem": theorem.name,
+        "statement": theorem.statement,
+        "lines": theorem.evidence.len(),
+    })
+}
+
+/// The index of a fixed point, "grounded", or null for a speed without a proof.
+fn fate(label: Label) -> Value {
+    match label {
+        HopperFate::GROUNDED => json!("grounded"),
+        label => json!(label.basin_number()),
+    }
+}
+
+fn intervals(list: &[BasinInterval]) -> Vec<Value> {
+    list.iter().map(|(own, label)| json!([own.left, own.right, fate(*label)])).collect()
+}
+
+/// [fate, count] for each run of equal fates.
+fn runs(labels: &[Label]) -> Vec<Value> {
+    let equal = labels.chunk_by(|a, b| a == b);
+    equal.filter_map(|run| Some(json!([fate(*run.first()?), run.len()]))).collect()
+}
+
+fn line(evidence: &Evidence) -> Value {
+    match evidence {
+        Evidence::OneSudden { fixed_point, largest_mass_ratio, available, needed } => json!({
+            "kind": "one-sudden", "fixed_point": [fixed_point.low, fixed_point.high],
+            "largest_mass_ratio": largest_mass_ratio, "available": available, "needed": needed,
+        }),
+        Evidence::Trap { n, fixed_point, mass_ratio, right, beyond } => json!({
+            "kind": "trap", "n": n, "fixed_point": [fixed_point.low, fixed_point.high],
+            "mass_ratio": mass_ratio, "right": right, "beyond": beyond,
+        }),
+        Evidence::Crisis { n, mass_ratio, speed } => json!({
+            "kind": "crisis", "n": n, "mass_ratio": [mass_ratio.low, mass_ratio.high], "speed": speed,
+        }),
+        Evidence::ContactPart { n, mass_ratio, speeds, least_square } => json!({
+            "kind": "contact-part", "n": n, "mass_ratio": mass_ratio,
+            "speeds": [speeds.low, speeds.high], "least_square": least_square,
+        }),
+        Evidence::Losses { multiple_of_pi, mass_ratio, losses, square } => json!({
+            "kind": "losses", "multiple_of_pi": multiple_of_pi, "mass_ratio": mass_ratio,
+            "losses": losses, "square": square,
+        }),
+        Evidence::RisingWindow { n, speeds, largest_mass_ratio } => json!({
+            "kind": "rising-window", "n": n, "speeds": [speeds.low, speeds.high],
+            "largest_mass_ratio": largest_mass_ratio,
+        }),
+        Evidence::RisingBox { n, speeds, kappas } => json!({
+            "kind": "rising-box", "n": n, "speeds": [speeds.low, speeds.high],
+            "kappas": [kappas.low, kappas.high],
+        }),
+        Evidence::Basins { mass_ratios, intervals: list } => json!({
+            "kind": "basins", "mass_ratios": [mass_ratios.left, mass_ratios.right],
+            "intervals": intervals(list),
+        }),
+        Evidence::Fraction { label, humps, uniform, by_humps } => json!({
+            "kind": "fraction", "fate": fate(*label), "humps": humps,
+            "uniform": [uniform.low, uniform.high], "by_humps": [by_humps.low, by_humps.high],
+        }),
+        Evidence::Grid(grid) => json!({
+            "kind": "grid", "mass_ratios": [grid.x.left, grid.x.right],
+            "speeds": [grid.y.left, grid.y.right], "columns": grid.columns, "rows": grid.rows,
+        }),
+        Evidence::Speeds(speeds) => json!({ "kind": "speeds", "speeds": speeds }),
+        Evidence::Points { mass_ratio, traps, labels } => json!({
+            "kind": "points", "mass_ratio": mass_ratio, "traps": intervals(traps),
+            "fates": runs(labels),
+        }),
+        Evidence::Area { label, share } => json!({
+            "kind": "area", "fate": fate(*label), "share": [share.low, share.high],
+        }),
+        Evidence::Cells { edges, of_one_basin } => json!({
+            "kind": "cells", "edges": edges, "of_one_basin": of_one_basin,
+        }),
+    }
+}

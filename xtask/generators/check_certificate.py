@@ -1,0 +1,116 @@
+"""Checks certificates of `cargo xtask prove`: python check_certificate.py [--sample N] [--seed S] FILE...
+
+The format is that of docs/certificates.md. Every line is read, and what joins the lines is checked: their number, that strips and boxes
+leave no gap, the sums of lengths and areas. Each claim (an interval, a point, a box, a trap) is then confirmed in ball arithmetic, or with
+--sample a random choice of so many claims of a file. The exit status is 0 if all is confirmed. Otherwise it is 1, and the first line that
+is not confirmed is named with the reason.
+"""
+
+import argparse
+import json
+import random
+import sys
+import time
+
+from flint import ctx
+
+from ball_basins import BITS, Refuted, Unconfirmed
+from ball_hops import Undecided
+from claims import KINDS
+from whole_theorems import WHOLE
+
+FORMAT, VERSION = "passive hopper certificate", 1
+
+
+def lines_of(path):
+    """The header, then (number of the line, object)."""
+    with open(path, encoding="utf-8") as file:
+        for number, text in enumerate(file, 1):
+            try:
+                line = json.loads(text)
+            except ValueError as error:
+                raise Refuted(f"line {number}: no JSON ({error})")
+            if not isinstance(line, dict):
+                raise Refuted(f"line {number}: no object")
+            yield number, line
+
+
+def read_header(lines):
+    _, header = next(lines, (1, {}))
+    if header.get("format") != FORMAT or header.get("version") != VERSION:
+        raise Refuted(f"line 1: no certificate of version {VERSION}")
+    if header.get("theorem") not in WHOLE:
+        raise Refuted(f"line 1: no theorem {header.get('theorem')!r}")
+    return header
+
+
+def guarded(number, action, *arguments):
+    """`action`, whose errors then name the line."""
+    try:
+        return action(*arguments)
+    except (Refuted, Unconfirmed, Undecided) as error:
+        raise type(error)(f"line {number}: {error}")
+    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+        raise Refuted(f"line {number}: a field is missing or wrong ({type(error).__name__}: {error})")
+
+
+def check(path, sample, seed):
+    """A sentence about the file. Raises an error for the first line that is not confirmed."""
+    lines = lines_of(path)
+    header = read_header(lines)
+    whole = WHOLE[header["theorem"]]()
+    counts = []
+    for number, line in lines:
+        kind = KINDS.get(line.get("kind"))
+        if kind is None or line["kind"] not in whole.KINDS:
+            raise Refuted(f"line {number}: no line of kind {line.get('kind')!r} belongs to {header['theorem']}")
+        guarded(number, whole.add, line)
+        counts.append(guarded(number, kind.count, line))
+    if len(counts) != header.get("lines"):
+        raise Refuted(f"line {len(counts) + 1}: {len(counts)} lines follow the header, which says {header.get('lines')}")
+    guarded(len(counts) + 1, whole.end)
+    total = sum(counts)
+    chosen = None if sample is None or sample >= total else sorted(random.Random(seed).sample(range(total), sample))
+    confirmed, before, shared = 0, 0, {}
+    lines = lines_of(path)
+    next(lines)
+    at = 0
+    for (number, line), count in zip(lines, counts):
+        if chosen is None:
+            wanted = range(count)
+        else:
+            first = at
+            while at < len(chosen) and chosen[at] < before + count:
+                at += 1
+            wanted = [choice - before for choice in chosen[first:at]]
+        before += count
+        # A line may prepare what those after it need.
+        guarded(number, KINDS[line["kind"]].confirm, line, wanted, shared)
+        confirmed += len(wanted)
+    return f"{header['theorem']}: {confirmed} of {total} claims confirmed; {whole.summary()}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--sample", type=int, metavar="N", help="confirm so many random claims of each file [default: all]")
+    parser.add_argument("--seed", type=int, default=1, metavar="S", help="of the random choice [default: 1]")
+    parser.add_argument("files", nargs="+", metavar="FILE")
+    options = parser.parse_args()
+    ctx.prec = BITS
+    failed = False
+    for path in options.files:
+        begin = time.time()
+        try:
+            print(f"confirmed {check(path, options.sample, options.seed)}; {time.time() - begin:.1f} s", flush=True)
+        except (Refuted, Unconfirmed, Undecided) as error:
+            word = "refuted" if isinstance(error, Refuted) else "not confirmed"
+            print(f"{word:9} {path}, {error}", flush=True)
+            failed = True
+        except OSError as error:
+            print(f"unreadable {path}: {error}", flush=True)
+            failed = True
+    return int(failed)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

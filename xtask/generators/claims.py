@@ -1,0 +1,235 @@
+"""The kinds of lines of a certificate: how many claims a line has, and how each is confirmed."""
+
+import math
+
+from flint import arb
+
+from ball_basins import Basins, Refuted, Unconfirmed, GROUNDED, orbit_fate, star
+from ball_hops import Hop, Undecided, parameter, square_bounds
+
+# Most halvings of a part of a hump, and of a box.
+MOST_PARTS = 20000
+
+
+def pair(values):
+    """Two numbers in order, as exact f64."""
+    low, high = map(float, values)
+    if not -math.inf < low <= high < math.inf:
+        raise Refuted(f"[{low!r}, {high!r}] is no interval")
+    return low, high
+
+
+def fate_of(value):
+    """n or "grounded"."""
+    if value == GROUNDED or (isinstance(value, int) and value >= 0):
+        return value
+    raise Refuted(f"{value!r} is no fate")
+
+
+def intervals(line, key):
+    return [(float(left), float(right), fate_of(fate)) for left, right, fate in line[key]]
+
+
+def encloses(values, ball, what):
+    low, high = pair(values)
+    if not (low < ball and ball < high):
+        raise Refuted(f"{what} is not in [{low!r}, {high!r}]")
+
+
+class Kind:
+    """A kind with one claim a line."""
+
+    @staticmethod
+    def count(line):
+        return 1
+
+    @classmethod
+    def confirm(cls, line, wanted, shared):
+        if wanted:
+            cls.check(line)
+
+
+class Given(Kind):
+    """A line that `whole_theorems.py` checks as a whole."""
+
+    @staticmethod
+    def count(line):
+        return 0
+
+    @staticmethod
+    def check(line):
+        pass
+
+
+class OneSudden(Kind):
+    @staticmethod
+    def check(line):
+        a = star(1)
+        encloses(line["fixed_point"], a, "alpha*_1")
+        if not arb(line["largest_mass_ratio"]) <= -(2 * a).cos():
+            raise Refuted("the largest mass ratio is too large")
+        # V + Y/a of a flight that lasts a: from G(a) = 0, with tan a = a.
+        needed = a * a / 2 / (a - a.sin())
+        if not (1 / a <= line["available"] < line["needed"] <= needed):
+            raise Refuted("the two sides of the inequality are not as said")
+
+
+class Trap(Kind):
+    @staticmethod
+    def check(line):
+        n, mass_ratio, right = line["n"], float(line["mass_ratio"]), float(line["right"])
+        encloses(line["fixed_point"], star(n), f"alpha*_{n}")
+        if not arb(right) < (n + 1) * arb.pi():
+            raise Refuted("the trap is longer than the contact part")
+        Basins(mass_ratio, mass_ratio, [(float(line["fixed_point"][1]), right, n)]).confirm(0)
+        if line["beyond"] is not None and not square_at(line["beyond"], mass_ratio) < star(n) ** 2:
+            raise Refuted(f"the speed {line['beyond']!r} beyond the trap does not fall below alpha*_{n}")
+
+
+class Crisis(Kind):
+    @staticmethod
+    def check(line):
+        n, (low, high) = line["n"], pair(line["mass_ratio"])
+        contact_end = (n + 1) * arb.pi()
+        end = float(contact_end.lower())
+        while not arb(end) < contact_end:
+            end = math.nextafter(end, 0)
+        # Up to the last f64 of the contact part, and from there to its end.
+        Basins(low, low, [(math.nextafter(float(star(n)), math.inf), end, n)]).confirm(0)
+        last = Hop(arb(end).union(contact_end), parameter(low), derivatives=False).square
+        if not last > star(n) ** 2:
+            raise Unconfirmed(f"f > alpha*_{n} at {n + 1} pi")
+        if not square_at(line["speed"], high) < star(n) ** 2:
+            raise Refuted(f"the speed {line['speed']!r} does not fall below alpha*_{n} at M = {high!r}")
+
+
+def square_at(speed, mass_ratio):
+    return Hop(arb(speed), parameter(mass_ratio), derivatives=False).square
+
+
+class ContactPart(Kind):
+    @staticmethod
+    def check(line):
+        kappa = parameter(line["mass_ratio"])
+        wanted, work = arb(line["least_square"]), [tuple(map(arb, pair(line["speeds"])))]
+        for _ in range(MOST_PARTS):
+            if not work:
+                return
+            low, high = work.pop()
+            try:
+                bounds = square_bounds((low, high), (kappa, kappa))
+                if bounds[0] >= wanted:
+                    continue
+                if bounds[1] < wanted:
+                    raise Refuted(f"f^2 is below {line['least_square']!r} at {float(low)!r}")
+            except Undecided:
+                pass
+            middle = ((low + high) / 2).mid()
+            work += [(low, middle), (middle, high)]
+        raise Unconfirmed(f"f^2 >= {line['least_square']!r}")
+
+
+class Losses(Kind):
+    @staticmethod
+    def check(line):
+        """Lemma 32: a flight from (Y, V) with R = |(Y, V)| and B^2 = V^2 + 2 (Y + R) has a closing speed of at most R + B."""
+        alpha = line["multiple_of_pi"] * arb.pi()
+        kappa = parameter(line["mass_ratio"])
+        y, v, total = arb(1), alpha, arb(0)
+        for _ in range(2):
+            r = (y * y + v * v).sqrt()
+            b = (v * v + 2 * (y + r)).sqrt()
+            total += (r + b) ** 2
+            y, v = r, max(r.upper(), b.upper())
+        left = kappa * (1 - kappa) * total + star(1) ** 2
+        if not (left <= line["losses"] <= line["square"] <= alpha**2):
+            raise Refuted("the two sides of the inequality are not as said")
+
+
+class RisingBox(Kind):
+    @staticmethod
+    def check(line):
+        work = [(*pair(line["speeds"]), *pair(line["kappas"]))]
+        for _ in range(MOST_PARTS):
+            if not work:
+                return
+            low, high, first, last = work.pop()
+            alpha, kappa = arb(low).union(arb(high)), arb(first).union(arb(last))
+            try:
+                by_alpha = Hop(alpha, kappa, in_window=True).by_alpha
+                if by_alpha is not None and by_alpha > 0:
+                    continue
+            except Undecided:
+                pass
+            if high - low >= last - first:
+                middle = 0.5 * (low + high)
+                parts = (low, middle, first, last), (middle, high, first, last)
+            else:
+                middle = 0.5 * (first + last)
+                parts = (low, high, first, middle), (low, high, middle, last)
+            if middle in (low, high, first, last):
+                break
+            work += parts
+        raise Unconfirmed("f rises on the box")
+
+
+class BasinLines(Kind):
+    """One claim for each interval."""
+
+    @staticmethod
+    def count(line):
+        return len(line["intervals"])
+
+    @staticmethod
+    def confirm(line, wanted, shared):
+        if wanted:
+            basins = Basins(*pair(line["mass_ratios"]), intervals(line, "intervals"))
+            for at in wanted:
+                basins.confirm(at)
+
+
+class Speeds(Given):
+    @staticmethod
+    def confirm(line, wanted, shared):
+        shared["speeds"] = line["speeds"]
+
+
+class Points(Kind):
+    """One claim for each speed; the traps of the column are confirmed with the first one."""
+
+    @staticmethod
+    def count(line):
+        return sum(count for _, count in line["fates"])
+
+    @staticmethod
+    def confirm(line, wanted, shared):
+        if not wanted:
+            return
+        mass_ratio = float(line["mass_ratio"])
+        traps = Basins(mass_ratio, mass_ratio, intervals(line, "traps"))
+        for at in range(len(traps.intervals)):
+            traps.confirm(at)
+        fates = [fate_of(fate) for fate, count in line["fates"] for _ in range(count)]
+        for at in wanted:
+            speed = shared["speeds"][at]
+            found, _ = orbit_fate(speed, mass_ratio, traps)
+            if found != fates[at]:
+                raise Refuted(f"the speed {speed!r} has the fate {found!r}, not {fates[at]!r}")
+
+
+KINDS = {
+    "one-sudden": OneSudden,
+    "trap": Trap,
+    "crisis": Crisis,
+    "contact-part": ContactPart,
+    "losses": Losses,
+    "rising-window": Given,
+    "rising-box": RisingBox,
+    "basins": BasinLines,
+    "fraction": Given,
+    "grid": Given,
+    "speeds": Speeds,
+    "points": Points,
+    "area": Given,
+    "cells": Given,
+}

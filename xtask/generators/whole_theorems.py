@@ -1,0 +1,378 @@
+"""What joins the lines of a certificate: no line may be missing, strips and boxes leave no gap, and sums are as said.
+
+Each theorem has a class: the kinds of lines that it may have, `add` for each line, `end` after the last, and a summary of what its claims
+together prove.
+"""
+
+from bisect import bisect_right
+
+from flint import arb
+
+from ball_basins import GROUNDED, Basins, Refuted, star
+from ball_hops import parameter
+from claims import fate_of, intervals, pair
+
+# Traps end so near a speed that falls below alpha*_n, and crises are enclosed so narrowly.
+TRAP_WIDTH, CRISIS_WIDTH = 4e-12, 1e-13
+# Theorem 81 proves that f rises so far left of alpha*_n, for M <= 1.
+RISES_TO_STAR = "0.0586"
+# The middle of a pixel may be rounded so much.
+ROUNDING = 1e-12
+
+
+def require(holds, reason):
+    if not holds:
+        raise Refuted(reason)
+
+
+class Whole:
+    KINDS = ()
+
+    def __init__(self):
+        self.lines = 0
+
+    def add(self, line):
+        self.lines += 1
+        getattr(self, "add_" + line["kind"].replace("-", "_"))(line)
+
+    def end(self):
+        require(self.lines > 0, "no lines")
+
+
+class OneSudden(Whole):
+    KINDS = ("one-sudden",)
+
+    def add_one_sudden(self, line):
+        require(self.lines == 1, "a second line")
+        self.largest = line["largest_mass_ratio"]
+
+    def summary(self):
+        return f"at most one sudden lift-off for M <= {self.largest!r} (with Theorem 20)"
+
+
+class Humps(Whole):
+    """One line for each n from 1."""
+
+    def next(self, line):
+        require(line["n"] == self.lines, f"n = {line['n']!r} after {self.lines - 1} lines")
+
+
+class OneSided(Humps):
+    KINDS = ("trap",)
+
+    def add_trap(self, line):
+        self.next(line)
+        require(line["mass_ratio"] == 1, "not at M = 1, where traps are shortest")
+
+    def summary(self):
+        return f"traps at all M for n = 1 to {self.lines} (with Corollary 30)"
+
+
+class Crises(Humps):
+    KINDS = ("crisis",)
+
+    def add_crisis(self, line):
+        self.next(line)
+        low, high = pair(line["mass_ratio"])
+        require(high < 1 and high - low <= CRISIS_WIDTH, "the mass ratio is not enclosed to 1e-13")
+
+    def summary(self):
+        return f"M_c(n) for n = 1 to {self.lines}"
+
+
+class Traps(Whole):
+    KINDS = ("trap",)
+
+    def __init__(self):
+        super().__init__()
+        self.counts = []
+
+    def add_trap(self, line):
+        n = line["n"]
+        if n == len(self.counts) + 1:
+            self.counts.append(0)
+            self.last = 0.0
+        require(n == len(self.counts) and n > 0, f"n = {n!r} is out of order")
+        require(self.last < line["mass_ratio"] <= 1, "the mass ratios do not rise to 1")
+        self.last = line["mass_ratio"]
+        self.counts[-1] += 1
+        require(line["beyond"] is not None, "no speed beyond the trap")
+        require(0 < line["beyond"] - line["right"] <= TRAP_WIDTH, "the end is not enclosed to 4e-12")
+
+    def end(self):
+        super().end()
+        require(len(set(self.counts)) == 1, f"humps have {self.counts} mass ratios")
+
+    def summary(self):
+        return f"ends of traps at {self.counts[0]} mass ratios for n = 1 to {len(self.counts)}"
+
+
+class EverythingHops(Whole):
+    KINDS = ("crisis", "contact-part", "losses")
+
+    def __init__(self):
+        super().__init__()
+        self.mass_ratio = self.losses = None
+        self.hump, self.reached = 1, None
+
+    def add_crisis(self, line):
+        require(self.lines == 1 and line["n"] == 1, "the crisis of hump 1 comes first")
+        self.mass_ratio = pair(line["mass_ratio"])[1]
+
+    def add_contact_part(self, line):
+        low, high = pair(line["speeds"])
+        require(line["mass_ratio"] == self.mass_ratio, "not at the crisis")
+        require(arb(line["least_square"]) >= star(1) ** 2, "the bound is below alpha*_1^2")
+        if line["n"] == self.hump + 1:
+            self.end_of_hump()
+            self.hump, self.reached = line["n"], None
+            require(low <= star(self.hump), f"hump {self.hump} begins too late")
+        require(line["n"] == self.hump and self.reached in (None, low), "a gap between parts")
+        self.reached = high
+
+    def end_of_hump(self):
+        if self.hump > 1:
+            require(arb(self.reached) >= (self.hump + 1) * arb.pi(), f"hump {self.hump} ends too early")
+
+    def add_losses(self, line):
+        self.losses = line["multiple_of_pi"]
+        require(line["mass_ratio"] == self.mass_ratio, "not at the crisis")
+
+    def end(self):
+        super().end()
+        self.end_of_hump()
+        require(self.losses == self.hump + 1, "the bound on losses does not begin where the humps end")
+
+    def summary(self):
+        return f"f >= alpha*_1 on contact parts 1 to {self.hump} and beyond for M <= {self.mass_ratio!r} (windows by `rising`; Lemma 32)"
+
+
+class Rising(Whole):
+    KINDS = ("rising-window", "rising-box")
+
+    def __init__(self):
+        super().__init__()
+        self.windows = []
+
+    def add_rising_window(self, line):
+        n, (low, high) = line["n"], pair(line["speeds"])
+        require(0 < line["largest_mass_ratio"] <= 1, "Theorem 81 has this range for M <= 1")
+        require(low <= n * arb.pi() and arb(high) >= star(n) - arb(RISES_TO_STAR), "the window is not whole")
+        self.windows.append((n, line["largest_mass_ratio"], (low, high), []))
+
+    def add_rising_box(self, line):
+        n, _, _, boxes = self.windows[-1]
+        require(line["n"] == n, f"a box of window {line['n']!r}")
+        boxes.append((*pair(line["speeds"]), *pair(line["kappas"])))
+
+    def end(self):
+        super().end()
+        for n, largest, (low, high), boxes in self.windows:
+            last = max(box[3] for box in boxes)
+            require(arb(last) >= parameter(largest), f"window {n} is not covered up to M = {largest!r}")
+            gap = uncovered((low, high, 0.0, last), boxes)
+            require(gap is None, f"the boxes of window {n} leave a gap: speeds {gap and gap[:2]}, kappa {gap and gap[2:]}")
+
+    def summary(self):
+        return f"f rises in windows {', '.join(str(n) for n, *_ in self.windows)} (next to alpha*_n by Theorem 81)"
+
+
+def uncovered(region, boxes):
+    """A part of a rectangle that no box contains; None if there is none."""
+    work = [(region, boxes)]
+    while work:
+        (a, b, c, d), boxes = work.pop()
+        if any(p <= a and b <= q and r <= c and d <= s for p, q, r, s in boxes):
+            continue
+        inside = [box for box in boxes if box[0] < b and a < box[1] and box[2] < d and c < box[3]]
+        across = sorted(x for box in inside for x in box[:2] if a < x < b)
+        along = sorted(x for box in inside for x in box[2:] if c < x < d)
+        if not across and not along:
+            return (a, b, c, d)
+        if len(across) >= len(along):
+            cut = across[len(across) // 2]
+            work += [((a, cut, c, d), inside), ((cut, b, c, d), inside)]
+        else:
+            cut = along[len(along) // 2]
+            work += [((a, b, c, cut), inside), ((a, b, cut, d), inside)]
+    return None
+
+
+def implied(claimed, lengths, fate, whole):
+    """The share of `fate` is between what is known of it, and that with all that is open."""
+    low, high = map(arb, claimed)
+    open_length = whole - sum(lengths.values(), arb(0))
+    own = lengths.get(fate, arb(0))
+    require(low * whole <= own and own + open_length <= high * whole, f"the intervals do not show the share of {fate!r}")
+
+
+class Measures(Whole):
+    KINDS = ("basins", "fraction")
+
+    def __init__(self):
+        super().__init__()
+        self.mass_ratios, self.list, self.wanted = [], None, set()
+
+    def add_basins(self, line):
+        self.complete()
+        low, high = pair(line["mass_ratios"])
+        require(low == high, "a strip of mass ratios")
+        self.mass_ratios.append(low)
+        self.list = intervals(line, "intervals")
+        Basins(low, high, self.list)
+        self.wanted, self.humps = None, None
+
+    def add_fraction(self, line):
+        fate, humps = fate_of(line["fate"]), line["humps"]
+        if self.wanted is None:
+            self.measure(humps)
+        require(fate in self.wanted and humps == self.humps, f"the share of {fate!r} is out of order")
+        self.wanted.remove(fate)
+        whole = [star(n + 1) - star(n) for n in range(1, humps + 1)]
+        together = {}
+        for of_hump in self.lengths:
+            for key, length in of_hump.items():
+                together[key] = together.get(key, arb(0)) + length
+        implied(line["uniform"], together, fate, sum(whole, arb(0)))
+        shares = [{key: length / part for key, length in of_hump.items()} for of_hump, part in zip(self.lengths, whole)]
+        means = {key: sum((of_hump.get(key, arb(0)) for of_hump in shares), arb(0)) / humps for key in together}
+        implied(line["by_humps"], means, fate, arb(1))
+
+    def measure(self, humps):
+        """The length of each fate on each hump."""
+        self.humps, self.wanted = humps, {*range(humps + 1), GROUNDED}
+        self.lengths = [{} for _ in range(humps)]
+        lengths_between([star(n) for n in range(1, humps + 2)], self.list, self.lengths)
+
+    def complete(self):
+        require(not self.wanted and self.wanted is not None, f"no share of {self.wanted or 'any fate'}")
+
+    def end(self):
+        super().end()
+        self.complete()
+
+    def summary(self):
+        return f"fractions at M = {', '.join(map(repr, self.mass_ratios))}"
+
+
+def lengths_between(edges, intervals, lengths):
+    """Adds the length of each interval between neighbouring edges to the dictionaries of fates."""
+    for left, right, fate in intervals:
+        for (first, last), of_part in zip(zip(edges, edges[1:]), lengths):
+            if right > first and left < last:
+                low = left if left > first else first
+                high = right if right < last else last
+                of_part[fate] = of_part.get(fate, arb(0)) + (arb(high) - arb(low))
+
+
+class Raster(Whole):
+    """A grid, and its columns from the left."""
+
+    def __init__(self):
+        super().__init__()
+        self.grid = None
+
+    def add_grid(self, line):
+        require(self.lines == 1, "the grid comes first")
+        self.grid = line
+        self.ratios, self.speeds = pair(line["mass_ratios"]), pair(line["speeds"])
+
+    def name(self):
+        return f"M from {self.ratios[0]!r} to {self.ratios[1]!r}, speeds from {self.speeds[0]!r} to {self.speeds[1]!r}"
+
+
+class RasterPoints(Raster):
+    KINDS = ("grid", "speeds", "points")
+
+    def __init__(self):
+        super().__init__()
+        self.columns = 0
+
+    def is_middle(self, value, ends, at, count):
+        wanted = ends[0] + (ends[1] - ends[0]) * ((at + 0.5) / count)
+        require(abs(value - wanted) <= ROUNDING * abs(wanted), f"{value!r} is not in the middle of a pixel")
+
+    def add_speeds(self, line):
+        require(self.lines == 2 and len(line["speeds"]) == self.grid["rows"], "not one speed for each row")
+        for row, speed in enumerate(line["speeds"]):
+            self.is_middle(speed, self.speeds, row, self.grid["rows"])
+
+    def add_points(self, line):
+        require(sum(count for _, count in line["fates"]) == self.grid["rows"], "not one fate for each row")
+        self.is_middle(line["mass_ratio"], self.ratios, self.columns, self.grid["columns"])
+        for fate, _ in line["fates"]:
+            fate_of(fate)
+        self.columns += 1
+
+    def end(self):
+        require(self.grid and self.columns == self.grid["columns"], f"{self.columns} columns")
+
+    def summary(self):
+        return f"{self.grid['columns']} x {self.grid['rows']} points, {self.name()}"
+
+
+class RasterCells(Raster):
+    KINDS = ("grid", "cells", "basins", "area")
+
+    def __init__(self):
+        super().__init__()
+        self.strips, self.lengths, self.areas = [], [{}], set()
+
+    def add_cells(self, line):
+        self.edges, self.claimed = line["edges"], line["of_one_basin"]
+        require(self.lines == 2 and len(self.edges) == self.grid["rows"] + 1, "not one edge for each row")
+        require((self.edges[0], self.edges[-1]) == self.speeds, "the rows do not end at the window")
+        require(all(a < b for a, b in zip(self.edges, self.edges[1:])), "the edges do not rise")
+
+    def add_basins(self, line):
+        low, high = pair(line["mass_ratios"])
+        before = self.strips[-1][1] if self.strips else self.ratios[0]
+        require(low == before and high > low, f"a gap between strips at M = {before!r}")
+        own = intervals(line, "intervals")
+        Basins(low, high, own)
+        lengths = [{}]
+        lengths_between(list(map(arb, self.speeds)), own, lengths)
+        for fate, length in lengths[0].items():
+            self.lengths[0][fate] = self.lengths[0].get(fate, arb(0)) + length * (arb(high) - arb(low))
+        lefts = [left for left, _, _ in own]
+        fates = []
+        for low_edge, high_edge in zip(self.edges, self.edges[1:]):
+            at = bisect_right(lefts, low_edge) - 1
+            fates.append(own[at][2] if at >= 0 and high_edge <= own[at][1] else None)
+        self.strips.append((low, high, fates))
+
+    def add_area(self, line):
+        fate = fate_of(line["fate"])
+        require(fate not in self.areas, f"a second area of {fate!r}")
+        self.areas.add(fate)
+        whole = (arb(self.ratios[1]) - arb(self.ratios[0])) * (arb(self.speeds[1]) - arb(self.speeds[0]))
+        implied(line["share"], self.lengths[0], fate, whole)
+
+    def end(self):
+        columns, strips = self.grid["columns"], len(self.strips)
+        require(strips and self.strips[-1][1] == self.ratios[1], "the strips end before the window")
+        require(strips % columns == 0, f"{strips} strips in {columns} columns")
+        require(self.areas == set(self.lengths[0]), "not one area for each fate")
+        each, count = strips // columns, 0
+        for column in range(columns):
+            together = zip(*(fates for _, _, fates in self.strips[column * each : (column + 1) * each]))
+            count += sum(first is not None and all(fate == first for fate in rest) for first, *rest in together)
+        require(count == self.claimed, f"{count} cells lie in intervals of one fate, not {self.claimed}")
+
+    def summary(self):
+        return f"{self.claimed} of {self.grid['columns'] * self.grid['rows']} cells, and areas, {self.name()}"
+
+
+WHOLE = {
+    "one-sudden": OneSudden,
+    "one-sided": OneSided,
+    "crisis": Crises,
+    "traps": Traps,
+    "everything-hops": EverythingHops,
+    "rising": Rising,
+    "measures": Measures,
+    "fig6-points": RasterPoints,
+    "fig9-points": RasterPoints,
+    "fig6-cells": RasterCells,
+    "fig9-cells": RasterCells,
+}
