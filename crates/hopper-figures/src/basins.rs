@@ -61,20 +61,25 @@ pub fn draw_pixels(window: &Window, pixels: &[u8], labels: impl Iterator<Item = 
     svg
 }
 
-/// The legend, with one entry for each colour: fixed points beyond the last colour share it. Returns where the next entry begins.
+/// The right end of a legend, and the width of its last entry.
+const LEGEND_END: f64 = 576.0;
+const LAST_ENTRY: f64 = 74.0;
+
+/// The legend, with one entry for each colour: fixed points beyond the last colour share it. Many entries move together. Returns where the
+/// next entry begins.
 pub fn legend(svg: &mut Svg, left: f64, labels: impl Iterator<Item = Label>) -> f64 {
+    let mut entries: Vec<Label> = labels.collect();
+    entries.dedup_by_key(|label| fate_colors::css(*label));
+    let step = |label: &Label| if HopperFate::is_incessant(*label) { 58.0 } else { 84.0 };
+    let before_last = &entries[..entries.len().saturating_sub(1)];
+    let width = before_last.iter().map(step).sum::<f64>() + LAST_ENTRY;
+    let narrower = ((LEGEND_END - left) / width).min(1.0);
     let mut x = left;
-    let mut last = "";
-    for label in labels {
-        let color = fate_colors::css(label);
-        if color == last {
-            continue;
-        }
-        last = color;
-        svg.fill_rect(x, 18.0, 12.0, 12.0, color);
+    for label in &entries {
+        svg.fill_rect(x, 18.0, 12.0, 12.0, fate_colors::css(*label));
         svg.rect(x, 18.0, 12.0, 12.0, Pen::solid("#000", 0.6));
-        svg.text(x + 17.0, 28.5, Anchor::Start, 11.5, &fate_colors::name(label));
-        x += if HopperFate::is_incessant(label) { 58.0 } else { 84.0 };
+        svg.text(x + 17.0, 28.5, Anchor::Start, 11.5, &fate_colors::name(*label));
+        x += narrower * step(label);
     }
     x
 }

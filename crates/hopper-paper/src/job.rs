@@ -28,7 +28,18 @@ impl Job {
         count: usize,
         row: impl Fn(usize) -> Result<Vec<f64>, Error>,
     ) -> Result<Vec<Vec<f64>>, Error> {
-        let kept = Pieces::open(&self.scans.join(name), name)?;
+        self.scan_with(name, name, count, row)
+    }
+
+    /// The same, for rows that depend on parameters: `scan` has the name and all of them, and `name` is shown.
+    pub(crate) fn scan_with(
+        &self,
+        name: &'static str,
+        scan: &str,
+        count: usize,
+        row: impl Fn(usize) -> Result<Vec<f64>, Error>,
+    ) -> Result<Vec<Vec<f64>>, Error> {
+        let kept = Pieces::open(&self.scans.join(scan), scan)?;
         let bar = Progress.bar(name, count as u64);
         let mut rows = Vec::with_capacity(count);
         for k in 0..count {

@@ -38,6 +38,16 @@ pub enum Error {
         /// The number of parts.
         parts: usize,
     },
+    /// The strips are not those of the raster, or it has no such columns.
+    #[error(
+        "{found} strips for a raster that has {needed}: give those of its own columns, in order"
+    )]
+    Strips {
+        /// The number that was given, or the last one that was asked for.
+        found: usize,
+        /// The number that the raster has.
+        needed: usize,
+    },
     /// A trap, a crisis or a critical point was not enclosed.
     #[error(
         "{what} of hump {n} is not enclosed at M = {mass_ratio}: the sign of an enclosure is open. Give the trap of another hump, or another mass ratio"

@@ -97,6 +97,11 @@ impl ProvedLine {
         if inside.any(|(_, other)| other != label) { Cell::Cut } else { Cell::Open }
     }
 
+    /// A line that was stored: the [`intervals`](Self::intervals) of an earlier one.
+    pub fn restored(intervals: Vec<(Interval, Label)>) -> Self {
+        ProvedLine { intervals }
+    }
+
     /// The intervals, without the line.
     pub(crate) fn into_intervals(self) -> Vec<(Interval, Label)> {
         self.intervals

@@ -4,12 +4,14 @@ use super::certificates::write_certificate;
 use super::figure_files::write_figure;
 use crate::error::Error;
 use crate::figure::Figure;
-use basin_of_attraction::{Grid, Interval};
+use crate::job::Job;
+use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{FIG_9, FigureWindow, basin_raster, first_humps};
 use hopper_figures::{Window, draw_pixels, fate_colors, label_png};
 use hopper_proof::{
-    Cell, ProvedCells, Theorem, cells_theorem, crises, everything_hops, measures, one_sided,
-    one_sudden, points_theorem, proved_points, rising, trap_edges,
+    ProvedCells, ProvedLine, ProvedStrip, Theorem, cells_theorem, crises, everything_hops,
+    measures, one_sided, one_sudden, points_theorem, proved_points, proved_strips, rising,
+    trap_edges,
 };
 use journal_figures::{Svg, rgb_png};
 use repository_tools::{Folder, Progress, results_folder, say};
@@ -182,7 +184,60 @@ fn points(
     Ok(points_theorem(name, &proved, &computed)?)
 }
 
-/// Every cell of a figure: cells of one basin in its colour, cells that a boundary cuts in black, open ones in yellow.
+/// Columns that are stored together: a run that is killed loses at most so many.
+const COLUMNS: usize = 16;
+
+/// The strips of all columns of a figure. Those that an earlier run finished are read.
+fn strips(
+    name: &'static str,
+    grid: &Grid,
+    strips: usize,
+    job: &Job,
+) -> Result<Vec<ProvedStrip>, Error> {
+    let Grid { columns, rows, .. } = *grid;
+    let scan = format!("{name} {columns} by {rows}, {strips} strips");
+    let block = |k: usize| {
+        let range = k * COLUMNS..columns.min((k + 1) * COLUMNS);
+        let found = proved_strips(grid, strips, range, |_| ControlFlow::Continue(()))?;
+        Ok(found.iter().flat_map(numbers).collect())
+    };
+    let rows = job.scan_with(name, &scan, columns.div_ceil(COLUMNS), block)?;
+    let stored =
+        || Error::CheckFailed(format!("the stored strips of {scan} are damaged: remove them"));
+    let mut found = Vec::with_capacity(columns * strips);
+    for row in rows {
+        let mut numbers = row.into_iter();
+        while let Some(strip) = strip(&mut numbers) {
+            found.push(strip);
+        }
+        if numbers.next().is_some() {
+            return Err(stored());
+        }
+    }
+    Ok(found)
+}
+
+/// A strip as numbers: its ends, how many intervals, and the ends and the label of each.
+fn numbers((own, line): &ProvedStrip) -> Vec<f64> {
+    let intervals = line.intervals();
+    let head = [own.left, own.right, intervals.len() as f64];
+    let each =
+        intervals.iter().flat_map(|(own, label)| [own.left, own.right, f64::from(label.code())]);
+    head.into_iter().chain(each).collect()
+}
+
+/// The next strip of such numbers; `None` at their end.
+fn strip(numbers: &mut impl Iterator<Item = f64>) -> Option<ProvedStrip> {
+    let (left, right, count) = (numbers.next()?, numbers.next()?, numbers.next()?);
+    let mut interval = || {
+        let (left, right, label) = (numbers.next()?, numbers.next()?, numbers.next()?);
+        Some((Interval { left, right }, Label::from_code(label as u16)))
+    };
+    let intervals = (0..count as usize).map(|_| interval()).collect::<Option<Vec<_>>>()?;
+    Some((Interval { left, right }, ProvedLine::restored(intervals)))
+}
+
+/// Every cell of a figure: its colour mixes those of the basins by their proved shares, and yellow by the share that is open.
 fn cells(
     name: &'static str,
     window: FigureWindow,
@@ -191,24 +246,18 @@ fn cells(
     folder: &Folder,
 ) -> Result<Theorem, Error> {
     let grid = grid_of(window, options)?;
-    let bar = Progress.bar(name, u64::from(options.size));
-    let found = ProvedCells::new(grid, options.strips as usize, |done| {
-        bar.set(done as u64);
-        ControlFlow::Continue(())
-    })?;
-    bar.finish();
-    let color = |cell: &Cell| match cell {
-        Cell::Basin(label) => fate_colors::rgb(*label),
-        Cell::Cut => [0, 0, 0],
-        Cell::Open => fate_colors::rgb(hopper_basin::HopperFate::UNDECIDED),
-    };
+    let job = Job::new(folder.path())?;
+    let strips = strips(name, &grid, options.strips as usize, &job)?;
+    let found = ProvedCells::of_strips(grid, strips)?;
     // A picture has its highest row first.
-    let rows = found.cells.chunks(grid.columns).rev().flatten();
-    let pixels: Vec<u8> = rows.flat_map(color).collect();
+    let shares = found.shares()?;
+    let rows = shares.chunks(grid.columns).rev().flatten();
+    let pixels: Vec<u8> = rows.flat_map(|cell| fate_colors::mixed(cell.iter().copied())).collect();
     let png = rgb_png(name, grid.columns, grid.rows, &pixels)?;
     let mut labels: Vec<_> = found.areas.iter().map(|&(label, _)| label).collect();
     labels.push(hopper_basin::HopperFate::UNDECIDED);
     write(name, window, &png, labels, folder)?;
+    job.done()?;
     Ok(cells_theorem(name, found, open)?)
 }
 

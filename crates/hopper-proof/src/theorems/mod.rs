@@ -9,10 +9,12 @@
 //!   everything_hops.rs  below the first crisis all speeds from α*_1 up hop for ever
 //!   rising.rs           the map rises in its windows
 //!   measures.rs         the fractions of the basins at one mass ratio
-//!   raster.rs           the basins over a window: every point, and every cell
+//!   raster.rs           the basins over a window: every point
+//!   cells.rs            every cell of it, as a whole
 //!   raster_theorems.rs  the statements that these make
 //! ```
 
+pub(crate) mod cells;
 pub(crate) mod crisis;
 pub(crate) mod everything_hops;
 pub(crate) mod measures;

@@ -5,7 +5,7 @@ use crate::certificate::Evidence;
 use crate::error::Error;
 use crate::hop::strip::Strip;
 use crate::line::traps_up_to;
-use crate::theorems::raster::ProvedCells;
+use crate::theorems::cells::ProvedCells;
 use crate::theorems::theorem::Theorem;
 use basin_of_attraction::{Grid, LabelImage, PixelShares};
 use hopper_basin::HopperFate;
@@ -96,7 +96,10 @@ pub fn cells_theorem(name: &'static str, found: ProvedCells, open: f64) -> Resul
     let of_one_basin = found.cells.iter().filter(|cell| matches!(cell, Cell::Basin(_))).count();
     theorem.evidence.push(Evidence::Cells { edges, of_one_basin });
     let strips = found.strips.into_iter();
-    let lines = strips.map(|(mass_ratios, intervals)| Evidence::Basins { mass_ratios, intervals });
+    let lines = strips.map(|(mass_ratios, line)| Evidence::Basins {
+        mass_ratios,
+        intervals: line.into_intervals(),
+    });
     theorem.evidence.extend(lines);
     let areas = found.areas.into_iter();
     theorem.evidence.extend(areas.map(|(label, share)| Evidence::Area { label, share }));
