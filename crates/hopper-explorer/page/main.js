@@ -1,10 +1,11 @@
 // Puts the parts together: state in, pictures and panels out.
+import { Core } from "./core.js";
 import { Deep, SHALLOWEST } from "./deep.js";
 import * as dialogs from "./dialogs.js";
 import { gestures } from "./gestures.js";
 import { keys } from "./keys.js";
 import { keep, read } from "./link.js";
-import { hideMap, isHeld, showMap, windowOf } from "./map_panel.js";
+import { hideMap, isHeld, showMap } from "./map_panel.js";
 import { measure, play, showMotion, start as startMotion, stateAt, step } from "./motion_panel.js";
 import { parse, pretty, show } from "./numbers.js";
 import { Plane } from "./plane.js";
@@ -19,20 +20,24 @@ import { at, moved, toM, tooFine, withLogarithm, zoomed } from "./view.js";
 
 /** Hops of the orbit in the panels. */
 const ORBIT = 60;
+/** Points of a piece of the map. */
+const PIECE = 120;
 /** Below this height of the window an edge inside it is looked for, to change to its chart. */
 const EDGE_HEIGHT = 1e-8;
 
-const module = await WebAssembly.compileStreaming(fetch("core.wasm")).catch((error) => {
+const module = WebAssembly.compileStreaming(fetch("core.wasm"));
+const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
+const pool = new Pool(module, Math.min(workers, 16)).warm();
+const desk = new Pool(module, 1);  // panels
+const well = new Pool(module, 1);  // the deep view and slow panels
+const legend = await module.then((found) => WebAssembly.instantiate(found, {})).then((instance) => new Core(instance).legend(), (error) => {
   say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
   throw error;
 });
-const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
-const pool = new Pool(module, Math.min(workers, 16));
-const desk = new Pool(module, 1);  // panels
-const well = new Pool(module, 1);  // the deep view and slow panels
-const legend = await desk.ask("legend");
 const canvas = document.getElementById("canvas");
 const plane = new Plane(canvas, pool, legend);
+// After the first picture, so that they do not take its time.
+canvas.addEventListener("complete", () => [desk, well].forEach((one) => one.warm()), { once: true });
 const deep = new Deep(plane, well);
 const [left, right, bottom, top] = legend.home;
 const home = { logarithmic: false, x: [left, right], alpha: [bottom - 0.2, top] };
@@ -113,16 +118,13 @@ async function showPointNow(mine) {
   }
   const { m, alpha } = state.pin;
   try {
-    const moving = desk.ask("motion", m, alpha, state.hops);
-    moving.catch(() => {}); // its refusal is shown below
-    const found = await desk.ask("point", m, alpha, ORBIT);
-    shown = found;
+    const kept = isHeld() ? shownWindow : null;
+    const { point: found, window, map, motion } = await desk.ask("pinned", m, alpha, ORBIT, state.hops, PIECE, kept);
+    [shown, shownWindow] = [found, window];
     showFate(found);
     showOrbit(found);
-    const window = isHeld() && shownWindow ? shownWindow : windowOf(found);
-    shownWindow = window;
-    showMap(await desk.ask("map", m, ...window, 120), found, window);
-    showMotion(await moving);
+    showMap(map, found, window);
+    showMotion(motion);
     await measure();
     canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
     slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));

@@ -6,13 +6,6 @@ import { Drawing } from "./svg.js";
 const panel = document.getElementById("map");
 let drawing = null;
 
-/** The window of speeds about an orbit. */
-export function windowOf({ speeds, grounded }) {
-  const [low, high] = [Math.min(...speeds), Math.max(...speeds)];
-  const from = low - 0.15 * Math.max(high - low, 1e-6 * high);
-  return [grounded || from < 0.3 * high ? 0 : from, high + 0.1 * Math.max(high - low, 1e-3 * high)];
-}
-
 export const hideMap = () => { drawing = null; panel.replaceChildren(); };
 
 export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }, window) {
