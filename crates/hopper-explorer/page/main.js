@@ -1,4 +1,5 @@
 // Puts the parts together: state in, pictures and panels out.
+import { MARGIN } from "./axes.js";
 import { Core } from "./core.js";
 import { Deep, SHALLOWEST } from "./deep.js";
 import * as dialogs from "./dialogs.js";
@@ -231,7 +232,7 @@ gestures(canvas, {
   box: (from, to, done, large) => {
     plane.draw();
     if (state.depth) return;
-    if (!done) return plane.context.strokeRect(62 + from.left, 8 + from.top, to.left - from.left, to.top - from.top);
+    if (!done) return plane.context.strokeRect(MARGIN.left + from.left, MARGIN.top + from.top, to.left - from.left, to.top - from.top);
     if (!large) return;
     const [a, b] = [pointAt(from), pointAt(to)];
     const sorted = (one, other) => [Math.min(one, other), Math.max(one, other)];
@@ -309,4 +310,4 @@ addEventListener("hashchange", () => follow(location.hash));
 if ("serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
 
 // For tests.
-window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files };
+window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files, snippets };
