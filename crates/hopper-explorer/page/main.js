@@ -77,9 +77,11 @@ function lookForEdge(focus) {
   }, 150);
 }
 
+let wish = 0; // counts the deep views that were asked for, and given up before they came
 async function openDepth(m, alpha, depth) {
+  const mine = ++wish;
   say("Looking for the edge …");
-  try { await deep.open(m, alpha, depth); } catch (error) { say(error.message); }
+  try { await deep.open(m, alpha, depth, () => mine === wish); } catch (error) { say(error.message); }
 }
 
 function deepHere() {
@@ -178,6 +180,7 @@ const tour = stops(legend);
 let stop = -1;
 function goTo(next) {
   stop = next;
+  wish += 1;
   byId("stop").hidden = stop < 0 || stop >= tour.length;
   if (byId("stop").hidden) { stop = -1; return; }
   const { title, text, fields, open, depth } = tour[stop];
@@ -213,7 +216,7 @@ const pan = (x, alpha) => {
   if (state.depth) return say("The deep view keeps the boundary point in its middle. Esc leaves it.");
   change({ view: moved(view, x * (view.x[1] - view.x[0]), alpha * (view.alpha[1] - view.alpha[0])) });
 };
-const goHome = () => change({ view: withLogarithm(home, state.view.logarithmic), depth: null });
+const goHome = () => { wish += 1; change({ view: withLogarithm(home, state.view.logarithmic), depth: null }); };
 const setLayer = (layer) => () => change({ layer });
 const setLogarithmic = (logarithmic) => change({ view: withLogarithm(state.view, logarithmic) });
 const pinCentre = () => { const { x, alpha } = pointAt(centre()); change({ pin: { m: toM(state.view, x), alpha } }); };
@@ -297,6 +300,7 @@ listen((names) => {
 });
 
 function follow(hash) {
+  wish += 1;
   const { fields, wrong } = read(hash);
   const { depth, ...rest } = fields;
   change({ view: home, layer: 0, pin: null, depth: null, ...rest });
