@@ -5,6 +5,7 @@
 
 use crate::error::Error;
 use crate::explorer_build::{INSTALL, build, cargo, manifest, say, target_folder, target_is_here};
+use crate::explorer_file::one_file;
 use crate::repository::repository;
 use crate::static_server::serve;
 use std::ffi::OsString;
@@ -61,6 +62,9 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         let mut program = Command::new(cargo());
         program.args(["build", "--quiet", "--package", "hopper", "--target-dir"]);
         step(program.arg(target_folder()).current_dir(repository()), "the program hopper")?;
+        let file = folder.join("explorer.html");
+        let at = |source| Error::File { path: file.clone(), source };
+        std::fs::write(&file, one_file(&folder.join("site"))?).map_err(at)?;
     }
     let at = |source| Error::File { path: "the loopback address".into(), source };
     let listener = TcpListener::bind("127.0.0.1:0").map_err(at)?;
@@ -79,6 +83,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     node.env("EXPLORER_NATIVE", &native).env("EXPLORER_MODULES", folder.join("driver/"));
     let hopper = format!("debug/hopper{}", std::env::consts::EXE_SUFFIX);
     node.env("EXPLORER_HOPPER", target_folder().join(hopper));
+    node.env("EXPLORER_FILE", folder.join("explorer.html"));
     node.env("EXPLORER_SITE", folder.join("site"));
     step(&mut node, "the page in the browser")?;
     Ok(ExitCode::SUCCESS)

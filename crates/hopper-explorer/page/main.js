@@ -311,7 +311,7 @@ startMotion(desk);
 showLegend();
 follow(location.hash);
 addEventListener("hashchange", () => follow(location.hash));
-if ("serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
+if (location.protocol !== "file:" && "serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
 
 // For tests.
 window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files, snippets };

@@ -1,6 +1,6 @@
 // Files of what is seen: PNG, SVG, CSV. Each holds its parameters and the address of the view.
 import { MARGIN, letterSize, svgAxes } from "./axes.js";
-import { write } from "./link.js";
+import { address } from "./link.js";
 import { axesOf, paint } from "./plane.js";
 import { withTexts } from "./png_text.js";
 import { state } from "./state.js";
@@ -19,8 +19,6 @@ export function parameters(deep) {
   const point = pin ? `; pinned: M = ${pin.m}, alpha = ${pin.alpha}` : "";
   return `Passive hopper, ${depth ? "shares about an edge" : LAYERS[layer]}: ${window}${point}`;
 }
-
-const address = () => `${location.origin}${location.pathname}${write(state)}`;
 
 export async function png(plane, deep) {
   const canvas = document.createElement("canvas");

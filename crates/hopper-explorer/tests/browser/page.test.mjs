@@ -4,6 +4,7 @@ import { execFileSync } from "node:child_process";
 import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
 import { DIGEST, READY, launch, open, ready, url } from "./browser.mjs";
 
@@ -454,6 +455,22 @@ onPage("the same on the command line and in Rust", "#pin=0.2,7", async (page) =>
   run([...zoom, "--pixels", "16", "16"]);
   assert.ok(existsSync(join(folder, "zoom", "zoom_0000.png")));
   rmSync(folder, { recursive: true });
+});
+
+test("one file works without a server", { timeout: 180_000 }, async () => {
+  const context = await browser.newContext({ offline: true });
+  context.setDefaultTimeout(READY.timeout);
+  const page = await context.newPage();
+  const problems = [];
+  page.on("pageerror", (error) => problems.push(error.message));
+  await page.goto(`${pathToFileURL(process.env.EXPLORER_FILE)}#pin=0.2,7`);
+  await page.waitForFunction(ready);
+  await page.waitForSelector("#map svg");
+  assert.equal(await page.textContent("#fate .verdict"), native.points[0].fate.name);
+  await page.keyboard.press("c");
+  assert.match(await page.inputValue("#dialog .link"), /^file:.*explorer\.html#lin=0,1,.*&pin=0\.2,7/);
+  assert.deepEqual(problems, []);
+  await context.close();
 });
 
 test("it is found under its address", async () => {
