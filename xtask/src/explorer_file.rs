@@ -56,7 +56,7 @@ pub(crate) fn one_file(folder: &Path) -> Result<String, Error> {
         if line.contains("rel=\"stylesheet\"") {
             let _ = writeln!(page, "<style>\n{style}</style>");
         } else if line == "</body>" {
-            let _ = write!(page, "{parts}{LOADER}{line}\n");
+            let _ = writeln!(page, "{parts}{LOADER}{line}");
         } else if !line.starts_with("<link") && !line.starts_with("<script") {
             let _ = writeln!(page, "{line}");
         }
