@@ -5,6 +5,7 @@
 
 use crate::error::Error;
 use crate::explorer_build::{INSTALL, build, cargo, manifest, say, target_folder, target_is_here};
+use crate::explorer_file::one_file;
 use crate::repository::repository;
 use crate::static_server::serve;
 use std::ffi::OsString;
@@ -56,6 +57,15 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
         answers.arg("--release");
     }
     step(answers.arg("--").arg(&native), "the native answers")?;
+    if !measure {
+        // The page shows its calls; a test runs them.
+        let mut program = Command::new(cargo());
+        program.args(["build", "--quiet", "--package", "hopper", "--target-dir"]);
+        step(program.arg(target_folder()).current_dir(repository()), "the program hopper")?;
+        let file = folder.join("explorer.html");
+        let at = |source| Error::File { path: file.clone(), source };
+        std::fs::write(&file, one_file(&folder.join("site"))?).map_err(at)?;
+    }
     let at = |source| Error::File { path: "the loopback address".into(), source };
     let listener = TcpListener::bind("127.0.0.1:0").map_err(at)?;
     let port = listener.local_addr().map_err(at)?.port();
@@ -71,6 +81,9 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     }
     node.env("EXPLORER_URL", format!("http://127.0.0.1:{port}/")).env("CHROMIUM", browser);
     node.env("EXPLORER_NATIVE", &native).env("EXPLORER_MODULES", folder.join("driver/"));
+    let hopper = format!("debug/hopper{}", std::env::consts::EXE_SUFFIX);
+    node.env("EXPLORER_HOPPER", target_folder().join(hopper));
+    node.env("EXPLORER_FILE", folder.join("explorer.html"));
     node.env("EXPLORER_SITE", folder.join("site"));
     step(&mut node, "the page in the browser")?;
     Ok(ExitCode::SUCCESS)

@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::explorer_build::{build, say, target_folder};
+use crate::explorer_file::one_file;
 use crate::static_server::serve;
 use std::ffi::OsString;
 use std::net::TcpListener;
@@ -18,7 +19,8 @@ Build the browser explorer of the basins, and serve it on the loopback address
 Usage: cargo xtask explore [OPTIONS]
 
 Options:
-      --export <DIR>  Write the static folder instead: any web server can serve it
+      --export <DIR>  Write the static folder instead: any web server can serve it.
+                      Its explorer.html holds all in one file, which a browser opens without a server
   -h, --help          Print help
 
 Where the target wasm32-unknown-unknown is missing, rustup installs it.
@@ -43,7 +45,14 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     let folder = export.clone().unwrap_or_else(|| target_folder().join("explorer/site"));
     build(&folder)?;
     if export.is_some() {
+        let file = folder.join("explorer.html");
+        let at = |source| Error::File { path: file.clone(), source };
+        std::fs::write(&file, one_file(&folder)?).map_err(at)?;
         say(&format!("{} holds the explorer; any web server can serve it", folder.display()))?;
+        say(&format!(
+            "{} is all of it in one file, for a browser without a server",
+            file.display()
+        ))?;
         return Ok(ExitCode::SUCCESS);
     }
     let listener =

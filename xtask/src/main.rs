@@ -11,6 +11,7 @@ mod commands;
 mod error;
 mod explore;
 mod explorer_build;
+mod explorer_file;
 mod process;
 mod python_environment;
 mod regenerate;

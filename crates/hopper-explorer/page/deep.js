@@ -20,13 +20,13 @@ export class Deep {
     this.busy = false;
   }
 
-  /** Opens the boundary point next to a speed; null if there is none. */
-  async open(m, alpha, depth) {
+  /** Opens the boundary point next to a speed, if it is still wanted when it is found. */
+  async open(m, alpha, depth, wanted = () => true) {
     const about = await this.desk.ask("openDepth", m, alpha);
+    if (!wanted()) return;
     this.frames.forEach(({ bitmap }) => bitmap.close());
     this.frames = [];
     change({ depth: { m, alpha: about.alpha, depth, about } });
-    return about;
   }
 
   /** Zooms by a factor about the boundary point; true if the plane is to be shown again. */

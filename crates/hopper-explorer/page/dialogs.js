@@ -1,7 +1,7 @@
 // The three dialogs: help, link, files.
 import { KEYS } from "./keys.js";
-import { write } from "./link.js";
-import { say, state } from "./state.js";
+import { address } from "./link.js";
+import { say } from "./state.js";
 
 const dialog = document.getElementById("dialog");
 
@@ -19,12 +19,11 @@ export function help() {
 }
 
 export function share() {
-  const address = `${location.origin}${location.pathname}${write(state)}`;
   open("A link to exactly this view", `<input class="link" readonly aria-label="Link"><div class="row"><button id="copy">Copy</button></div>`);
-  dialog.querySelector(".link").value = address;
+  dialog.querySelector(".link").value = address();
   dialog.querySelector("#copy").onclick = async () => {
     dialog.querySelector(".link").select();
-    try { await navigator.clipboard.writeText(address); say("The link is copied."); } catch { say("Copy the marked link with Ctrl-C."); }
+    try { await navigator.clipboard.writeText(address()); say("The link is copied."); } catch { say("Copy the marked link with Ctrl-C."); }
   };
 }
 

@@ -4,12 +4,15 @@ import { isView } from "./view.js";
 
 const LAYERS = ["fate", "hops", "coverage"];
 
-export function write({ view, layer, pin, hops, depth }) {
+function write({ view, layer, pin, hops, depth }) {
   const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`, `layer=${LAYERS[layer]}`];
   if (pin) parts.push(`pin=${pin.m},${pin.alpha}`, `hops=${hops}`);
   if (depth) parts.push(`depth=${depth.m},${depth.alpha},${depth.depth}`);
   return `#${parts.join("&")}`;
 }
+
+/** The address of what is shown now. */
+export const address = () => `${location.href.split("#")[0]}${write(state)}`;
 
 const doubles = (text, count) => {
   const all = text.split(",").map((part) => (part.trim() === "" ? NaN : Number(part)));

@@ -1,10 +1,12 @@
 // Puts the parts together: state in, pictures and panels out.
+import { MARGIN } from "./axes.js";
+import { Core } from "./core.js";
 import { Deep, SHALLOWEST } from "./deep.js";
 import * as dialogs from "./dialogs.js";
 import { gestures } from "./gestures.js";
 import { keys } from "./keys.js";
 import { keep, read } from "./link.js";
-import { hideMap, isHeld, showMap, windowOf } from "./map_panel.js";
+import { hideMap, isHeld, showMap } from "./map_panel.js";
 import { measure, play, showMotion, start as startMotion, stateAt, step } from "./motion_panel.js";
 import { parse, pretty, show } from "./numbers.js";
 import { Plane } from "./plane.js";
@@ -19,20 +21,24 @@ import { at, moved, toM, tooFine, withLogarithm, zoomed } from "./view.js";
 
 /** Hops of the orbit in the panels. */
 const ORBIT = 60;
+/** Points of a piece of the map. */
+const PIECE = 120;
 /** Below this height of the window an edge inside it is looked for, to change to its chart. */
 const EDGE_HEIGHT = 1e-8;
 
-const module = await WebAssembly.compileStreaming(fetch("core.wasm")).catch((error) => {
+const module = WebAssembly.compileStreaming(fetch("core.wasm"));
+const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
+const pool = new Pool(module, Math.min(workers, 16)).warm();
+const desk = new Pool(module, 1);  // panels
+const well = new Pool(module, 1);  // the deep view and slow panels
+const legend = await module.then((found) => WebAssembly.instantiate(found, {})).then((instance) => new Core(instance).legend(), (error) => {
   say(`The core cannot be loaded: ${error.message}. The page needs a web server and a browser of 2023 or newer.`);
   throw error;
 });
-const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
-const pool = new Pool(module, Math.min(workers, 16));
-const desk = new Pool(module, 1);  // panels
-const well = new Pool(module, 1);  // the deep view and slow panels
-const legend = await desk.ask("legend");
 const canvas = document.getElementById("canvas");
 const plane = new Plane(canvas, pool, legend);
+// After the first picture, so that they do not take its time.
+canvas.addEventListener("complete", () => [desk, well].forEach((one) => one.warm()), { once: true });
 const deep = new Deep(plane, well);
 const [left, right, bottom, top] = legend.home;
 const home = { logarithmic: false, x: [left, right], alpha: [bottom - 0.2, top] };
@@ -71,9 +77,11 @@ function lookForEdge(focus) {
   }, 150);
 }
 
+let wish = 0; // counts the deep views that were asked for, and given up before they came
 async function openDepth(m, alpha, depth) {
+  const mine = ++wish;
   say("Looking for the edge …");
-  try { await deep.open(m, alpha, depth); } catch (error) { say(error.message); }
+  try { await deep.open(m, alpha, depth, () => mine === wish); } catch (error) { say(error.message); }
 }
 
 function deepHere() {
@@ -113,16 +121,13 @@ async function showPointNow(mine) {
   }
   const { m, alpha } = state.pin;
   try {
-    const moving = desk.ask("motion", m, alpha, state.hops);
-    moving.catch(() => {}); // its refusal is shown below
-    const found = await desk.ask("point", m, alpha, ORBIT);
-    shown = found;
+    const kept = isHeld() ? shownWindow : null;
+    const { point: found, window, map, motion } = await desk.ask("pinned", m, alpha, ORBIT, state.hops, PIECE, kept);
+    [shown, shownWindow] = [found, window];
     showFate(found);
     showOrbit(found);
-    const window = isHeld() && shownWindow ? shownWindow : windowOf(found);
-    shownWindow = window;
-    showMap(await desk.ask("map", m, ...window, 120), found, window);
-    showMotion(await moving);
+    showMap(map, found, window);
+    showMotion(motion);
     await measure();
     canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
     slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
@@ -175,6 +180,7 @@ const tour = stops(legend);
 let stop = -1;
 function goTo(next) {
   stop = next;
+  wish += 1;
   byId("stop").hidden = stop < 0 || stop >= tour.length;
   if (byId("stop").hidden) { stop = -1; return; }
   const { title, text, fields, open, depth } = tour[stop];
@@ -210,7 +216,7 @@ const pan = (x, alpha) => {
   if (state.depth) return say("The deep view keeps the boundary point in its middle. Esc leaves it.");
   change({ view: moved(view, x * (view.x[1] - view.x[0]), alpha * (view.alpha[1] - view.alpha[0])) });
 };
-const goHome = () => change({ view: withLogarithm(home, state.view.logarithmic), depth: null });
+const goHome = () => { wish += 1; change({ view: withLogarithm(home, state.view.logarithmic), depth: null }); };
 const setLayer = (layer) => () => change({ layer });
 const setLogarithmic = (logarithmic) => change({ view: withLogarithm(state.view, logarithmic) });
 const pinCentre = () => { const { x, alpha } = pointAt(centre()); change({ pin: { m: toM(state.view, x), alpha } }); };
@@ -229,7 +235,7 @@ gestures(canvas, {
   box: (from, to, done, large) => {
     plane.draw();
     if (state.depth) return;
-    if (!done) return plane.context.strokeRect(62 + from.left, 8 + from.top, to.left - from.left, to.top - from.top);
+    if (!done) return plane.context.strokeRect(MARGIN.left + from.left, MARGIN.top + from.top, to.left - from.left, to.top - from.top);
     if (!large) return;
     const [a, b] = [pointAt(from), pointAt(to)];
     const sorted = (one, other) => [Math.min(one, other), Math.max(one, other)];
@@ -294,6 +300,7 @@ listen((names) => {
 });
 
 function follow(hash) {
+  wish += 1;
   const { fields, wrong } = read(hash);
   const { depth, ...rest } = fields;
   change({ view: home, layer: 0, pin: null, depth: null, ...rest });
@@ -304,7 +311,7 @@ startMotion(desk);
 showLegend();
 follow(location.hash);
 addEventListener("hashchange", () => follow(location.hash));
-if ("serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
+if (location.protocol !== "file:" && "serviceWorker" in navigator) navigator.serviceWorker.register("sw.js").catch(() => say("Offline use is not possible here."));
 
 // For tests.
-window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files };
+window.explorer = { state, pool, desk, plane, deep, change, parse, stateAt, files, snippets };

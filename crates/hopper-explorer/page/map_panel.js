@@ -6,13 +6,6 @@ import { Drawing } from "./svg.js";
 const panel = document.getElementById("map");
 let drawing = null;
 
-/** The window of speeds about an orbit. */
-export function windowOf({ speeds, grounded }) {
-  const [low, high] = [Math.min(...speeds), Math.max(...speeds)];
-  const from = low - 0.15 * Math.max(high - low, 1e-6 * high);
-  return [grounded || from < 0.3 * high ? 0 : from, high + 0.1 * Math.max(high - low, 1e-3 * high)];
-}
-
 export const hideMap = () => { drawing = null; panel.replaceChildren(); };
 
 export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }, window) {
@@ -31,11 +24,11 @@ export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }
     if (n > 0 && trap.left > window[0] && trap.left < window[1]) drawing.dot(trap.left, trap.left, "currentColor").text(trap.left, trap.left, `${star(n)}\u2002`, "end");
   }
   const rows = stars.map(({ n, trap, crisis, grounding }) =>
-    `<tr><td>${star(n)}</td><td>${show(trap.left, 8)}</td><td>${show(trap.length, 5)}</td><td>${trap.edge}</td>` +
-    `<td>${crisis ? show(crisis.massRatio, 6) : "–"}</td><td>${show(grounding.massRatio, 6)}</td></tr>`).join("");
+    `<tr><td>${star(n)}</td><td>${show(trap.left, 6)}</td><td>${show(trap.length, 4)}</td><td>${trap.edge}</td>` +
+    `<td>${crisis ? show(crisis.massRatio, 5) : "–"}</td><td>${show(grounding.massRatio, 5)}</td></tr>`).join("");
   panel.innerHTML = `<h2>The map at <i>M</i> = ${show(massRatio)}</h2><div class="picture">${drawing.markup()}</div>
-    <p class="soft">Red: the orbit. Bands: the traps. Drag along the picture to move α.</p>
-    <div class="wide"><table><thead><tr><th></th><th>α*</th><th>trap length</th><th>it ends at</th><th>crisis at M</th><th>grounding at M</th></tr></thead><tbody>${rows}</tbody></table></div>`;
+    <p class="soft">Red: the orbit. Bands: the traps, with their lengths below. Drag along the picture to move α.</p>
+    <div class="wide"><table><thead><tr><th></th><th>α*</th><th>trap</th><th>ends at</th><th>crisis <i>M</i></th><th>grounding <i>M</i></th></tr></thead><tbody>${rows}</tbody></table></div>`;
 }
 
 let held = false;

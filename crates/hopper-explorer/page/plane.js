@@ -1,5 +1,5 @@
 // The canvas: tiles of the plane, axes, the pin. It asks for coarse tiles first, then for fine ones, and gives up what is out of view.
-import { MARGIN, inner, paintAxes, planeAxes } from "./axes.js";
+import { MARGIN, fitLetters, inner, paintAxes, planeAxes } from "./axes.js";
 import { state, say } from "./state.js";
 import { COARSE, COVERAGE, FATE, SIZE, TileStore, keyOf, needed, windowOf } from "./tiles.js";
 import { place, toX } from "./view.js";
@@ -78,6 +78,7 @@ export class Plane {
       this.canvas.height = Math.round(height * ratio);
     }
     this.frames += 1;
+    fitLetters();
     paint(this.context, this, ratio);
   }
 }
@@ -101,7 +102,7 @@ export function paint(context, plane, ratio) {
   context.strokeStyle = ink;
   context.lineWidth = 1;
   context.strokeRect(MARGIN.left - 0.5, MARGIN.top - 0.5, box.width + 1, box.height + 1);
-  paintAxes(context, axesOf(plane), ink, paper);
+  paintAxes(context, axesOf(plane), ink);
 }
 
 export const axesOf = (plane) =>

@@ -9,11 +9,14 @@ panel.innerHTML = `<h2>A point</h2>
   <div id="fate" aria-live="polite"></div>`;
 const [m, alpha] = ["pin-m", "pin-alpha"].map((id) => document.getElementById(id));
 
+const typed = new Set(); // inputs whose text is not read yet
 for (const input of [m, alpha]) {
+  input.addEventListener("input", () => typed.add(input));
   input.addEventListener("change", () => {
+    typed.delete(input);
     const numbers = [m, alpha].map(({ value }) => parse(value));
     if (numbers.every((number) => number > 0)) change({ pin: { m: numbers[0], alpha: numbers[1] }, depth: null });
-    else if (input.value.trim()) say(`“${input.value}” is not a positive number. Examples: 0.2 or 0,2 or 2e-1.`);
+    else if (input.value.trim() && !(parse(input.value) > 0)) say(`“${input.value}” is not a positive number. Examples: 0.2 or 0,2 or 2e-1.`);
   });
 }
 
@@ -23,9 +26,11 @@ export function showNothing() {
   document.querySelector("#orbit div").replaceChildren();
 }
 
+/** Writes the pinned numbers, but not over a text that someone is typing. */
 export function showPin() {
-  m.value = state.pin ? String(state.pin.m) : "";
-  alpha.value = state.pin ? String(state.pin.alpha) : "";
+  const show = (input, number) => { if (!typed.has(input)) input.value = number === undefined ? "" : String(number); };
+  show(m, state.pin?.m);
+  show(alpha, state.pin?.alpha);
 }
 
 /** Why the fate is known, in words. */

@@ -7,25 +7,31 @@ const SILENCE = 15000;
 const STOPPING = 1500;
 
 export class Pool {
+  /** `module` is a promise: workers load their scripts while it is compiled. They start at the first question, or by `warm`. */
   constructor(module, count) {
     this.module = module;
     this.next = 1;
     this.queue = [];
-    this.members = Array.from({ length: count }, () => this.#member());
+    this.members = Array.from({ length: count }, () => ({ worker: null, job: null, heard: 0 }));
     setInterval(() => this.#watch(), 1000);
   }
 
-  #member() {
-    const member = { worker: null, job: null, heard: 0 };
-    this.#start(member);
-    return member;
+  warm() {
+    this.members.filter(({ worker }) => !worker).forEach((member) => this.#start(member));
+    return this;
   }
 
   #start(member) {
     member.worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
     member.worker.onmessage = ({ data }) => this.#hear(member, data);
     member.worker.onerror = () => this.#replace(member);
-    member.worker.postMessage({ module: this.module });
+    this.#tell(member, (module) => ({ module }));
+  }
+
+  /** Sends a message as soon as the module is there; messages keep their order. */
+  #tell(member, message) {
+    const { worker } = member;
+    this.module.then((module) => { worker.postMessage(message(module)); member.heard = performance.now(); }, () => {});
   }
 
   #hear(member, { id, progress, found, error, refused }) {
@@ -69,10 +75,11 @@ export class Pool {
   #feed() {
     for (const member of this.members) {
       if (member.job || this.queue.length === 0) continue;
+      if (!member.worker) this.#start(member);
       member.job = this.queue.shift();
-      member.heard = performance.now();
+      member.heard = Infinity; // until the question is sent
       const { id, kind, args } = member.job;
-      member.worker.postMessage({ id, kind, args });
+      this.#tell(member, () => ({ id, kind, args }));
     }
   }
 
@@ -96,6 +103,6 @@ export class Pool {
     const member = this.members.find(({ job }) => job?.id === id);
     if (!member) return;
     member.job.stopped ??= performance.now();
-    member.worker.postMessage({ stop: id });
+    this.#tell(member, () => ({ stop: id }));
   }
 }

@@ -4,8 +4,10 @@ import { toM } from "./view.js";
 
 export function snippets() {
   const { pin, view, hops, depth } = state;
-  const [left, right] = view.x.map((x) => toM(view, x));
-  const [bottom, top] = view.alpha;
+  // The model has no M = 0 and no α = 0: a window from there begins at a thousandth of its end.
+  const positive = ([low, high]) => [low > 0 ? low : high / 1000, high];
+  const [left, right] = positive(view.x.map((x) => toM(view, x)));
+  const [bottom, top] = positive(view.alpha);
   const point = pin ?? { m: 0.2, alpha: 7 };
   const picture = depth
     ? `hopper basins --zoom ${depth.m} ${depth.alpha} --frames ${Math.ceil(depth.depth) + 1} --out zoom`

@@ -1,6 +1,6 @@
 // Files of what is seen: PNG, SVG, CSV. Each holds its parameters and the address of the view.
-import { MARGIN, svgAxes } from "./axes.js";
-import { write } from "./link.js";
+import { MARGIN, letterSize, svgAxes } from "./axes.js";
+import { address } from "./link.js";
 import { axesOf, paint } from "./plane.js";
 import { withTexts } from "./png_text.js";
 import { state } from "./state.js";
@@ -20,8 +20,6 @@ export function parameters(deep) {
   return `Passive hopper, ${depth ? "shares about an edge" : LAYERS[layer]}: ${window}${point}`;
 }
 
-const address = () => `${location.origin}${location.pathname}${write(state)}`;
-
 export async function png(plane, deep) {
   const canvas = document.createElement("canvas");
   const ratio = plane.canvas.width / plane.size.width;
@@ -38,7 +36,7 @@ export async function svg(plane, deep) {
   [inside.width, inside.height] = [box.width * ratio, box.height * ratio].map(Math.round);
   inside.getContext("2d").drawImage(plane.canvas, MARGIN.left * ratio, MARGIN.top * ratio, inside.width, inside.height, 0, 0, inside.width, inside.height);
   const escape = (text) => text.replace(/[&<>]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[sign]);
-  const text = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${size.width} ${size.height}" font-family="sans-serif" font-size="12">
+  const text = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${size.width} ${size.height}" font-family="sans-serif" font-size="${letterSize()}">
 <title>${escape(parameters(deep))}</title><desc>${escape(address())}</desc><rect width="100%" height="100%" fill="#fff"/>
 <image x="${MARGIN.left}" y="${MARGIN.top}" width="${box.width}" height="${box.height}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${inside.toDataURL("image/png")}"/>
 <rect x="${MARGIN.left}" y="${MARGIN.top}" width="${box.width}" height="${box.height}" fill="none" stroke="#000"/>

@@ -33,9 +33,23 @@ async function tile(id, job) {
   return { bitmap: await createImageBitmap(image), values };
 }
 
+/** The window of speeds about an orbit. */
+function windowOf({ speeds, grounded }) {
+  const [low, high] = [Math.min(...speeds), Math.max(...speeds)];
+  const from = low - 0.15 * Math.max(high - low, 1e-6 * high);
+  return [grounded || from < 0.3 * high ? 0 : from, high + 0.1 * Math.max(high - low, 1e-3 * high)];
+}
+
+/** All that the panels of a point show at once. `kept` is the window of the map, if it is to stay. */
+function pinned(m, alpha, orbit, hops, points, kept) {
+  const point = core.point(m, alpha, orbit);
+  const window = kept ?? windowOf(point);
+  return { point, window, map: core.map(m, ...window, points), motion: core.motion(m, alpha, hops) };
+}
+
 async function answer({ id, kind, args }) {
   try {
-    const found = kind === "tile" ? await tile(id, args[0]) : core[kind](...args);
+    const found = kind === "tile" ? await tile(id, args[0]) : kind === "pinned" ? pinned(...args) : core[kind](...args);
     const moved = found.bitmap ? [found.bitmap] : found.buffer ? [found.buffer] : [];
     postMessage({ id, found }, moved);
   } catch (error) {
@@ -46,7 +60,7 @@ async function answer({ id, kind, args }) {
 }
 
 onmessage = ({ data }) => {
-  if (data.module) core = new Core(data.module);
+  if (data.module) core = new Core(new WebAssembly.Instance(data.module, {}));
   else if (data.stop !== undefined) { if (wanted === data.stop) wanted = null; }
   else answer(data);
 };

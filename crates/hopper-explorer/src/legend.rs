@@ -28,7 +28,7 @@ pub(crate) fn legend_json() -> Json {
     // Equal steps of the scale are equal steps of log(1 + hops).
     let hops_at = |step: u64| {
         let part = step as f64 / STEPS as f64;
-        pxfm::f_expm1(part * pxfm::f_log1p(DARKEST_HOPS as f64)).round() as u64
+        (pxfm::f_exp(part * pxfm::f_log(1.0 + DARKEST_HOPS as f64)) - 1.0).round() as u64
     };
     let scale = (0..=STEPS).map(|step| {
         let hops = hops_at(step);

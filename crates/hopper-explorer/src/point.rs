@@ -35,7 +35,8 @@ pub(crate) fn point_json(mass_ratio: f64, alpha: f64, hops: usize) -> Result<Jso
     let orbit = BoundedOrbit::follow(fates.map(), alpha, hops)?;
     // The last hop may be one that does not end.
     let tried = orbit.speeds.iter().take(hops);
-    let details = tried.map(|&speed| hop_json(fates.map(), speed)).collect::<Result<Vec<_>, _>>()?;
+    let details =
+        tried.map(|&speed| hop_json(fates.map(), speed)).collect::<Result<Vec<_>, _>>()?;
     Ok(answer
         .truth("grounded", orbit.end == ExtendedStep::Grounded)
         .text("arithmetic", arithmetic_text(orbit.arithmetic))

@@ -12,9 +12,6 @@ pub enum Error {
     /// A hop could not be computed.
     #[error(transparent)]
     Hopper(#[from] passive_hopper::Error),
-    /// The motion could not be computed.
-    #[error(transparent)]
-    Execution(#[from] hybrid_system::Error),
     /// A trap could not be computed.
     #[error(transparent)]
     Basin(#[from] hopper_basin::Error),

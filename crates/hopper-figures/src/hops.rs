@@ -71,7 +71,7 @@ pub fn hop_color(count: u64, largest: u64) -> [u8; 3] {
 
 /// The place of a number on the scale, from 0 to 1.
 fn place(count: u64, largest: u64) -> f64 {
-    let size = |count: u64| pxfm::f_log1p(count as f64);
+    let size = |count: u64| pxfm::f_log(1.0 + count as f64);
     if largest == 0 { 0.0 } else { size(count) / size(largest) }
 }
 

@@ -1,8 +1,12 @@
 //! The motion of both masses over some hops, sampled.
+//!
+//! The lift-off map decides each hop: its landings and the next lift-off speed. Between them the states are closed forms, so that the
+//! drawn landings are those of the orbit, and no event is searched for.
 
 use crate::error::Error;
-use hybrid_system::{ArcEnd, Execution, Limits};
-use passive_hopper::{Hopper, HopperState, HopperSurface, MassRatio, Phase};
+use passive_hopper::{
+    Flight, HopperState, Landing, LiftOffMap, MassRatio, Phase, contact_flow, contact_time,
+};
 use std::f64::consts::TAU;
 
 /// The largest distance of two samples, in units of 1/ω. The spring turns by this angle between them: the straight line between two
@@ -11,9 +15,6 @@ const SPACING: f64 = 0.1;
 
 /// The most samples of a motion: 64 MB. A motion of more would be a mistake, such as a million hops.
 const MOST_SAMPLES: usize = 1_000_000;
-
-/// The most arcs of a motion, which sudden lift-offs divide into more arcs than hops.
-const MOST_ARCS: usize = 200_000;
 
 /// A moment of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,17 +38,6 @@ pub enum MotionEvent {
     Landing,
     /// The lower mass lands and is pulled off the ground at once by the stretched spring.
     SuddenLiftOff,
-}
-
-impl MotionEvent {
-    /// The event at a surface, by the phase after it.
-    fn of(surface: HopperSurface, after: Option<Phase>) -> Self {
-        match (surface, after) {
-            (HopperSurface::LiftOff, _) => MotionEvent::GradualLiftOff,
-            (HopperSurface::Landing, Some(Phase::Flight)) => MotionEvent::SuddenLiftOff,
-            (HopperSurface::Landing, _) => MotionEvent::Landing,
-        }
-    }
 }
 
 /// The motion over some hops. A landing has two samples at the same time: before the collision and after it.
@@ -82,55 +72,71 @@ impl Motion {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Hopper`] for a wrong speed; [`Error::Execution`] if a landing cannot be computed; [`Error::TooLong`] for a motion of
-    /// more than a million samples.
+    /// [`Error::Hopper`] for a wrong speed, and for a hop that cannot be decided; [`Error::TooLong`] for a motion of more than a
+    /// million samples.
     pub fn new(mass_ratio: MassRatio, alpha: f64, hops: usize) -> Result<Self, Error> {
-        passive_hopper::LiftOffMap::new(mass_ratio).check_speed(alpha)?;
-        let hopper = Hopper::new(mass_ratio);
-        let start = HopperState::lift_off(alpha);
-        let limits = Limits::new(f64::INFINITY, MOST_ARCS);
+        let map = LiftOffMap::new(mass_ratio);
+        map.check_speed(alpha)?;
         let events = vec![(0.0, MotionEvent::GradualLiftOff)];
         let mut motion = Motion { mass_ratio, samples: Vec::new(), events, grounded: false };
-        let mut hop = 0;
-        for arc in Execution::new(&hopper, Phase::Flight, start.into(), limits) {
-            let arc = arc?;
-            if hop == hops {
-                break;
+        let (mut time, mut state) = (0.0, HopperState::lift_off(alpha));
+        for hop in 0..hops {
+            let speed = state.upper_velocity;
+            let mut landed = None;
+            for landing in map.landings(speed)? {
+                let flight = Flight::new(mass_ratio, &state);
+                motion.sample(hop, Phase::Flight, time, landing.time, |at| flight.state(at))?;
+                time += landing.time;
+                state = after(&landing);
+                let kind =
+                    if landing.sudden { MotionEvent::SuddenLiftOff } else { MotionEvent::Landing };
+                motion.events.push((time, kind));
+                landed = Some(landing);
             }
-            let never = matches!(arc.end, ArcEnd::Never { .. });
-            let period = TAU / mass_ratio.contact_frequency();
-            let duration = if never { period.min(arc.time) } else { arc.duration };
-            let steps = (duration / SPACING).ceil().max(1.0);
-            if !(steps <= (MOST_SAMPLES - motion.samples.len()) as f64) {
-                let duration = arc.time + duration;
-                return Err(Error::TooLong { duration, most: MOST_SAMPLES });
-            }
-            // The arc before ends at this instant; the sum of its start and its duration may be an ulp off.
-            if let Some(last) = motion.samples.last_mut() {
-                last.time = arc.time;
-            }
-            for k in 0..=steps as usize {
-                let elapsed = duration * (k as f64 / steps);
-                let state = arc.state(&hopper, elapsed)?.into();
-                let time = arc.time + elapsed;
-                motion.samples.push(Sample { time, hop, phase: arc.mode, state });
-            }
-            motion.grounded = never;
-            if let Some(event) = arc.event() {
-                let kind = MotionEvent::of(event.surface, event.after.map(|(phase, _)| phase));
-                motion.events.push((event.time, kind));
-            }
-            let lift_off = arc.event().filter(|event| event.surface == HopperSurface::LiftOff);
-            if let Some((phase, state)) = lift_off.and_then(|event| event.after) {
-                hop += 1;
-                if hop == hops {
-                    let (time, state) = (arc.time + arc.duration, state.into());
-                    motion.samples.push(Sample { time, hop, phase, state });
-                    break;
+            let contact = match landed {
+                Some(Landing { excess, velocity, .. }) => {
+                    contact_time(mass_ratio, excess, velocity)?
                 }
-            }
+                None => None,
+            };
+            let next = map.image(speed)?.zip(contact);
+            let period = TAU / mass_ratio.contact_frequency();
+            let duration = next.map_or(period.min(time), |(_, contact)| contact);
+            let flow = |at| contact_flow(mass_ratio, &state, at);
+            motion.sample(hop, Phase::Contact, time, duration, flow)?;
+            let Some((speed, _)) = next else {
+                motion.grounded = true;
+                return Ok(motion);
+            };
+            time += duration;
+            state = HopperState::lift_off(speed);
+            motion.events.push((time, MotionEvent::GradualLiftOff));
+        }
+        if hops > 0 {
+            motion.samples.push(Sample { time, hop: hops, phase: Phase::Flight, state });
         }
         Ok(motion)
+    }
+
+    /// Adds the samples of an arc that begins at `start`.
+    fn sample(
+        &mut self,
+        hop: usize,
+        phase: Phase,
+        start: f64,
+        duration: f64,
+        state_at: impl Fn(f64) -> HopperState,
+    ) -> Result<(), Error> {
+        let steps = (duration / SPACING).ceil().max(1.0);
+        if !(steps <= (MOST_SAMPLES - self.samples.len()) as f64) {
+            return Err(Error::TooLong { duration: start + duration, most: MOST_SAMPLES });
+        }
+        for k in 0..=steps as usize {
+            let elapsed = duration * (k as f64 / steps);
+            let (time, state) = (start + elapsed, state_at(elapsed));
+            self.samples.push(Sample { time, hop, phase, state });
+        }
+        Ok(())
     }
 
     /// The time of the last sample.
@@ -160,5 +166,15 @@ impl Motion {
         values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
             (low.min(value), high.max(value))
         })
+    }
+}
+
+/// The state after a landing: both masses as the collision leaves them.
+fn after(landing: &Landing) -> HopperState {
+    HopperState {
+        upper_position: 1.0 + landing.excess,
+        upper_velocity: landing.velocity,
+        lower_position: 0.0,
+        lower_velocity: 0.0,
     }
 }

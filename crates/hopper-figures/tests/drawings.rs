@@ -2,9 +2,12 @@
 
 #![allow(clippy::unwrap_used)]
 
-use hopper_figures::{Error, MapPlot, Motion, cuts_between, draw_frame, draw_motion, frame_times};
+use hopper_figures::{
+    Error, MapPlot, Motion, MotionEvent, cuts_between, draw_frame, draw_motion, frame_times,
+};
+use hybrid_system::{Execution, Limits};
 use journal_figures::render;
-use passive_hopper::{LiftOffMap, MassRatio, Phase, alpha_star, energy};
+use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase, alpha_star, energy};
 
 fn ratio(m: f64) -> MassRatio {
     MassRatio::new(m).unwrap()
@@ -27,6 +30,31 @@ fn the_energy_falls_at_landings_only() {
             last = Some((sample.time, now));
         }
         assert!(landings >= 1, "M = {m}: {landings}");
+    }
+}
+
+/// The map decides the hops of a motion. The hybrid system, which searches each event from the state before it, has the same events.
+#[test]
+fn the_events_are_those_of_the_hybrid_system() {
+    for (m, alpha, hops) in [(0.2, 7.0, 4), (1.0, 9.5, 3), (5.0, 12.0, 2), (1.0, 2.0, 3)] {
+        let motion = Motion::new(ratio(m), alpha, hops).unwrap();
+        let hopper = Hopper::new(ratio(m));
+        let limits = Limits::new(f64::INFINITY, motion.events.len() - 1);
+        let start = HopperState::lift_off(alpha).into();
+        let arcs = Execution::new(&hopper, Phase::Flight, start, limits);
+        let mut time = 0.0;
+        for (arc, (when, event)) in arcs.zip(&motion.events[1..]) {
+            let arc = arc.unwrap();
+            time += arc.duration;
+            assert!((time - when).abs() < 1e-10 * (1.0 + time), "M = {m}: {time} {when}");
+            let (phase, state) = arc.event().unwrap().after.unwrap();
+            let sudden = arc.mode == Phase::Flight && phase == Phase::Flight;
+            assert_eq!(*event == MotionEvent::SuddenLiftOff, sudden, "M = {m}, τ = {time}");
+            let (after, now) = (HopperState::from(state), motion.at(*when).unwrap());
+            assert!((after.upper_position - now.upper_position).abs() < 1e-9);
+            assert!((after.upper_velocity - now.upper_velocity).abs() < 1e-9);
+        }
+        assert!(motion.events.len() >= 2, "M = {m}");
     }
 }
 

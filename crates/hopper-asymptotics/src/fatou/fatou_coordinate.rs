@@ -13,6 +13,7 @@ use crate::fatou::outward_walk::OutwardWalk;
 use crate::fatou::phase::Phase;
 use crate::fatou::slow_hops::{MOST_HOPS, inward, outward};
 use passive_hopper::{LiftOffMap, MassRatio};
+use std::f64::consts::LN_2;
 
 /// The Fatou coordinate Ψ of α*_n on one side: the number of hops to leave it, or since the approach began.
 ///
@@ -154,7 +155,7 @@ impl FatouCoordinate {
 
     /// Ψ by the series. `near` is `delta` rounded.
     fn phase_within_range(&self, delta: Offset, near: f64) -> Phase {
-        let size = -delta.logarithm() / (3.0 * std::f64::consts::LN_2) - pxfm::f_log2(self.drift());
+        let size = -(delta.logarithm() / 3.0 + pxfm::f_log(self.drift())) / LN_2;
         let ratio = self.map.mass_ratio().value();
         let exact = exact_terms(self.n, ratio, self.side, delta, size);
         let (rest, error) = self.series.beyond_exact(near);
@@ -194,7 +195,7 @@ impl FatouCoordinate {
         let (mantissa, exponent) = phase.scaled();
         let unknown = |hops| Error::Phase { hops, error: phase.error() };
         // 1/x is about A Ψ, and only the leading term counts.
-        if mantissa > 0.0 && exponent as f64 + pxfm::f_log2(self.drift()) > DEEP_BITS {
+        if mantissa > 0.0 && exponent as f64 + pxfm::f_log(self.drift()) / LN_2 > DEEP_BITS {
             // In two steps, since an error may be as large as an `f64`. One below 2⁻⁹⁰⁰ does not count.
             let half = 0.5f64.powi(exponent.min(2000) as i32 / 2);
             let error = 2.0 * phase.error() * half * half / mantissa;

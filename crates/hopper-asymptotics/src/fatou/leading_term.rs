@@ -11,6 +11,7 @@
 
 use crate::fatou::local_hop_model::Side;
 use crate::fatou::offset::Offset;
+use crate::fatou::quotient::rational;
 use num_bigint::{BigInt, BigUint};
 
 /// The two terms: integers of any size, and fractions.
@@ -78,21 +79,6 @@ fn parts(units: &BigInt, bits: u64) -> (BigInt, f64) {
     let whole = units >> bits;
     let rest = (units - (&whole << bits)) >> (bits - 64);
     (whole, u64::try_from(rest).unwrap_or(0) as f64 * 0.5f64.powi(64))
-}
-
-/// A positive `f64` as a quotient of integers.
-fn rational(value: f64) -> (BigUint, BigUint) {
-    let bits = value.to_bits();
-    let field = bits >> 52 & 0x7ff;
-    let fraction = bits & ((1 << 52) - 1);
-    let mantissa = if field == 0 { fraction } else { fraction | 1 << 52 };
-    let exponent = field.max(1) as i64 - 1075;
-    let (one, mantissa) = (BigUint::from(1u32), BigUint::from(mantissa));
-    if exponent < 0 {
-        (mantissa, one << exponent.unsigned_abs())
-    } else {
-        (mantissa << exponent.unsigned_abs(), one)
-    }
 }
 
 /// α*_n 2^`bits`, n ≥ 1.

@@ -14,6 +14,7 @@
 //!   second_flight.rs      its second flight, on the left
 //!   taylor_model.rs       polynomials with bounds
 //!   polynomial.rs         polynomials without bounds
+//!   quotient.rs           quotients of integers of any size, rounded
 //! ```
 
 pub(crate) mod abel_series;
@@ -26,6 +27,7 @@ pub(crate) mod offset;
 pub(crate) mod outward_walk;
 pub(crate) mod phase;
 pub(crate) mod polynomial;
+pub(crate) mod quotient;
 pub(crate) mod second_flight;
 pub(crate) mod slow_hops;
 pub(crate) mod slow_jump;

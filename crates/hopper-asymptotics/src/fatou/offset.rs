@@ -2,8 +2,13 @@
 
 use crate::error::Error;
 use crate::fatou::phase::split;
+use crate::fatou::quotient::{nearest_quotient, rational};
+use num_bigint::BigUint;
 use std::fmt;
 use std::str::FromStr;
+
+/// Powers of ten that take every `f64` beyond the largest one, or below half of the smallest one.
+const BEYOND_DOUBLES: i64 = 640;
 
 /// An offset δ from a fixed point: exactly `mantissa` · 10^`exponent`.
 ///
@@ -49,10 +54,16 @@ impl Offset {
         self.exponent
     }
 
-    /// The nearest `f64`, or one next to it; 0 below the smallest one.
+    /// The nearest `f64`, or one next to it if that is below the smallest normal one; ±∞ above the largest one.
     pub fn nearest(self) -> f64 {
-        // The shortest text of the mantissa has all its digits, and the reader of numbers rounds once.
-        self.to_string().parse().unwrap_or(0.0)
+        // A mantissa is between 10⁻³²⁴ and 10³⁰⁹: no `f64` is as large or as small as the offset then.
+        if self.exponent.abs() > BEYOND_DOUBLES && self.mantissa != 0.0 {
+            return self.mantissa * if self.exponent > 0 { f64::INFINITY } else { 0.0 };
+        }
+        let (p, q) = rational(self.mantissa.abs());
+        let power = BigUint::from(10u32).pow(self.exponent.unsigned_abs() as u32);
+        let (p, q) = if self.exponent < 0 { (p, q * power) } else { (p * power, q) };
+        nearest_quotient(&p, &q).copysign(self.mantissa)
     }
 
     /// −log₁₀ |δ|, the number of decades below 1; ∞ for the offset 0.
@@ -156,5 +167,7 @@ mod tests {
         assert!(Offset::from(1.0).logarithm().abs() < 6e-17);
         assert_eq!(Offset::new(-2.0, -1000).unwrap().nearest(), 0.0);
         assert_eq!(Offset::new(3e-300, 295).unwrap().nearest(), 3e-5);
+        assert_eq!(Offset::new(-2.0, 1000).unwrap().nearest(), f64::NEG_INFINITY);
+        assert_eq!(Offset::new(0.0, 1000).unwrap().nearest(), 0.0);
     }
 }

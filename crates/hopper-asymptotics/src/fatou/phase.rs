@@ -1,6 +1,7 @@
 //! The phase of a point on the slow side of a fixed point: an integer of any size and a fraction.
 
-use num_bigint::BigInt;
+use crate::fatou::quotient::nearest_quotient;
+use num_bigint::{BigInt, BigUint};
 use std::fmt;
 
 /// A value of the Fatou coordinate Ψ: the number of hops `whole` + `fraction`.
@@ -46,6 +47,18 @@ impl Phase {
     /// determine the fraction.
     pub fn error(&self) -> f64 {
         self.error
+    }
+
+    /// The number of whole hops between this phase and another one, without a sign: the nearest `f64`.
+    ///
+    /// ```
+    /// use hopper_asymptotics::{BigInt, Phase};
+    /// let (near, far) = (Phase::new(3, 0.9, 0.0), Phase::new(BigInt::from(10).pow(30), 0.1, 0.0));
+    /// assert_eq!(near.whole_hops_to(&far), 1e30);
+    /// assert_eq!(far.whole_hops_to(&near), 1e30);
+    /// ```
+    pub fn whole_hops_to(&self, other: &Phase) -> f64 {
+        nearest_quotient((&self.whole - &other.whole).magnitude(), &BigUint::from(1u32))
     }
 
     /// The phase of the point `hops` hops later on the right, or earlier on the left: the same fraction.

@@ -297,9 +297,7 @@ impl EdgeChart {
             return Ok(circle.share_between(&one, &other));
         }
         // The slope is the same for both ends: the number of turns has its relative error, and only the start is not known.
-        let apart = (one.whole() - other.whole()).to_string();
-        let turns = apart.parse().map_or(0.0, |turns: f64| turns.abs());
-        Ok(circle.fractions_of_turns(turns))
+        Ok(circle.fractions_of_turns(one.whole_hops_to(&other)))
     }
 
     /// From δ < 0 to δ ≥ 0.

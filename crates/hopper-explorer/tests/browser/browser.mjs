@@ -15,6 +15,7 @@ export const launch = () => chromium.launch({
 /** A page at an address, with its complete picture; an error of the page fails the test at its end. */
 export async function open(browser, hash = "", options = {}) {
   const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, acceptDownloads: true, ...options });
+  context.setDefaultTimeout(READY.timeout);
   const page = await context.newPage();
   page.problems = [];
   page.on("pageerror", (error) => page.problems.push(error.message));

@@ -1,6 +1,10 @@
 // The page as a person would use it, in a headless Chromium.
 import assert from "node:assert/strict";
-import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import { after, before, test } from "node:test";
 import { DIGEST, READY, launch, open, ready, url } from "./browser.mjs";
 
@@ -20,6 +24,11 @@ const onPage = (name, hash, use, options) => test(name, { timeout: 180_000 }, as
 const view = (page) => page.evaluate(() => explorer.state.view);
 const said = (page) => page.textContent("#say");
 const span = ([low, high]) => high - low;
+/** A change, and the picture that it asks for. `settled` alone would see the picture before. */
+const complete = (page, fields) => page.evaluate((fields) => new Promise((done) => {
+  explorer.plane.canvas.addEventListener("complete", done, { once: true });
+  explorer.change(fields);
+}).then(() => null), fields);
 const settled = (page) => page.waitForFunction(ready, null, READY);
 
 onPage("the first picture has several colours", "", async (page) => {
@@ -89,8 +98,11 @@ onPage("two fingers pinch", "", async (page) => {
   await touch("touchStart", [[300, 300], [380, 380]]);
   for (let k = 1; k <= 8; k++) await touch("touchMove", [[300 - 8 * k, 300 - 8 * k], [380 + 8 * k, 380 + 8 * k]]);
   await touch("touchEnd", []);
-  const to = await view(page);
-  assert.ok(span(to.x) < 0.6 * span(from.x) && span(to.alpha) < 0.6 * span(from.alpha), JSON.stringify(to));
+  // The browser hands movements on with its frames.
+  await page.waitForFunction(([width, height]) => {
+    const { x, alpha } = explorer.state.view;
+    return x[1] - x[0] < 0.6 * width && alpha[1] - alpha[0] < 0.6 * height;
+  }, [span(from.x), span(from.alpha)]);
 }, { hasTouch: true });
 
 onPage("ten points have their native fates", "", async (page) => {
@@ -213,6 +225,7 @@ onPage("keyboard only", "", async (page) => {
   await page.keyboard.press("?");
   assert.ok(await page.isVisible("#dialog"));
   await page.keyboard.press("Escape");
+  await page.waitForFunction(() => !document.getElementById("dialog").open);
   // Tab comes to every button and input.
   const reached = new Set();
   for (let k = 0; k < 60; k++) {
@@ -247,6 +260,35 @@ async function saved(page, name) {
   await page.waitForFunction(() => !document.getElementById("dialog").open);
   return readFileSync(await download.path());
 }
+
+onPage("a text that is typed is not written over by an answer", "#pin=0.2,7", async (page) => {
+  await page.waitForSelector("#map svg");
+  await page.fill("#pin-alpha", "9");
+  // Another pin comes while α is typed.
+  await page.evaluate(() => new Promise((done) => {
+    explorer.plane.canvas.addEventListener("panels", done, { once: true });
+    explorer.change({ pin: { m: 0.3, alpha: 7 } });
+  }).then(() => null));
+  assert.deepEqual([await page.inputValue("#pin-m"), await page.inputValue("#pin-alpha")], ["0.3", "9"]);
+  await page.press("#pin-alpha", "Enter");
+  await page.waitForFunction(() => explorer.state.pin.m === 0.3 && explorer.state.pin.alpha === 9);
+});
+
+onPage("a deep view that was given up does not come back", "", async (page) => {
+  await page.evaluate(() => new Promise((done) => {
+    // The answer waits until the key was pressed.
+    const { ask } = explorer.deep.desk;
+    explorer.deep.desk.ask = async function (...question) {
+      const found = await ask.apply(this, question);
+      document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "h", bubbles: true }));
+      setTimeout(done, 0);
+      return found;
+    };
+    location.hash = "#depth=0.12,11.920553918335775,20";
+  }).then(() => null));
+  await settled(page);
+  assert.equal(await page.evaluate(() => explorer.state.depth), null);
+});
 
 onPage("files hold the picture and its parameters", "#lin=0.1,0.3,4.5,9&pin=0.2,7", async (page) => {
   await page.waitForSelector("#map svg");
@@ -309,21 +351,127 @@ onPage("a worker that dies is replaced", "", async (page) => {
     explorer.pool.ask("none").catch((error) => { window.failed = error.message; });
   });
   await page.waitForFunction(() => window.failed !== undefined);
-  await page.evaluate(() => explorer.change({ view: { logarithmic: false, x: [0.3, 0.5], alpha: [5, 6] } }));
-  await settled(page);
+  await complete(page, { view: { logarithmic: false, x: [0.3, 0.5], alpha: [5, 6] } });
   // One that is killed without a word.
-  await page.evaluate(() => {
-    explorer.pool.members.forEach(({ worker }) => worker.terminate());
-    explorer.change({ view: { logarithmic: false, x: [0.6, 0.7], alpha: [5, 6] } });
-  });
-  await page.waitForTimeout(200);
-  await settled(page);
+  await page.evaluate(() => explorer.pool.members.forEach(({ worker }) => worker.terminate()));
+  await complete(page, { view: { logarithmic: false, x: [0.6, 0.7], alpha: [5, 6] } });
 });
 
 onPage("reduced motion and the dark page", "", async (page) => {
   const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   assert.notEqual(paper, "rgb(255, 255, 255)");
 }, { colorScheme: "dark", reducedMotion: "reduce" });
+
+/** Sizes of a phone, a laptop and a large screen. */
+const SCREENS = [{ width: 360, height: 740 }, { width: 1366, height: 768 }, { width: 3840, height: 2160 }];
+for (const viewport of SCREENS) {
+  onPage(`the parts of the page have room on ${viewport.width} × ${viewport.height}`, "#pin=0.2,7", async (page) => {
+    await page.waitForSelector("#map table");
+    const wrong = await page.evaluate(() => {
+      const found = [];
+      const wide = document.documentElement.scrollWidth;
+      if (wide > innerWidth) found.push(`the page is ${wide} wide`);
+      const boxes = (selector) => [...document.querySelectorAll(selector)].map((part) => [part, part.getBoundingClientRect()]);
+      const name = (part) => part.id || part.textContent.trim().slice(0, 20) || part.tagName;
+      const apart = (all) => all.forEach(([one, a], k) => all.slice(k + 1).forEach(([other, b]) => {
+        const [across, down] = [Math.min(a.right, b.right) - Math.max(a.left, b.left), Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top)];
+        if (across > 1 && down > 1) found.push(`${name(one)} lies on ${name(other)}`);
+      }));
+      apart(boxes("h1, header label, header button"));
+      apart(boxes("header, #legend, #view, #say, aside"));
+      apart(boxes("aside > section, aside > details"));
+      apart(boxes("#motion button, #motion label, #time, #now, #stage"));
+      for (const [part, { left, right, width }] of boxes("header *, #legend *, #say, aside button, aside input, aside select, aside svg, aside p")) {
+        if (width > 0 && (left < -1 || right > innerWidth + 1)) found.push(`${name(part)} goes from ${left} to ${right}`);
+      }
+      for (const [part] of boxes("button, #legend > span, #say, aside p, summary")) {
+        if (part.scrollWidth > part.clientWidth + 1 && part.clientWidth > 0) found.push(`${name(part)} is cut off`);
+      }
+      const { width, height } = document.getElementById("canvas").getBoundingClientRect();
+      if (width < 0.6 * Math.min(innerWidth, innerHeight) || height < 250) found.push(`the picture has ${width} × ${height}`);
+      const table = document.querySelector("#map .wide");
+      if (innerWidth > 800 && table.scrollWidth > table.clientWidth) found.push("the table of the map is cut off");
+      return found;
+    });
+    assert.deepEqual(wrong, []);
+  }, { viewport });
+}
+
+onPage("a screen reader finds names, roles and what is said", "#pin=0.2,7", async (page) => {
+  await page.waitForSelector("#map svg");
+  const client = await page.context().newCDPSession(page);
+  const tree = async () => {
+    const { nodes } = await client.send("Accessibility.getFullAXTree");
+    return nodes.filter(({ ignored }) => !ignored).map(({ role, name, properties = [] }) => ({
+      role: role?.value, name: name?.value ?? "", ...Object.fromEntries(properties.map(({ name, value }) => [name, value.value])) }));
+  };
+  const nodes = await tree();
+  const nameless = nodes.filter(({ role, name, focusable }) => focusable && name === "" && role !== "RootWebArea");
+  assert.deepEqual(nameless, []);
+  const has = (role, pattern) => assert.ok(nodes.some((node) => node.role === role && pattern.test(node.name)), `${role} ${pattern}`);
+  has("RootWebArea", /Hopper explorer/);
+  has("application", /Basins of attraction.*Arrow keys/);
+  has("heading", /The hopper hops/);
+  has("combobox", /Show/);
+  has("checkbox", /log M/);
+  has("textbox", /^M$/);
+  has("textbox", /^α$/);
+  has("slider", /Time/);
+  for (const name of ["Home", "Deep zoom", "Tour", "Link", "Save", "Help", "Play", "One frame back", "One frame on"]) has("button", new RegExp(`^${name}$`));
+  has("image", /Heights of both masses over 6 hops/);
+  has("image", /The map at M = 0.2 with the orbit from 7: decaying/);
+  has("main", /^/);
+  has("complementary", /The pinned point/);
+  assert.ok(nodes.some(({ role, live }) => role === "status" && live === "polite"));
+  await page.keyboard.press("?");
+  await page.waitForFunction(() => document.getElementById("dialog").open);
+  const dialog = (await tree()).find(({ role }) => role === "dialog");
+  assert.match(dialog.name, /Keys and gestures/);
+  assert.equal(dialog.modal, true);
+});
+
+/** The lines of a snippet as they run. */
+const commands = (text) => text.split("\n").map((line) => line.split(" "));
+
+onPage("the same on the command line and in Rust", "#pin=0.2,7", async (page) => {
+  const shown = await page.evaluate(() => explorer.snippets());
+  const example = readFileSync(new URL("../../examples/same.rs", import.meta.url), "utf8");
+  const body = example.split(/fn main.*\n/)[1].split("    Ok(())")[0];
+  assert.equal(body.replace(/^ {4}/gm, "").trim(), shown.Rust);
+  const folder = mkdtempSync(join(tmpdir(), "explorer-"));
+  const run = (line) => execFileSync(process.env.EXPLORER_HOPPER, line.slice(1), { cwd: folder, encoding: "utf8" });
+  const [orbit, basins] = commands(shown["Command line"]);
+  assert.deepEqual([orbit[0], basins[0]], ["hopper", "hopper"]);
+  const table = run(orbit);
+  for (const speed of native.points[0].speeds.slice(0, 7)) assert.ok(table.includes(String(speed)), `${speed}\n${table}`);
+  assert.match(readFileSync(join(folder, "motion.csv"), "utf8"), /^time,hop,phase/);
+  run([...basins, "--pixels", "16", "16"]);
+  assert.ok(existsSync(join(folder, "basins", "basin.png")));
+  // In the deep view the picture is a zoom; two of its frames show that the call is right.
+  await page.evaluate(() => explorer.deep.open(0.12, 11.920553918335775, 8));
+  const [, zoom] = commands((await page.evaluate(() => explorer.snippets()))["Command line"]);
+  await page.evaluate(() => explorer.change({ depth: null }));
+  zoom[zoom.indexOf("--frames") + 1] = "2";
+  run([...zoom, "--pixels", "16", "16"]);
+  assert.ok(existsSync(join(folder, "zoom", "zoom_0000.png")));
+  rmSync(folder, { recursive: true });
+});
+
+test("one file works without a server", { timeout: 180_000 }, async () => {
+  const context = await browser.newContext({ offline: true });
+  context.setDefaultTimeout(READY.timeout);
+  const page = await context.newPage();
+  const problems = [];
+  page.on("pageerror", (error) => problems.push(error.message));
+  await page.goto(`${pathToFileURL(process.env.EXPLORER_FILE)}#pin=0.2,7`);
+  await page.waitForFunction(ready);
+  await page.waitForSelector("#map svg");
+  assert.equal(await page.textContent("#fate .verdict"), native.points[0].fate.name);
+  await page.keyboard.press("c");
+  assert.match(await page.inputValue("#dialog .link"), /^file:.*explorer\.html#lin=0,1,.*&pin=0\.2,7/);
+  assert.deepEqual(problems, []);
+  await context.close();
+});
 
 test("it is found under its address", async () => {
   assert.equal((await fetch(url)).status, 200);
