@@ -14,14 +14,14 @@ fn part(k: u64, step: f64) -> f64 {
 
 fn argument(k: u64) -> f64 {
     let (a, b) = (part(k, 0.618_033_988_749_895), part(k, 0.754_877_666_246_693));
-    let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+    let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     sign * match (k / 4) % 4 {
         // All magnitudes, from the smallest subnormal numbers on.
-        0 => 10f64.powf(-323.0 + 332.0 * a),
+        0 => pxfm::f_pow(10.0, -323.0 + 332.0 * a),
         1 => 100.0 * a,
         // Some ulps beside a multiple of ½π.
         2 => {
-            let near = (PI * (0.5 * (10f64.powf(8.5 * a)).floor())).middle();
+            let near = (PI * (0.5 * (pxfm::f_pow(10.0, 8.5 * a)).floor())).middle();
             near * (1.0 + f64::EPSILON * (8.0 * b - 4.0).round())
         }
         _ => 1e9 * a * b,
@@ -34,7 +34,7 @@ fn main() -> std::io::Result<()> {
     for k in 1..=count {
         let low = argument(k);
         let width = if k % 4 == 3 {
-            10f64.powf(-15.0 + 16.0 * part(k, 0.569_840_290_998_053))
+            pxfm::f_pow(10.0, -15.0 + 16.0 * part(k, 0.569_840_290_998_053))
         } else {
             0.0
         };
