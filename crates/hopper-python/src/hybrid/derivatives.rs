@@ -237,7 +237,9 @@ fn follows(arc: &OwnArc, next: &OwnArc) -> bool {
         ArcEnd::Event(event) => at(&event.after),
         ArcEnd::Zeno { after, .. } | ArcEnd::Sliding { after, .. } => at(after),
         // A limit on time that was set later.
-        ArcEnd::TimeLimit { .. } | ArcEnd::Unfinished { .. } => arc.mode == next.mode,
+        ArcEnd::TimeLimit { .. } | ArcEnd::Unfinished { .. } => {
+            (arc.mode, arc.jump) == (next.mode, next.jump)
+        }
         ArcEnd::Never { .. } => false,
     }
 }
