@@ -67,6 +67,9 @@ pub(crate) struct HybridArc {
     own: OwnArc,
 }
 
+/// The mode and the state after an event or a limit, if the execution goes on.
+type Next = (Option<Py<PyAny>>, Option<Py<PyAny>>);
+
 /// An arc of the library.
 pub(crate) type OwnArc = LibraryArc<ExecutionMode, ExecutionSurface, State>;
 
@@ -207,11 +210,7 @@ impl HybridArc {
         HybridArc { model, own }
     }
 
-    fn next(
-        &self,
-        py: Python<'_>,
-        after: Option<&(ExecutionMode, State)>,
-    ) -> PyResult<(Option<Py<PyAny>>, Option<Py<PyAny>>)> {
+    fn next(&self, py: Python<'_>, after: Option<&(ExecutionMode, State)>) -> PyResult<Next> {
         let mode = after.map(|(mode, _)| self.model.mode_object(py, *mode)).transpose()?;
         Ok((mode, after.map(|(_, state)| copied(py, state))))
     }
