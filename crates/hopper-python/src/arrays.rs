@@ -6,6 +6,7 @@ use numpy::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::{PyFloat, PyInt};
 use std::ops::Range;
 
 /// The numbers of a scalar or an array, in C order, and its shape.
@@ -14,21 +15,40 @@ pub(crate) struct Numbers {
     pub(crate) shape: Vec<usize>,
 }
 
+/// The number of a float or an int of Python, and of their subclasses as NumPy's float64. `None` for anything else, which is an array of
+/// no dimension: only its type tells whether it is a number.
+pub(crate) fn scalar(object: Borrowed<'_, '_, PyAny>) -> Option<f64> {
+    if object.is_instance_of::<PyFloat>() || object.is_instance_of::<PyInt>() {
+        return object.extract().ok();
+    }
+    None
+}
+
 impl<'a, 'py> FromPyObject<'a, 'py> for Numbers {
     type Error = PyErr;
 
+    /// # Errors
+    /// TypeError for what is no number: NumPy itself would make numbers of texts and dates, and drop an imaginary part.
     fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
-        // Fast for single numbers.
-        if let Ok(value) = object.extract::<f64>() {
+        if let Some(value) = scalar(object) {
             return Ok(Numbers { values: vec![value], shape: Vec::new() });
         }
-        // NumPy makes NaN of None.
-        if object.is_none() {
-            return Err(PyTypeError::new_err(
-                "a number or an array of numbers is needed, not None",
-            ));
+        let array = object.py().import("numpy")?.call_method1("asarray", (object,))?;
+        let dtype = array.getattr("dtype")?;
+        let kind: String = dtype.getattr("kind")?.extract()?;
+        match kind.as_str() {
+            "b" | "i" | "u" | "f" => {}
+            // Python's own conversion, number by number: None is none.
+            "O" => {
+                let values = array.call_method0("ravel")?.call_method0("tolist")?.extract()?;
+                return Ok(Numbers { values, shape: array.getattr("shape")?.extract()? });
+            }
+            _ => {
+                let text = format!("a number or an array of numbers is needed, not {dtype}");
+                return Err(PyTypeError::new_err(text));
+            }
         }
-        let array: PyArrayLikeDyn<'py, f64, AllowTypeChange> = object.extract()?;
+        let array: PyArrayLikeDyn<'py, f64, AllowTypeChange> = array.extract()?;
         let view = array.as_array();
         let values = match view.as_slice() {
             Some(values) => values.to_vec(),

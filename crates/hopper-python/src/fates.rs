@@ -1,8 +1,15 @@
 //! Fates and their labels.
 
+use crate::errors::value_error;
+use crate::interruptible::{Watch, in_background};
 use basin_of_attraction::Label;
 use hopper_basin::{Fates, HOP_BUDGET, HopperFate};
 use pyo3::prelude::*;
+use std::sync::Arc;
+
+/// Hops that a fate is followed for before it gets a thread of its own: a millisecond at most. Nearly all fates are known by then, and
+/// the thread would take longer than they do.
+const QUICK: usize = 1000;
 
 /// The long-term behaviour of a hopper.
 #[pyclass(frozen, get_all, eq, module = "passive_hopper")]
@@ -17,8 +24,17 @@ pub(crate) struct Fate {
 }
 
 impl Fate {
-    pub(crate) fn of(fates: &Fates, alpha: f64) -> Result<Self, hopper_basin::Error> {
-        let (fate, hops) = fates.fate_within(alpha, HOP_BUDGET)?;
+    /// The fate of a speed. Ctrl-C ends the call at once, also where the orbit is long.
+    pub(crate) fn of(py: Python<'_>, fates: &Arc<Fates>, alpha: f64) -> PyResult<Self> {
+        let (fate, hops) = py.detach(|| fates.fate_within(alpha, QUICK)).map_err(value_error)?;
+        let (fate, hops) = match fate {
+            HopperFate::Undecided(_) => {
+                let fates = Arc::clone(fates);
+                let work = move |_: &Watch| fates.fate_within(alpha, HOP_BUDGET);
+                in_background(py, work, value_error, |_| Ok(()))?
+            }
+            decided => (decided, hops),
+        };
         let label = fate.label();
         Ok(Fate { label: label.code(), name: HopperFate::label_name(label), hops })
     }

@@ -47,7 +47,10 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<hybrid::Event>()?;
     module.add_class::<hybrid::Zeno>()?;
     module.add_class::<hybrid::Sliding>()?;
+    module.add_class::<hybrid::SlidingMode>()?;
     module.add_class::<hybrid::QuasiPolynomial>()?;
+    module.add_function(wrap_pyfunction!(hybrid::sensitivity, module)?)?;
+    module.add_function(wrap_pyfunction!(hybrid::event_sensitivity, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::alpha_star, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::trap, module)?)?;
     module.add_function(wrap_pyfunction!(fixed_points::crisis, module)?)?;

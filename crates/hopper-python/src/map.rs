@@ -1,17 +1,17 @@
 //! The lift-off map for scalars and arrays.
 
-use crate::arrays::{Numbers, Source, like, shaped};
+use crate::arrays::{Numbers, Source, like, scalar, shaped};
 use crate::errors::{map_error, value_error};
 use crate::fates::Fate;
 use crate::hop::Hop;
-use crate::interruptible::pieces;
+use crate::interruptible::{Watch, in_background, pieces};
 use hopper_basin::Fates;
 use passive_hopper::{HopStatus, MassRatio};
 use pyo3::prelude::*;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
-/// Speeds between two looks for Ctrl-C: some milliseconds.
-const PIECE: usize = 1 << 16;
+/// Speeds between two looks for Ctrl-C: a tenth of a millisecond, and some milliseconds where all of them need longer arithmetic.
+const PIECE: usize = 1 << 13;
 
 /// The map α′ = f(α; M) from one gradual lift-off speed to the next.
 ///
@@ -29,7 +29,7 @@ const PIECE: usize = 1 << 16;
 #[pyclass(frozen, module = "passive_hopper")]
 pub(crate) struct LiftOffMap {
     map: passive_hopper::LiftOffMap,
-    fates: OnceLock<Fates>,
+    fates: OnceLock<Arc<Fates>>,
 }
 
 #[pymethods]
@@ -53,7 +53,7 @@ impl LiftOffMap {
         py: Python<'py>,
         alpha: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        if let Ok(alpha) = alpha.extract::<f64>() {
+        if let Some(alpha) = scalar(alpha.as_borrowed()) {
             let next =
                 if alpha.is_nan() { None } else { self.map.image(alpha).map_err(map_error)? };
             return Ok(next.unwrap_or(f64::NAN).into_pyobject(py)?.into_any());
@@ -129,21 +129,25 @@ impl LiftOffMap {
 
     /// The fate of the orbit from α, with the number of hops until it is known.
     fn fate(&self, py: Python<'_>, alpha: f64) -> PyResult<Fate> {
-        py.detach(|| Fate::of(self.stored_fates()?, alpha)).map_err(value_error)
+        let fates = py.detach(|| self.stored_fates()).map_err(value_error)?;
+        Fate::of(py, fates, alpha)
     }
 
     /// The labels of many speeds, as an array of uint16; label_name names them.
     fn fates<'py>(&self, py: Python<'py>, alpha: Numbers) -> PyResult<Bound<'py, PyAny>> {
         let Numbers { values: speeds, shape } = alpha;
-        let mut codes = Vec::with_capacity(speeds.len());
-        let fates = self.stored_fates().map_err(value_error)?;
-        let label = |k: usize| {
-            let range = k * PIECE..((k + 1) * PIECE).min(speeds.len());
-            codes.extend(fates.labels(&speeds[range])?.iter().map(|label| label.code()));
-            Ok::<(), hopper_basin::Error>(())
+        let fates = Arc::clone(self.stored_fates().map_err(value_error)?);
+        let label = move |watch: &Watch| {
+            let mut codes = Vec::with_capacity(speeds.len());
+            for piece in speeds.chunks(PIECE) {
+                if watch.is_stopped() {
+                    break;
+                }
+                codes.extend(fates.labels(piece)?.iter().map(|label| label.code()));
+            }
+            Ok::<_, hopper_basin::Error>(codes)
         };
-        pieces(py, speeds.len().div_ceil(PIECE), label, value_error)?;
-        shaped(py, codes, &shape)
+        shaped(py, in_background(py, label, value_error, |_| Ok(()))?, &shape)
     }
 
     /// The derivatives (∂α′/∂α, ∂α′/∂M); None if the hopper is grounded.
@@ -158,11 +162,11 @@ impl LiftOffMap {
 }
 
 impl LiftOffMap {
-    fn stored_fates(&self) -> Result<&Fates, hopper_basin::Error> {
+    fn stored_fates(&self) -> Result<&Arc<Fates>, hopper_basin::Error> {
         if let Some(fates) = self.fates.get() {
             return Ok(fates);
         }
-        let fates = Fates::new(self.map.mass_ratio())?;
+        let fates = Arc::new(Fates::new(self.map.mass_ratio())?);
         Ok(self.fates.get_or_init(|| fates))
     }
 }

@@ -5,7 +5,16 @@ import operator
 
 import numpy as np
 import pytest
-from passive_hopper.hybrid import Clock, Guard, HybridSystem, QuasiPolynomial, UndecidedError
+from passive_hopper.hybrid import (
+    Clock,
+    Guard,
+    HybridSystem,
+    QuasiPolynomial,
+    SlidingMode,
+    UndecidedError,
+    event_sensitivity,
+    sensitivity,
+)
 
 
 def ball(restitution=0.5, **more):
@@ -99,6 +108,169 @@ def test_sliding_points_are_found_and_followed():
     assert run.state[0] == pytest.approx(0, abs=1e-12)
 
 
+def belt(**more):
+    """A mass on a spring, on a belt of speed 1, which pulls with a force of at most 2."""
+    return HybridSystem(
+        field=lambda pull, x: [x[1], 2 * pull - x[0]],
+        guards=[
+            Guard("faster", lambda x: x[1] - 1, "rising", modes=[1], reset=lambda pull, x: (-1, x)),
+            Guard("slower", lambda x: x[1] - 1, "falling", modes=[-1], reset=lambda pull, x: (1, x)),
+        ],
+        tolerance=1e-12,
+        **more,
+    )
+
+
+def test_a_mass_sticks_to_its_belt_until_the_spring_takes_it():
+    run = belt(slide="filippov").run([-1.0, 0.0], mode=1, time=9)
+    arcs = list(run)
+    stick = next(arc for arc in arcs if isinstance(arc.mode, SlidingMode))
+    assert {stick.mode.below, stick.mode.above} == {1, -1} and stick.start[1] == 1
+    # It moves with the belt to where the force of the spring is 2, and leaves in the mode of that pull.
+    assert stick.event.surface.endswith("end of sliding") and stick.event.next_mode == 1
+    assert stick.event.before == pytest.approx([2, 1], abs=1e-12)
+    assert stick.duration == pytest.approx(2 - stick.start[0], abs=1e-12)
+    middle = stick.states([0, 0.25])
+    assert middle[1] == pytest.approx([stick.start[0] + 0.25, 1], abs=1e-12)
+    # The same mode again: equal, and with the same hash.
+    sticks = {arc.mode for arc in arcs if isinstance(arc.mode, SlidingMode)}
+    assert len(sticks) == 1 and stick.mode in sticks and stick.mode != 1
+    found = belt(slide="filippov").run([-1.0, 0.0], mode=1, time=3).trajectory([0, 2.5])
+    assert found["modes"][-1] == stick.mode
+
+
+def test_without_filippov_it_ends_at_the_belt():
+    run = belt().run([-1.0, 0.0], mode=1, time=9)
+    assert [arc.end for arc in run][-1] == "sliding" and run.stop == "sliding"
+    assert run.state[1] == pytest.approx(1, abs=1e-12)
+    with pytest.raises(ValueError, match="needs field="):
+        HybridSystem(flow=lambda mode, x, t: x, slide="filippov")
+    with pytest.raises(ValueError, match="'filippov', not \"fillipov\""):
+        HybridSystem(field=lambda mode, x: x, slide="fillipov")
+    sliding = next(arc.mode for arc in belt(slide="filippov").run([-1.0, 0.0], mode=1, time=9) if isinstance(arc.mode, SlidingMode))
+    with pytest.raises(ValueError, match="starts in a mode of the model"):
+        belt(slide="filippov").run([0.0, 1.0], mode=sliding, time=1)
+
+
+def test_an_exception_of_a_field_passes_through_a_sliding_motion():
+    mine = Mine("with its text")
+    stuck = {"yes": False}
+
+    def field(pull, x):
+        if stuck["yes"]:
+            raise mine
+        return [x[1], 2 * pull - x[0]]
+
+    system = HybridSystem(
+        field=field,
+        guards=[
+            Guard("faster", lambda x: x[1] - 1, "rising", modes=[1], reset=lambda pull, x: (-1, x)),
+            Guard("slower", lambda x: x[1] - 1, "falling", modes=[-1], reset=lambda pull, x: (1, x)),
+        ],
+        slide="filippov",
+    )
+    run = system.run([-1.0, 0.0], mode=1, time=9)
+    while not isinstance(run.mode, SlidingMode):
+        next(run)
+    before = run.time
+    stuck["yes"] = True
+    with pytest.raises(Mine) as caught:
+        next(run)
+    assert caught.value is mine and run.time == before
+    stuck["yes"] = False
+    assert next(run).end == "event"
+
+
+def test_derivatives_pass_events():
+    floor = Guard("floor", lambda x: x[0], "falling", reset=lambda mode, x: (mode, [0.0, -x[1] / 2]))
+    fall = {"field": lambda mode, x: [x[1], -1.0], "guards": [floor], "tolerance": 1e-12}
+    flow = {"flow": lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t], "sampled": 0.01}
+    for ball in (HybridSystem(**fall), HybridSystem(**fall, **flow)):
+        arcs = list(ball.run([1.0, 0.0], time=2.5))
+        assert [arc.end for arc in arcs] == ["event", "time limit"]
+        # From height h it lands after √(2h) with that speed: ∂τ/∂h = 1/√2, and ∂τ/∂v = v/√(v² + 2h) + 1 → 1 at v = 0.
+        state, time = event_sensitivity(arcs[0])
+        assert state == pytest.approx(np.array([[0, 0], [0.5 / math.sqrt(2), 0]]), abs=1e-8)
+        assert time == pytest.approx([1 / math.sqrt(2), 1], abs=1e-8)
+        # The difference of two orbits at t = 2.5.
+        found = sensitivity(arcs)
+        h = 1e-4
+
+        def end(start):
+            run = ball.run(start, time=2.5)
+            list(run)
+            return run.state
+
+        columns = [(end([1 + h, 0]) - end([1 - h, 0])) / (2 * h), (end([1, h]) - end([1, -h])) / (2 * h)]
+        assert found == pytest.approx(np.array(columns).T, abs=1e-6)
+
+
+def test_a_parameter_is_a_component_that_does_not_change():
+    falls = HybridSystem(
+        field=lambda mode, x: [x[1], -x[2], 0.0],
+        guards=[Guard("floor", lambda x: x[0], "falling", role="switch", reset=lambda mode, x: (mode, [0.0, -x[1], x[2]]))],
+        tolerance=1e-12,
+    )
+    arc = next(falls.run([1.0, 0.0, 2.0], time=5))
+    _, time = event_sensitivity(arc)
+    # τ = √(2h/g), ∂τ/∂g = −τ/(2g).
+    assert arc.event.time == pytest.approx(1) and time[2] == pytest.approx(-0.25, abs=1e-8)
+
+
+def test_derivatives_pass_a_sliding_motion():
+    arcs = []
+    for arc in belt(slide="filippov").run([-1.0, 0.0], mode=1, time=3):
+        arcs.append(arc)
+    assert any(isinstance(arc.mode, SlidingMode) for arc in arcs)
+    # The velocity of the start is forgotten along the belt, but for its effect on the place; on the belt no change of the velocity is left.
+    found = sensitivity(arcs)
+    assert found[1] == pytest.approx([0, 0], abs=1e-7)
+    assert found.shape == (2, 2) and abs(found[0]).max() > 0.1
+
+
+def test_derivatives_that_do_not_exist_are_told():
+    falls = HybridSystem(field=lambda mode, x: [x[1], -1.0], guards=[])
+    with pytest.raises(ValueError, match="no sensitivity"):
+        event_sensitivity(next(falls.run([1.0, 0.0], time=1)))
+    # The top of a throw touches its surface: nearby throws miss it.
+    top = Guard("top", lambda x: x[0] - 0.5, "rising", touch="event", reset=lambda mode, x: ("down", x), modes=["up"],
+                signal=lambda mode, x: QuasiPolynomial.polynomial([x[0] - 0.5, x[1], -0.5]))  # fmt: skip
+    thrown = HybridSystem(flow=lambda mode, x, t: [x[0] + t * (x[1] - t / 2), x[1] - t], field=lambda mode, x: [x[1], -1.0], guards=[top])
+    touch = next(thrown.run([0.0, 1.0], mode="up", time=2))
+    assert touch.event.kind == "touch"
+    with pytest.raises(ValueError, match="changes at a rate of 0"):
+        sensitivity([touch])
+    with pytest.raises(ValueError, match="at least one"):
+        sensitivity([])
+    floor = Guard("floor", lambda x: x[0], "falling", reset=lambda mode, x: (mode, [0.0, -x[1] / 2]))
+    arcs = list(HybridSystem(field=lambda mode, x: [x[1], -1.0], guards=[floor]).run([1.0, 0.0], time=2.5))
+    with pytest.raises(ValueError, match="arc 1 does not begin where arc 0 ends"):
+        sensitivity(arcs[::-1])
+    wide = HybridSystem(field=lambda mode, x: np.zeros(9))
+    with pytest.raises(ValueError, match="1 to 8 numbers, not 9"):
+        sensitivity(list(wide.run(np.zeros(9), time=1)))
+    no_field = HybridSystem(flow=lambda mode, x, t: [x[0] + t], guards=[Guard("one", lambda x: x[0] - 1, "rising", reset=lambda mode, x: (mode, [0.0]))], sampled=0.1)  # fmt: skip
+    with pytest.raises(ValueError, match="field"):
+        sensitivity([next(no_field.run([0.0], time=3))])
+
+
+def test_an_exception_passes_through_a_derivative():
+    mine = Mine("with its text")
+    broken = {"yes": False}
+
+    def value(x):
+        if broken["yes"]:
+            raise mine
+        return x[0]
+
+    floor = Guard("floor", value, "falling", reset=lambda mode, x: (mode, [0.0, -x[1] / 2]))
+    arc = next(HybridSystem(field=lambda mode, x: [x[1], -1.0], guards=[floor]).run([1.0, 0.0], time=4))
+    broken["yes"] = True
+    with pytest.raises(Mine) as caught:
+        sensitivity([arc])
+    assert caught.value is mine
+
+
 def test_trajectories_are_arrays():
     found = ball().run([0.5, 0], time=1.5).trajectory([0, 0.5, 1, 1.5])
     assert found["times"].tolist() == [0, 0.5, 1, 1, 1.5]
@@ -190,7 +362,9 @@ def test_ctrl_c_ends_a_search(value, ctrl_c):
         ({}, ValueError, "flow= or field="),
         ({"flow": 3}, TypeError, "flow must be a function"),
         ({"field": lambda m, x: [1.0, 2.0]}, ValueError, "field returned 2 numbers, and the state has 1"),
-        ({"flow": lambda m, x, t: "no"}, (TypeError, ValueError), None),
+        ({"flow": lambda m, x, t: "no"}, TypeError, "number"),
+        ({"field": lambda m, x: np.array([1j])}, TypeError, "complex128"),
+        ({"field": lambda m, x: np.array([[1.0]])}, TypeError, "2 dimensions"),
         ({"field": lambda m, x: [math.nan]}, ArithmeticError, "not finite"),
         ({"field": lambda m, x: [1.0], "tolerance": -1.0}, ValueError, "-1"),
     ],

@@ -85,6 +85,35 @@ pub struct Arc<M, S, X> {
 }
 
 impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
+    /// The same arc with its states in another type, such as a [`State<N>`](crate::State) for a `DVector`.
+    pub fn with_states<Y>(&self, convert: impl Fn(&X) -> Y) -> Arc<M, S, Y> {
+        let pair = |after: &Option<(M, X)>| after.as_ref().map(|(mode, x)| (*mode, convert(x)));
+        let end = match &self.end {
+            ArcEnd::Event(event) => ArcEnd::Event(Event {
+                surface: event.surface,
+                time: event.time,
+                time_error: event.time_error,
+                at_time_limit: event.at_time_limit,
+                jump: event.jump,
+                before: convert(&event.before),
+                after: pair(&event.after),
+                kind: event.kind,
+                certainty: event.certainty,
+            }),
+            ArcEnd::Zeno { limit, after } => {
+                ArcEnd::Zeno { limit: limit.with_state(&convert), after: pair(after) }
+            }
+            ArcEnd::Sliding { sliding, after } => {
+                ArcEnd::Sliding { sliding: sliding.with_states(&convert), after: pair(after) }
+            }
+            ArcEnd::TimeLimit { certainty } => ArcEnd::TimeLimit { certainty: *certainty },
+            ArcEnd::Never { certainty } => ArcEnd::Never { certainty: *certainty },
+            ArcEnd::Unfinished { certainty } => ArcEnd::Unfinished { certainty: *certainty },
+        };
+        let Arc { mode, time, jump, duration, .. } = *self;
+        Arc { mode, time, jump, start: convert(&self.start), duration, end }
+    }
+
     /// The state at `elapsed` time after the start of the arc, by the flow of `system`.
     ///
     /// # Errors

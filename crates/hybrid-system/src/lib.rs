@@ -25,6 +25,7 @@
 //! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
 //! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
 //! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
+//! | [`jacobian_by_differences`], [`gradient_by_differences`], [`reset_by_differences`] | the derivatives of a model that has no formulas for them |
 //! | [`Family`], [`Parametric`], [`parameter_sensitivity`], [`event_parameter_sensitivity`] | derivatives with respect to parameters |
 //! | [`bracketed_root`], [`golden_section_minimum`] | Brent's method between two values of opposite sign; the minimum of a function of one variable |
 //!
@@ -133,7 +134,9 @@ pub use execution::Execution;
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
 pub use limits::{Limits, Stop};
-pub use model::{Family, Model};
+pub use model::{
+    Family, Model, gradient_by_differences, jacobian_by_differences, reset_by_differences,
+};
 #[cfg(feature = "ode")]
 pub use ode::{
     Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,

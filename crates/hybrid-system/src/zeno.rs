@@ -44,6 +44,22 @@ pub struct ZenoLimit<X> {
     pub period: usize,
 }
 
+impl<X> ZenoLimit<X> {
+    /// The same limit with its state in another type.
+    pub(crate) fn with_state<Y>(&self, convert: impl Fn(&X) -> Y) -> ZenoLimit<Y> {
+        let ZenoLimit { time, time_error, remainder, state_error, ratio, period, .. } = *self;
+        ZenoLimit {
+            time,
+            time_error,
+            remainder,
+            state: convert(&self.state),
+            state_error,
+            ratio,
+            period,
+        }
+    }
+}
+
 /// The durations of the last arcs, and the last states after events.
 #[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]

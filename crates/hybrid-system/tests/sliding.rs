@@ -300,3 +300,44 @@ fn the_free_motion_after_an_exit_is_a_parabola() {
     let end = lasting[2].state(&fold, lasting[2].duration).unwrap();
     assert!((end[0] + 0.5 * 2.1 * 2.1).abs() < 1e-11, "{end}");
 }
+
+/// A relay that ends at its surface, goes on in a mode of its own, or slides.
+#[test]
+fn the_mode_of_a_model_wins_and_not_to_follow_surfaces_ends_there() {
+    let relay = |held: bool| {
+        Model::integrated(|side: i8, x: &State<1>| [0.3 - f64::from(side) * (1.0 + 0.0 * x[0])])
+            .rising(-1, |x| x[0], |x| (1, *x))
+            .falling(1, |x| x[0], |x| (-1, *x))
+            .slide(move |sliding| held.then_some((0, sliding.state)))
+    };
+    let end = |relay: &Filippov<_>| {
+        let limits = Limits::new(3.0, 50);
+        let start = FilippovMode::Free(1);
+        let mut execution = Execution::new(relay, start, Vector1::new(0.7), limits);
+        let count = execution.by_ref().inspect(|arc| assert!(arc.is_ok())).count();
+        let stop = execution.stop().unwrap();
+        (count > 0, stop, execution.time(), execution.state()[0])
+    };
+    // From 0.7 with ẋ = −0.7 it reaches 0 at t = 1. Along the surface it rests; in mode 0 it has ẋ = 0.3.
+    let (_, stop, _, state) = end(&Filippov::new(relay(false), TIGHT));
+    assert_eq!((stop, state), (Stop::TimeLimit, 0.0));
+    let (_, stop, time, _) = end(&Filippov::new(relay(false), TIGHT).following(false));
+    assert!(stop == Stop::Sliding && (time - 1.0).abs() < 1e-12, "{stop:?} {time}");
+    for follows in [true, false] {
+        let (_, stop, _, state) = end(&Filippov::new(relay(true), TIGHT).following(follows));
+        assert!(stop == Stop::TimeLimit && (state - 0.6).abs() < 1e-12, "{stop:?} {state}");
+    }
+}
+
+/// The arcs of a system with sliding, in states of a dimension that is chosen at run time, give the same derivatives.
+#[test]
+fn arcs_keep_everything_but_the_type_of_their_states() {
+    let relay = TwoSided::<1>::new(|_| Vector1::new(1.3), |_| Vector1::new(-0.7), |x| x[0]);
+    let relay = Filippov::new(relay, TIGHT);
+    let (arcs, _) = run(&relay, ABOVE, Vector1::new(1.0), Limits::new(5.0, 50)).unwrap();
+    assert!(arcs.iter().any(|arc| matches!(arc.end, ArcEnd::Sliding { .. })));
+    for arc in arcs {
+        let there = arc.with_states(|x| nalgebra::DVector::from_column_slice(x.as_slice()));
+        assert_eq!(there.with_states(|x| Vector1::new(x[0])), arc);
+    }
+}

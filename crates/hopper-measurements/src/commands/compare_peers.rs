@@ -1,7 +1,7 @@
-//! `compare-peers`: the same hops by heyoka, SciPy, numba and this repository, in Rust and in Python.
+//! `compare-peers`: the same hops by heyoka, SciPy, NumPy, numba and this repository, in Rust and in Python.
 
 use crate::error::Error;
-use crate::peers::{Python, csv, markdown, measure, peers_figure};
+use crate::peers::{Python, array_times, arrays_markdown, csv, markdown, measure, peers_figure};
 use crate::text::replace_block;
 use journal_figures::render;
 use repository_tools::{Folder, Progress, read, repository, results_folder, say};
@@ -17,7 +17,7 @@ pub struct Options {
     /// Folder for the environment and the results [default: target/peers in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Renew the table and the figure of docs/performance.md with the measured values
+    /// Renew the tables and the figure of docs/performance.md with the measured values
     #[arg(long)]
     bless: bool,
 }
@@ -31,18 +31,20 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let python = Python::with_packages(&options.python, folder.path())?
         .with_own_package(&package, &folder.path().join("build"))?;
     let peers = measure(&python, folder.path(), &Progress)?;
+    let arrays = arrays_markdown(&array_times(&python, folder.path(), &Progress)?);
     let rendered = render("peers", &peers_figure(&peers), 2.0)?;
     folder.write("peers.csv", &csv(&peers)?.bytes)?;
     folder.write("peers.svg", rendered.svg.as_bytes())?;
     folder.write("peers.png", &rendered.png)?;
     let table = markdown(&peers);
-    say(format_args!("{table}\n{}", folder.path().display()))?;
+    say(format_args!("{table}\n{arrays}\n{}", folder.path().display()))?;
     if !options.bless {
         return Ok(());
     }
     let docs = Folder::open(&repository().join("docs"))?;
     let text = read(&docs.path().join("performance.md"))?;
-    docs.write("performance.md", replace_block(&text, "peers", &table)?.as_bytes())?;
+    let text = replace_block(&text, "peers", &table)?;
+    docs.write("performance.md", replace_block(&text, "arrays", &arrays)?.as_bytes())?;
     docs.write("figures/peers.svg", rendered.svg.as_bytes())?;
     Ok(())
 }

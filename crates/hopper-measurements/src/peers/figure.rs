@@ -10,8 +10,10 @@ const ERRORS: (f64, f64) = (1e-17, 1e-6);
 const TIMES: (f64, f64) = (1e-9, 1e-1);
 
 /// Markers of other programs and of ours, in the order of their times, the slowest first.
-const THEIRS: [Marker; 4] = [Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge];
-const OURS: [Marker; 4] = [Marker::Ring, Marker::Cross, Marker::Disc, Marker::Square];
+const THEIRS: [Marker; 5] =
+    [Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Wedge, Marker::Ring];
+const OURS: [Marker; 6] =
+    [Marker::Ring, Marker::Cross, Marker::Disc, Marker::Square, Marker::Triangle, Marker::Diamond];
 
 /// The drawing: a marker at the worst error, with a line down to the median error.
 pub(crate) fn peers_figure(peers: &[Peer]) -> Svg {

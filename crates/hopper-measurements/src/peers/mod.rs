@@ -1,11 +1,13 @@
-//! The same hops by heyoka, SciPy, numba and this repository, in one run on one machine.
+//! The same hops by heyoka, SciPy, NumPy, numba and this repository, in one run on one machine.
 
+mod arrays;
 mod compare;
 mod figure;
 mod peer;
 mod python;
 mod table;
 
+pub(crate) use arrays::{array_times, arrays_markdown};
 pub(crate) use compare::measure;
 pub(crate) use figure::peers_figure;
 pub(crate) use python::{Python, call};

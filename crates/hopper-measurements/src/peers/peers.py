@@ -1,4 +1,4 @@
-"""Hops of the passive hopper by heyoka, SciPy, numba and this repository's package: time a hop, and the speeds found.
+"""Hops of the passive hopper by heyoka, SciPy, NumPy, numba and this repository's package: time a hop, and the speeds found.
 
 python peers.py hops.json results.json
 
@@ -226,6 +226,38 @@ def by_numba(hops):
     return [speed if speed > 0.0 else None for speed in numba_hops(ratios.copy(), alphas.copy())]
 
 
+def by_numpy(hops):
+    """The closed form for all hops at once: those that have not landed yet are scanned on, and bisected together."""
+    ratio, alpha = numpy.array(hops).T
+    kappa = ratio / (1.0 + ratio)
+    x, v, squares = numpy.zeros_like(alpha), alpha.copy(), numpy.zeros_like(alpha)
+    flying = numpy.arange(len(hops))
+    while len(flying):
+        y, speed = 1.0 + x[flying], v[flying]
+
+        def height(t, of=slice(None)):
+            return y[of] + speed[of] * t - t * t / 2 - y[of] * numpy.cos(t) - speed[of] * numpy.sin(t)
+
+        left = numpy.where(x[flying] <= 0.0, 0.1, 1e-6)
+        above = numpy.arange(len(flying))
+        while len(above):
+            above = above[height(left[above] + 0.05, above) > 0.0]
+            left[above] += 0.05
+        right = left + 0.05
+        for _ in range(60):
+            middle = 0.5 * (left + right)
+            high = height(middle) > 0.0
+            left, right = numpy.where(high, middle, left), numpy.where(high, right, middle)
+        t = 0.5 * (left + right)
+        closing = t - speed + speed * numpy.cos(t) - y * numpy.sin(t)
+        x[flying] = y * numpy.cos(t) + speed * numpy.sin(t) - 1.0
+        v[flying] = speed - t + kappa[flying] * closing
+        squares[flying] += closing * closing
+        flying = flying[x[flying] > 0.0]
+    rest = alpha * alpha - kappa / (1.0 + ratio) * squares
+    return [math.sqrt(square) if square > 0.0 else None for square in rest]
+
+
 def none_for_nan(speeds):
     return [speed if speed == speed else None for speed in speeds]
 
@@ -269,6 +301,7 @@ def main():
     lanes = heyoka.recommended_simd_size()
     results = [
         measure(f"SciPy {scipy.__version__}, DOP853, events, 1e-10", by_scipy, hops[:200], 1),
+        measure(f"NumPy {numpy.__version__}, closed form, scan and bisect at once", by_numpy, hops, 5),
         measure(f"numba {numba.__version__}, closed form, scan and bisect", by_numba, hops, 5),
         measure(f"heyoka {heyoka.__version__}, terminal event", heyoka_scalar(), hops, 5),
         measure(f"heyoka {heyoka.__version__}, batch of {lanes}", heyoka_batch(), hops, 5),

@@ -281,6 +281,11 @@ class Sliding:
     rates: tuple[float, float]
     field: _State | None
 
+class SlidingMode:
+    surface: str
+    below: _Mode
+    above: _Mode
+
 class Arc:
     @property
     def mode(self) -> _Mode: ...
@@ -328,7 +333,7 @@ class HybridSystem:
         field: Callable[[_Mode, _State], _Vector] | None = None,
         guards: Sequence[Guard | Clock] = (),
         rest: _Reset | None = None,
-        slide: Callable[[Sliding], tuple[_Mode, _Vector] | None] | None = None,
+        slide: Callable[[Sliding], tuple[_Mode, _Vector] | None] | Literal["filippov"] | None = None,
         tolerance: float = 1e-10,
         longest_step: float = ...,
         check_interval: float = ...,
@@ -337,3 +342,6 @@ class HybridSystem:
     def run(
         self, start: ArrayLike, *, time: float, mode: _Mode = None, events: int = 1_000_000, start_time: float = 0.0
     ) -> Execution: ...
+
+def sensitivity(arcs: Sequence[Arc]) -> NDArray[np.float64]: ...
+def event_sensitivity(arc: Arc) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...

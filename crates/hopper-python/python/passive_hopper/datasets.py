@@ -46,6 +46,10 @@ def basins(
     M = tuple(float(end) for end in M)
     alpha = tuple(float(end) for end in (_native.first_window() if alpha is None else alpha))
     shape = tuple(operator.index(side) for side in shape)
+    if any(side < 1 for side in shape):
+        raise ValueError(f"a raster has at least one pixel across and up, not {shape}")
+    if client is not None and not callable(getattr(client, "submit", None)):
+        raise TypeError(f"client is a dask.distributed.Client, not {client!r}")
     _native.pixel_middles((M, alpha), shape)
     if store is not None:
         from .stores import write_basins

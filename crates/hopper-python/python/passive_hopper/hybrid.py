@@ -13,6 +13,22 @@ events in finite time (Zeno) end in their limit, and what rounding hides raises 
 ... )
 >>> [arc.event.surface for arc in room.run([15], mode="on", time=1.2) if arc.event]
 ['warm', 'cold', 'warm', 'cold']
+
+With ``slide="filippov"`` a motion goes on along a surface at which the fields on both sides point:
+
+>>> relay = HybridSystem(
+...     field=lambda sign, x: [0.3 - sign],
+...     guards=[
+...         Guard("up", lambda x: x[0], "rising", modes=[-1], reset=lambda sign, x: (1, x)),
+...         Guard("down", lambda x: x[0], "falling", modes=[1], reset=lambda sign, x: (-1, x)),
+...     ],
+...     slide="filippov",
+... )
+>>> run = relay.run([0.7], mode=1, time=5)
+>>> [arc.end for arc in run][-1], run.mode.surface, run.state.tolist()
+('time limit', 'down', [0.0])
+
+:func:`sensitivity` and :func:`event_sensitivity` give the derivatives of states and event times by the start.
 """
 
 from ._native import (
@@ -24,8 +40,11 @@ from ._native import (
     HybridSystem,
     QuasiPolynomial,
     Sliding,
+    SlidingMode,
     UndecidedError,
     Zeno,
+    event_sensitivity,
+    sensitivity,
 )
 
 __all__ = [
@@ -37,6 +56,9 @@ __all__ = [
     "HybridSystem",
     "QuasiPolynomial",
     "Sliding",
+    "SlidingMode",
     "UndecidedError",
     "Zeno",
+    "event_sensitivity",
+    "sensitivity",
 ]

@@ -2,7 +2,7 @@
 
 use super::callables::Callables;
 use super::model::Model;
-use super::names::{Mode, Surface};
+use super::names::{ExecutionMode, ExecutionSurface};
 use super::sliding::Sliding;
 use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
@@ -15,7 +15,7 @@ use std::sync::Arc;
 #[pyclass(frozen, get_all, module = "passive_hopper.hybrid")]
 #[derive(Debug)]
 pub(crate) struct Event {
-    /// The name of the guard.
+    /// The name of the guard; "NAME: end of sliding" where the field of one side turns tangent to the guard of this name.
     surface: String,
     /// The time.
     time: f64,
@@ -64,15 +64,21 @@ pub(crate) struct Zeno {
 #[derive(Debug)]
 pub(crate) struct HybridArc {
     model: Arc<Model>,
-    own: LibraryArc<Mode, Surface, State>,
+    own: OwnArc,
 }
+
+/// The mode and the state after an event or a limit, if the execution goes on.
+type Next = (Option<Py<PyAny>>, Option<Py<PyAny>>);
+
+/// An arc of the library.
+pub(crate) type OwnArc = LibraryArc<ExecutionMode, ExecutionSurface, State>;
 
 #[pymethods]
 impl HybridArc {
-    /// The mode.
+    /// The mode; a SlidingMode along a surface.
     #[getter]
-    fn mode(&self, py: Python<'_>) -> Py<PyAny> {
-        self.model.modes.name(py, self.own.mode)
+    fn mode(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        self.model.mode_object(py, self.own.mode)
     }
 
     /// The time at the start.
@@ -126,11 +132,11 @@ impl HybridArc {
 
     /// The event at the end; None if the arc ends in another way.
     #[getter]
-    fn event(&self, py: Python<'_>) -> Option<Event> {
-        let event = self.own.event()?;
-        let (next_mode, after) = self.next(py, event.after.as_ref());
-        Some(Event {
-            surface: self.model.surface_name(event.surface),
+    fn event(&self, py: Python<'_>) -> PyResult<Option<Event>> {
+        let Some(event) = self.own.event() else { return Ok(None) };
+        let (next_mode, after) = self.next(py, event.after.as_ref())?;
+        Ok(Some(Event {
+            surface: self.model.event_name(event.surface),
             time: event.time,
             time_error: event.time_error,
             at_time_limit: event.at_time_limit,
@@ -140,15 +146,15 @@ impl HybridArc {
             after,
             kind: kind(event.kind),
             certainty: certainty(event.certainty),
-        })
+        }))
     }
 
     /// The Zeno limit at the end; None if the arc ends in another way.
     #[getter]
-    fn zeno(&self, py: Python<'_>) -> Option<Zeno> {
-        let ArcEnd::Zeno { limit, after } = &self.own.end else { return None };
-        let (next_mode, after) = self.next(py, after.as_ref());
-        Some(Zeno {
+    fn zeno(&self, py: Python<'_>) -> PyResult<Option<Zeno>> {
+        let ArcEnd::Zeno { limit, after } = &self.own.end else { return Ok(None) };
+        let (next_mode, after) = self.next(py, after.as_ref())?;
+        Ok(Some(Zeno {
             time: limit.time,
             time_error: limit.time_error,
             state: copied(py, &limit.state),
@@ -157,7 +163,7 @@ impl HybridArc {
             period: limit.period,
             next_mode,
             after,
-        })
+        }))
     }
 
     /// The sliding point at the end; None if the arc ends in another way.
@@ -181,9 +187,9 @@ impl HybridArc {
                 "a time after the start of an arc must be finite and not negative, not {bad:?}"
             )));
         }
-        let callables = Callables::new(py, &self.model);
-        let found = self.own.states(&callables, &elapsed);
-        if let Some(exception) = callables.exception() {
+        let system = Callables::with_sliding(py, &self.model);
+        let found = self.own.states(&system, &elapsed);
+        if let Some(exception) = system.system().exception() {
             return Err(exception);
         }
         let states = found.map_err(|error| self.model.exception(py, &error))?;
@@ -193,24 +199,28 @@ impl HybridArc {
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
-        let mode = self.mode(py).bind(py).repr()?.to_string();
+        let mode = self.mode(py)?.bind(py).repr()?.to_string();
         let (time, duration, end) = (self.own.time, self.own.duration, self.end());
         Ok(format!("Arc(mode={mode}, time={time:?}, duration={duration:?}, end={end:?})"))
     }
 }
 
 impl HybridArc {
-    pub(crate) fn new(model: Arc<Model>, own: LibraryArc<Mode, Surface, State>) -> Self {
+    pub(crate) fn new(model: Arc<Model>, own: OwnArc) -> Self {
         HybridArc { model, own }
     }
 
-    fn next(
-        &self,
-        py: Python<'_>,
-        after: Option<&(Mode, State)>,
-    ) -> (Option<Py<PyAny>>, Option<Py<PyAny>>) {
-        let mode = after.map(|(mode, _)| self.model.modes.name(py, *mode));
-        (mode, after.map(|(_, state)| copied(py, state)))
+    fn next(&self, py: Python<'_>, after: Option<&(ExecutionMode, State)>) -> PyResult<Next> {
+        let mode = after.map(|(mode, _)| self.model.mode_object(py, *mode)).transpose()?;
+        Ok((mode, after.map(|(_, state)| copied(py, state))))
+    }
+
+    pub(super) fn model(&self) -> &Arc<Model> {
+        &self.model
+    }
+
+    pub(super) fn own(&self) -> &OwnArc {
+        &self.own
     }
 }
 

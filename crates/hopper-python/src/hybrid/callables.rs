@@ -10,8 +10,8 @@ use super::quasi_polynomial::QuasiPolynomial;
 use super::sliding::Sliding;
 use super::vectors::{State, array, vector};
 use hybrid_system::{
-    Enclosure, Error, Guard, NextEvent, Reset, Search, StateVector, default_search,
-    integrated_crossing, integrated_flow, integrated_states,
+    Enclosure, Error, Filippov, FilippovMode, FilippovSurface, Guard, NextEvent, Reset, Search,
+    StateVector, default_search, integrated_crossing, integrated_flow, integrated_states,
 };
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
@@ -30,9 +30,15 @@ impl<'py, 'a> Callables<'py, 'a> {
         Callables { py, model, exception: RefCell::new(None) }
     }
 
-    /// The first exception of a function.
-    pub(crate) fn exception(self) -> Option<PyErr> {
-        self.exception.into_inner()
+    /// The same with the motion along surfaces, if the user wants it.
+    pub(crate) fn with_sliding(py: Python<'py>, model: &'a Model) -> Filippov<Self> {
+        let callables = Callables::new(py, model);
+        Filippov::new(callables, model.tolerances).following(model.follows)
+    }
+
+    /// The first exception of a function. It is told once.
+    pub(crate) fn exception(&self) -> Option<PyErr> {
+        self.exception.borrow_mut().take()
     }
 
     /// The value of a call, unless it or an earlier one has raised an exception.
@@ -148,8 +154,18 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
     ) -> Option<(Mode, State)> {
         let slide = self.model.functions.slide.as_ref()?.bind(self.py);
         let call = || {
-            let sliding_point = Sliding::of(self.py, self.model, sliding)?;
-            self.pair(&slide.call1((sliding_point,))?, sliding.state.len(), "slide")
+            let point = hybrid_system::Sliding {
+                surface: FilippovSurface::Model(sliding.surface),
+                below: FilippovMode::Free(sliding.below),
+                above: FilippovMode::Free(sliding.above),
+                time: sliding.time,
+                state: sliding.state.clone(),
+                rates: sliding.rates,
+                fields: sliding.fields.clone(),
+                field: sliding.field.clone(),
+            };
+            let point = Sliding::of(self.py, self.model, &point)?;
+            self.pair(&slide.call1((point,))?, sliding.state.len(), "slide")
         };
         self.kept(call).flatten()
     }

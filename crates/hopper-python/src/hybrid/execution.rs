@@ -3,10 +3,12 @@
 use super::arcs::{HybridArc, certainty, kind};
 use super::callables::Callables;
 use super::model::Model;
-use super::names::{Mode, Surface};
+use super::names::{ExecutionMode, ExecutionSurface, Mode};
 use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
-use hybrid_system::{Checkpoint, Error, Execution as LibraryExecution, Limits, Stop};
+use hybrid_system::{
+    Checkpoint, Error, Execution as LibraryExecution, Filippov, FilippovMode, Limits, Stop,
+};
 use nalgebra::DMatrix;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -14,7 +16,8 @@ use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// The point that an execution has reached, and its limits.
-type At = (Checkpoint<Mode, Surface, State>, Limits);
+type At = (Reached, Limits);
+type Reached = Checkpoint<ExecutionMode, ExecutionSurface, State>;
 
 /// An execution of a hybrid system: an iterator over its arcs.
 ///
@@ -35,9 +38,10 @@ impl Execution {
         state: State,
         (start_time, limits): (f64, Limits),
     ) -> Self {
-        let callables = Callables::new(py, &model);
-        let execution = LibraryExecution::new(&callables, mode, state, limits);
+        let system = Callables::with_sliding(py, &model);
+        let execution = LibraryExecution::new(&system, FilippovMode::Free(mode), state, limits);
         let checkpoint = execution.starting_at(start_time).checkpoint();
+        drop(system);
         Execution { at: Mutex::new(Some((checkpoint, limits))), model }
     }
 
@@ -46,7 +50,7 @@ impl Execution {
         &self,
         py: Python<'_>,
         limits: impl FnOnce(Limits) -> Limits,
-        steps: impl FnOnce(&mut LibraryExecution<'_, Callables<'_, '_>>) -> Result<T, Error>,
+        steps: impl FnOnce(&mut LibraryExecution<'_, Filippov<Callables<'_, '_>>>) -> Result<T, Error>,
     ) -> PyResult<T> {
         let taken = self.at.lock().unwrap_or_else(PoisonError::into_inner).take();
         let Some((checkpoint, before)) = taken else {
@@ -55,11 +59,11 @@ impl Execution {
             return Err(PyRuntimeError::new_err(text));
         };
         let limits = limits(before);
-        let callables = Callables::new(py, &self.model);
-        let mut execution = LibraryExecution::restore(&callables, checkpoint.clone(), limits);
+        let system = Callables::with_sliding(py, &self.model);
+        let mut execution = LibraryExecution::restore(&system, checkpoint.clone(), limits);
         let found = steps(&mut execution);
         let after = execution.checkpoint();
-        let exception = callables.exception();
+        let exception = system.system().exception();
         let at = if exception.is_some() { (checkpoint, before) } else { (after, limits) };
         *self.at.lock().unwrap_or_else(PoisonError::into_inner) = Some(at);
         match exception {
@@ -68,7 +72,7 @@ impl Execution {
         }
     }
 
-    fn seen<T>(&self, see: impl FnOnce(&Checkpoint<Mode, Surface, State>) -> T) -> PyResult<T> {
+    fn seen<T>(&self, see: impl FnOnce(&Reached) -> T) -> PyResult<T> {
         let at = self.at.lock().unwrap_or_else(PoisonError::into_inner);
         match at.as_ref() {
             Some((checkpoint, _)) => Ok(see(checkpoint)),
@@ -110,7 +114,8 @@ impl Execution {
     ) -> PyResult<Bound<'py, PyDict>> {
         let grid = numbers(grid)?;
         let found = self.steps(py, |limits| limits, |execution| execution.trajectory(&grid))?;
-        let name = |mode: &Mode| self.model.modes.name(py, *mode);
+        let name = |mode: &ExecutionMode| self.model.mode_object(py, *mode);
+        let names = |modes: &[ExecutionMode]| modes.iter().map(name).collect::<PyResult<Vec<_>>>();
         let rows = |matrix: &DMatrix<f64>| {
             shaped(py, matrix.transpose().as_slice().to_vec(), &[matrix.nrows(), matrix.ncols()])
         };
@@ -118,17 +123,17 @@ impl Execution {
         all.set_item("times", shaped(py, found.times, &[count])?)?;
         let jumps: Vec<u64> = found.jumps.iter().map(|&jump| jump as u64).collect();
         all.set_item("jumps", shaped(py, jumps, &[count])?)?;
-        all.set_item("modes", found.modes.iter().map(name).collect::<Vec<_>>())?;
+        all.set_item("modes", names(&found.modes)?)?;
         all.set_item("states", rows(&found.states)?)?;
         all.set_item("on_grid", shaped(py, found.on_grid, &[count])?)?;
         let events = found.events;
         let number = events.times.len();
         all.set_item("event_times", shaped(py, events.times, &[number])?)?;
-        let surfaces = events.surfaces.iter().map(|&surface| self.model.surface_name(surface));
+        let surfaces = events.surfaces.iter().map(|&surface| self.model.event_name(surface));
         all.set_item("event_surfaces", surfaces.collect::<Vec<_>>())?;
-        all.set_item("event_modes", events.modes.iter().map(name).collect::<Vec<_>>())?;
-        let next = events.next_modes.iter().map(|mode| mode.as_ref().map(name));
-        all.set_item("event_next_modes", next.collect::<Vec<_>>())?;
+        all.set_item("event_modes", names(&events.modes)?)?;
+        let next = events.next_modes.iter().map(|mode| mode.as_ref().map(name).transpose());
+        all.set_item("event_next_modes", next.collect::<PyResult<Vec<_>>>()?)?;
         all.set_item("event_before", rows(&events.before)?)?;
         all.set_item("event_after", rows(&events.after)?)?;
         let kinds: Vec<_> = events.kinds.iter().map(|&of| kind(of)).collect();
@@ -138,11 +143,10 @@ impl Execution {
         Ok(all)
     }
 
-    /// The mode in which the execution is.
+    /// The mode in which the execution is; a SlidingMode along a surface.
     #[getter]
     fn mode(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        let mode = self.seen(Checkpoint::mode)?;
-        Ok(self.model.modes.name(py, mode))
+        self.model.mode_object(py, self.seen(Checkpoint::mode)?)
     }
 
     /// The state at which it is.

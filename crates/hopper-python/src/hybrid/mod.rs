@@ -6,23 +6,28 @@
 //!
 //! A `model` is what a user has given to a `system`, with the `names` of its modes and its `guards`. During one call a `callables` object is
 //! the hybrid system of the library: it calls the functions, turns `vectors` to arrays of NumPy and back, and keeps the first exception.
-//! An `execution` is an iterator over `arcs`.
+//! An `execution` is an iterator over `arcs`. `derivatives` go through
+//! arcs and events. A `sliding` point is one of a surface at which the fields on both sides point, and a `sliding_mode` the motion along it.
 
 mod arcs;
 mod callables;
+mod derivatives;
 mod execution;
 mod guards;
 mod model;
 mod names;
 mod quasi_polynomial;
 mod sliding;
+mod sliding_mode;
 mod system;
 mod vectors;
 
 pub(crate) use arcs::{Event, HybridArc, Zeno};
+pub(crate) use derivatives::{event_sensitivity, sensitivity};
 pub(crate) use execution::Execution;
 pub(crate) use guards::{Clock, Guard};
 pub(crate) use quasi_polynomial::QuasiPolynomial;
 pub(crate) use sliding::Sliding;
+pub(crate) use sliding_mode::SlidingMode;
 pub(crate) use system::HybridSystem;
 pub(crate) use vectors::vector;

@@ -1,9 +1,10 @@
 //! The functions of a hybrid system, with the guards of each mode.
 
 use super::guards::{After, Clock, Guard};
-use super::names::{Mode, Modes, Surface};
+use super::names::{ExecutionMode, ExecutionSurface, Mode, Modes, Surface};
+use super::sliding_mode::SlidingMode;
 use crate::errors::UndecidedError;
-use hybrid_system::{Error, Tolerances};
+use hybrid_system::{Error, FilippovMode, FilippovSurface, Tolerances};
 use pyo3::exceptions::{PyArithmeticError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
@@ -61,6 +62,8 @@ pub(crate) struct Functions {
 pub(crate) struct Model {
     pub(crate) functions: Functions,
     pub(crate) tolerances: Tolerances,
+    /// Whether executions go on along surfaces, by Filippov's convention.
+    pub(crate) follows: bool,
     pub(crate) watched: Vec<Watched>,
     pub(crate) modes: Modes,
     /// The guards of each mode that some guard names.
@@ -78,7 +81,7 @@ impl Model {
         py: Python<'_>,
         functions: Functions,
         guards: &[Bound<'_, PyAny>],
-        tolerances: Tolerances,
+        (tolerances, follows): (Tolerances, bool),
     ) -> PyResult<Self> {
         let mut watched: Vec<Watched> = Vec::new();
         for object in guards {
@@ -122,12 +125,34 @@ impl Model {
                 }
             }
         }
-        Ok(Model { functions, tolerances, watched, modes, lists, everywhere })
+        Ok(Model { functions, tolerances, follows, watched, modes, lists, everywhere })
     }
 
     /// The name of a guard.
     pub(crate) fn surface_name(&self, surface: Surface) -> String {
         self.watched.get(surface.0).map_or_else(String::new, |watched| watched.name().to_owned())
+    }
+
+    /// The name of a surface of an execution.
+    pub(crate) fn event_name(&self, surface: ExecutionSurface) -> String {
+        match surface {
+            FilippovSurface::Model(surface) => self.surface_name(surface),
+            FilippovSurface::Tangent { surface, .. } => {
+                format!("{}: end of sliding", self.surface_name(surface))
+            }
+        }
+    }
+
+    /// The mode as Python sees it: the user's own object, or a SlidingMode.
+    pub(crate) fn mode_object(&self, py: Python<'_>, mode: ExecutionMode) -> PyResult<Py<PyAny>> {
+        match mode {
+            FilippovMode::Free(mode) => Ok(self.modes.name(py, mode)),
+            FilippovMode::Sliding { surface, below, above, .. } => {
+                let (below, above) = (self.modes.name(py, below), self.modes.name(py, above));
+                let mode = SlidingMode { surface: self.surface_name(surface), below, above };
+                Ok(Py::new(py, mode)?.into_any())
+            }
+        }
     }
 
     /// The guards of a mode.
@@ -142,11 +167,21 @@ impl Model {
         for number in 0..self.modes.count() {
             let name = self.modes.name(py, Mode(number));
             let shown = name.bind(py).repr().map_or_else(|_| "?".into(), |shown| shown.to_string());
-            text = text.replace(&format!("{:?}", Mode(number)), &shown);
+            for own in [
+                format!("{:?}", FilippovMode::<_, Surface>::Free(Mode(number))),
+                format!("{:?}", Mode(number)),
+            ] {
+                text = text.replace(&own, &shown);
+            }
         }
         for (number, watched) in self.watched.iter().enumerate() {
             let shown = format!("{:?}", watched.name());
-            text = text.replace(&format!("{:?}", Surface(number)), &shown);
+            for own in [
+                format!("{:?}", FilippovSurface::<Mode, _>::Model(Surface(number))),
+                format!("{:?}", Surface(number)),
+            ] {
+                text = text.replace(&own, &shown);
+            }
         }
         match error {
             Error::Grazing { .. } | Error::UndecidedStart { .. } | Error::UndecidedSign { .. } => {

@@ -1,5 +1,6 @@
 //! Modes and surfaces by number, with the Python objects that are their names.
 
+use hybrid_system::{FilippovMode, FilippovSurface};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::fmt;
@@ -24,6 +25,12 @@ impl fmt::Debug for Surface {
         write!(f, "⟨guard {}⟩", self.0)
     }
 }
+
+/// A mode of an execution: one of the model, or a sliding motion.
+pub(crate) type ExecutionMode = FilippovMode<Mode, Surface>;
+
+/// A surface of an execution: one of the model, or the end of a sliding motion.
+pub(crate) type ExecutionSurface = FilippovSurface<Mode, Surface>;
 
 /// The modes that have been named so far: any hashable Python objects.
 #[derive(Debug)]

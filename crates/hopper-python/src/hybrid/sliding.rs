@@ -1,7 +1,7 @@
 //! Sliding points as Python objects.
 
 use super::model::Model;
-use super::names::{Mode, Surface};
+use super::names::{ExecutionMode, ExecutionSurface};
 use super::vectors::{State, copied};
 use pyo3::prelude::*;
 
@@ -29,12 +29,12 @@ impl Sliding {
     pub(crate) fn of(
         py: Python<'_>,
         model: &Model,
-        sliding: &hybrid_system::Sliding<Mode, Surface, State>,
+        sliding: &hybrid_system::Sliding<ExecutionMode, ExecutionSurface, State>,
     ) -> PyResult<Self> {
         Ok(Sliding {
-            surface: model.surface_name(sliding.surface),
-            below: model.modes.name(py, sliding.below),
-            above: model.modes.name(py, sliding.above),
+            surface: model.event_name(sliding.surface),
+            below: model.mode_object(py, sliding.below)?,
+            above: model.mode_object(py, sliding.above)?,
             time: sliding.time,
             state: copied(py, &sliding.state),
             rates: sliding.rates,

@@ -3,6 +3,7 @@
 use super::execution::Execution;
 use super::guards::callable;
 use super::model::{Functions, Model, Watched};
+use super::sliding_mode::SlidingMode;
 use super::vectors::numbers;
 use crate::errors::value_error;
 use hybrid_system::{Error, Limits, Tolerances};
@@ -18,7 +19,8 @@ use std::sync::Arc;
 /// list, a tuple or an array. A mode is any hashable object. guards is a list of Guard and Clock.
 ///
 /// rest(mode, x) returns the mode and the state after infinitely many events in finite time (Zeno), or None; slide(sliding) those on a
-/// surface at which the fields on both sides point. Without them the execution ends there.
+/// surface at which the fields on both sides point. Without them the execution ends there. With slide="filippov" it goes on along the surface,
+/// in a SlidingMode, by the mean of both fields that is tangent to it (Filippov's convention), until the field of one side turns tangent.
 ///
 /// sampled is the interval at which guards of a flow in closed form are looked at, unless they have a signal or an enclosure.
 /// longest_step and check_interval bound the steps of an integration, and the distance of two looks at its guards.
@@ -58,10 +60,22 @@ impl HybridSystem {
         check_interval: f64,
         sampled: Option<f64>,
     ) -> PyResult<Self> {
+        let follows = match slide.as_ref().map(|slide| slide.extract::<String>(py)) {
+            Some(Ok(name)) if name == "filippov" => true,
+            Some(Ok(other)) => {
+                let text = format!("slide is a function or 'filippov', not {other:?}");
+                return Err(PyValueError::new_err(text));
+            }
+            _ => false,
+        };
+        let slide = slide.filter(|_| !follows);
         for (what, object) in
             [("flow", &flow), ("field", &field), ("rest", &rest), ("slide", &slide)]
         {
             callable(py, what, object.as_ref())?;
+        }
+        if follows && field.is_none() {
+            return Err(PyValueError::new_err("slide='filippov' needs field="));
         }
         if flow.is_none() && field.is_none() {
             return Err(PyValueError::new_err("a hybrid system needs flow= or field="));
@@ -69,7 +83,7 @@ impl HybridSystem {
         let tolerances =
             Tolerances::both(tolerance).longest_step(longest_step).check_interval(check_interval);
         let functions = Functions { flow, field, rest, slide };
-        let model = Model::new(py, functions, &guards, tolerances)?;
+        let model = Model::new(py, functions, &guards, (tolerances, follows))?;
         Ok(HybridSystem { model: Arc::new(model), sampled })
     }
 
@@ -90,6 +104,10 @@ impl HybridSystem {
         }
         if !start_time.is_finite() {
             return Err(value_error(Error::BadLimit { what: "the start time", value: start_time }));
+        }
+        if mode.as_ref().is_some_and(|mode| mode.is_instance_of::<SlidingMode>()) {
+            let text = "an execution starts in a mode of the model: on a surface it slides at once";
+            return Err(PyValueError::new_err(text));
         }
         let mode = mode.unwrap_or_else(|| py.None().into_bound(py));
         let mode = self.model.modes.number(&mode)?;

@@ -1,8 +1,9 @@
 //! States as arrays of NumPy, and back.
 
+use crate::arrays::Numbers;
 use nalgebra::DVector;
-use numpy::{AllowTypeChange, PyArray1, PyArrayLike1, PyArrayMethods};
-use pyo3::exceptions::PyValueError;
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyList, PyTuple};
 
@@ -27,8 +28,12 @@ pub(crate) fn numbers(object: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     if object.is_instance_of::<PyList>() || object.is_instance_of::<PyTuple>() {
         return object.extract();
     }
-    let array: PyArrayLike1<'_, f64, AllowTypeChange> = object.extract()?;
-    Ok(array.as_array().iter().copied().collect())
+    let Numbers { values, shape } = object.extract()?;
+    if shape.len() != 1 {
+        let text = format!("a vector is needed, not an array of {} dimensions", shape.len());
+        return Err(PyTypeError::new_err(text));
+    }
+    Ok(values)
 }
 
 /// The vector that a function of the model has returned.

@@ -15,8 +15,15 @@ use std::fmt::Debug;
 const REACH: f64 = 6e-6;
 
 /// The Jacobian of `function` at `state`, by central differences: about ten digits for a smooth function whose scale is
-/// that of its arguments. Columns are NaN where the function has no value.
-pub(super) fn jacobian<const N: usize>(
+/// that of its arguments, max(1, |x|). A column is NaN where the function is.
+///
+/// ```
+/// use hybrid_system::{State, jacobian_by_differences};
+/// let product = |x: &State<2>| State::<2>::new(x[0] * x[1], x[1]);
+/// let found = jacobian_by_differences(&State::<2>::new(2.0, 3.0), product);
+/// assert!((found[(0, 0)] - 3.0).abs() < 1e-9 && (found[(0, 1)] - 2.0).abs() < 1e-9);
+/// ```
+pub fn jacobian_by_differences<const N: usize>(
     state: &State<N>,
     function: impl Fn(&State<N>) -> State<N>,
 ) -> SMatrix<f64, N, N> {
@@ -29,8 +36,8 @@ pub(super) fn jacobian<const N: usize>(
     jacobian
 }
 
-/// The gradient of `function` at `state`, likewise.
-pub(super) fn gradient<const N: usize>(
+/// The gradient of `function` at `state`, as [`jacobian_by_differences`].
+pub fn gradient_by_differences<const N: usize>(
     state: &State<N>,
     function: impl Fn(&State<N>) -> f64,
 ) -> State<N> {
@@ -49,8 +56,8 @@ fn neighbours<const N: usize>(state: &State<N>, axis: usize) -> [State<N>; 3] {
     [ahead, behind, ahead - behind]
 }
 
-/// The derivative of a reset. It is NaN if the reset ends the execution nearby.
-pub(super) fn reset_jacobian<T, const N: usize>(
+/// ∂x⁺/∂x⁻ of a reset, as [`jacobian_by_differences`]. It is NaN if the reset ends the execution nearby.
+pub fn reset_by_differences<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     surface: T::Surface,
@@ -59,7 +66,7 @@ pub(super) fn reset_jacobian<T, const N: usize>(
 where
     T: HybridSystem<State = State<N>>,
 {
-    jacobian(before, |state| state_after(system.reset(mode, surface, state)))
+    jacobian_by_differences(before, |state| state_after(system.reset(mode, surface, state)))
 }
 
 /// The state after a reset, NaN in all components if the reset ends the execution.
@@ -80,14 +87,14 @@ where
     P: Part<M, S, State<N>>,
 {
     fn flow_jacobian(&self, mode: M, start: &State<N>, time: f64) -> SMatrix<f64, N, N> {
-        jacobian(start, |start| self.motion.flow(self, mode, start, time))
+        jacobian_by_differences(start, |start| self.motion.flow(self, mode, start, time))
     }
 
     fn guard_gradient(&self, surface: S, state: &State<N>) -> State<N> {
-        gradient(state, |state| self.guard_value(surface, state))
+        gradient_by_differences(state, |state| self.guard_value(surface, state))
     }
 
     fn reset_jacobian(&self, mode: M, surface: S, before: &State<N>) -> SMatrix<f64, N, N> {
-        reset_jacobian(self, mode, surface, before)
+        reset_by_differences(self, mode, surface, before)
     }
 }

@@ -1,6 +1,6 @@
 //! The derivatives of an integrated model: those of the flow by the variational equation.
 
-use super::derivatives::{gradient, jacobian, reset_jacobian};
+use super::derivatives::{gradient_by_differences, jacobian_by_differences, reset_by_differences};
 use super::integrated::Integrated;
 use super::model::Model;
 use super::part::Part;
@@ -22,7 +22,7 @@ where
 {
     fn field_jacobian(&self, mode: M, state: &State<N>) -> SMatrix<f64, N, N> {
         let none = || State::repeat(f64::NAN);
-        jacobian(state, |state| self.vector_field(mode, state).unwrap_or_else(none))
+        jacobian_by_differences(state, |state| self.vector_field(mode, state).unwrap_or_else(none))
     }
 }
 
@@ -43,10 +43,10 @@ where
     }
 
     fn guard_gradient(&self, surface: S, state: &State<N>) -> State<N> {
-        gradient(state, |state| self.guard_value(surface, state))
+        gradient_by_differences(state, |state| self.guard_value(surface, state))
     }
 
     fn reset_jacobian(&self, mode: M, surface: S, before: &State<N>) -> SMatrix<f64, N, N> {
-        reset_jacobian(self, mode, surface, before)
+        reset_by_differences(self, mode, surface, before)
     }
 }

@@ -31,6 +31,7 @@ mod system;
 
 pub use bounds::{Bounds, Signal};
 pub use continued::{Field, Rest, Slide};
+pub use derivatives::{gradient_by_differences, jacobian_by_differences, reset_by_differences};
 pub use family::Family;
 pub use guarded::{Clock, Jump, JumpEverywhere, Terminal, Watch};
 #[cfg(feature = "ode")]

@@ -21,6 +21,8 @@ type Gradient<T> =
 /// the field of one side turns tangent, a [`FilippovSurface::Tangent`](crate::FilippovSurface::Tangent), and at the other surfaces of both sides.
 /// [Filippov's convention](crate::sliding_motion) has the mathematics.
 ///
+/// Where the model has a [mode of its own](HybridSystem::slide) for a surface, the execution goes on in that one.
+///
 /// The model must give its [fields](HybridSystem::vector_field). Its free modes may be integrated or in closed form. The
 /// sliding motion is integrated with the tolerances of this type.
 ///
@@ -68,6 +70,7 @@ pub struct Filippov<T: HybridSystem> {
     pub(super) system: T,
     pub(super) tolerances: Tolerances,
     gradient: Option<Gradient<T>>,
+    pub(super) follows: bool,
     pub(super) guards: GuardTable<T::Mode, T::Surface>,
 }
 
@@ -102,7 +105,15 @@ impl<T: HybridSystem> Filippov<T> {
     /// The rates ∇g·f are computed by differences of order eight: exact to rounding for linear and quadratic guards, and to
     /// about 10⁻¹⁴ for guards that change over distances of the size of the state.
     pub const fn new(system: T, tolerances: Tolerances) -> Self {
-        Filippov { system, tolerances, gradient: None, guards: GuardTable::new() }
+        Filippov { system, tolerances, gradient: None, follows: true, guards: GuardTable::new() }
+    }
+
+    /// Whether executions go on along surfaces, as they do unless this is false. A program whose users choose has one type
+    /// for both: without it an execution ends where it would slide, as an execution of the model does.
+    #[must_use]
+    pub const fn following(mut self, follows: bool) -> Self {
+        self.follows = follows;
+        self
     }
 
     /// The same with ∇g from a function, for guards that the differences do not resolve, and faster.

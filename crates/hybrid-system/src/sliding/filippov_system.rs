@@ -121,7 +121,8 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
         Some((FilippovMode::Free(mode), state))
     }
 
-    /// The sliding mode on the surface. `None` where two sliding surfaces meet, and for a model without fields.
+    /// The model's own mode if it gives one, else the sliding mode on the surface. `None` where two sliding surfaces meet, and
+    /// for a model without fields.
     fn slide(
         &self,
         sliding: &Sliding<Self::Mode, Self::Surface, T::State>,
@@ -131,7 +132,22 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
             return None;
         };
         let FilippovSurface::Model(surface) = sliding.surface else { return None };
-        sliding.field.as_ref()?;
+        let of_model = Sliding {
+            surface,
+            below,
+            above,
+            time: sliding.time,
+            state: sliding.state.clone(),
+            rates: sliding.rates,
+            fields: sliding.fields.clone(),
+            field: sliding.field.clone(),
+        };
+        if let Some((mode, state)) = self.system.slide(&of_model) {
+            return Some((FilippovMode::Free(mode), state));
+        }
+        if !self.follows || sliding.field.is_none() {
+            return None;
+        }
         let names = |mode| self.system.guards(mode).iter().map(|guard| guard.surface);
         let is_partner = |&other: &T::Surface| {
             let leads = |from, to| {
@@ -171,7 +187,8 @@ impl<T: HybridSystem> HybridSystem for Filippov<T> {
             return None;
         };
         let own = self.system.leaving_side(mode, surface, start);
-        own.or_else(|| side_after_exit(self, mode, surface, start))
+        let after_exit = || side_after_exit(self, mode, surface, start);
+        own.or_else(|| self.follows.then(after_exit).flatten())
     }
 
     fn next_time(&self, mode: Self::Mode, surface: Self::Surface, after: f64) -> Option<f64> {

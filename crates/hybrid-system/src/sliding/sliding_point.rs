@@ -23,3 +23,13 @@ pub struct Sliding<M, S, X> {
     /// The sliding field f_s; `None` if the model gives no field.
     pub field: Option<X>,
 }
+
+impl<M: Copy, S: Copy, X> Sliding<M, S, X> {
+    /// The same point with its states in another type.
+    pub(crate) fn with_states<Y>(&self, convert: impl Fn(&X) -> Y) -> Sliding<M, S, Y> {
+        let Sliding { surface, below, above, time, rates, .. } = *self;
+        let fields = self.fields.as_ref().map(|(below, above)| (convert(below), convert(above)));
+        let field = self.field.as_ref().map(&convert);
+        Sliding { surface, below, above, time, state: convert(&self.state), rates, fields, field }
+    }
+}
