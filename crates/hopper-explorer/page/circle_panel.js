@@ -31,6 +31,6 @@ export function showIntervals({ from, to, parts, ground, undecided, compared, wr
   const drawing = new Drawing({ x: [from, to], y: [0, 1], height: 110, xName: "α", yName: "", title: `The basins at M = ${m}`, margin: [12, 34] });
   for (const [left, right, label] of triples(parts)) drawing.band(left, right, colorOf(label));
   drawing.axes = drawing.axes.filter((axis) => !axis.includes('text-anchor="end"'));
-  return `${drawing.markup()}<p class="soft">${parts.length / 3} intervals; the length ${show(undecided, 3)} is undecided. The branches of the map are ${ground};
+  return `${drawing.markup()}<p class="soft">${parts.length / 3} intervals; the length ${show(undecided, 3)} is undecided. ${ground === "proved" ? "The branches of the map are proved" : "The sudden windows stay undecided at this M"};
     ${compared} random speeds were compared, ${wrong} differ.</p>${shares(fractions)}`;
 }

@@ -87,7 +87,7 @@ pub(crate) fn intervals_json(mass_ratio: f64, first: u64, last: u64) -> Result<J
     Ok(Json::object()
         .number("from", window.left)
         .number("to", window.right)
-        .text("ground", if proved { "proved" } else { "sampled" })
+        .text("ground", if proved { "proved" } else { "contact parts" })
         .integer("compared", probes.compared as u64)
         .integer("wrong", probes.wrong as u64)
         .number("undecided", basins.undecided())

@@ -187,12 +187,13 @@ impl IntervalBasins {
         format!("{:?}", self.found.basins.stop_reason())
     }
 
-    /// "proved" if the branches of the map are proved to be complete, else "sampled": then whole intervals may have wrong labels.
+    /// What the labels stand on: "branches" of the map that are proved to be all, "enclosures" of images of intervals, or "contact parts" alone, at
+    /// M > 50, where the sudden windows stay undecided.
     #[getter]
     fn ground(&self) -> &'static str {
         match self.found.ground {
-            BranchGround::Proved => "proved",
-            BranchGround::Spacing { .. } => "sampled",
+            BranchGround::Proved => "branches",
+            BranchGround::Enclosures => "enclosures",
             BranchGround::ContactParts => "contact parts",
         }
     }
@@ -245,17 +246,17 @@ impl IntervalBasins {
 
 /// All basins between α*_first and α*_last at one mass ratio, as intervals with ends to an ulp.
 ///
-/// The search stops as soon as no more than the length `undecided` is open, and does not follow intervals below `shortest`.
-/// `samples` points search each sudden window for branches of the map.
+/// The search stops as soon as no more than the length `undecided` is open or about `most` intervals are found, and does not follow intervals
+/// below `shortest`. `samples` points search each sudden window for branches of the map. No label is wrong, at any M.
 ///
 /// >>> from passive_hopper import interval_basins
 /// >>> basins = interval_basins(0.2, last=2)
 /// >>> basins.ground
-/// 'proved'
+/// 'branches'
 /// >>> basins.fraction(1)
 /// Bounds(lower=0.04629701149302055, upper=0.04629728650815918)
 #[pyfunction]
-#[pyo3(signature = (mass_ratio, first = 1, last = 6, undecided = 1e-6, shortest = 1e-12, samples = 400))]
+#[pyo3(signature = (mass_ratio, first = 1, last = 6, undecided = 1e-6, shortest = 1e-12, samples = 400, most = 100_000))]
 pub(crate) fn interval_basins(
     py: Python<'_>,
     mass_ratio: f64,
@@ -264,11 +265,12 @@ pub(crate) fn interval_basins(
     undecided: f64,
     shortest: f64,
     samples: usize,
+    most: usize,
 ) -> PyResult<IntervalBasins> {
-    let refinement = Refinement { undecided, shortest, ..Refinement::default() };
+    let refinement = Refinement { undecided, shortest, intervals: most, ..Refinement::default() };
     let work = move |_: &Watch| {
         let fates = Fates::new(MassRatio::new(mass_ratio)?)?;
-        hopper_basin::hopper_basins(&fates, first, last, samples, refinement)
+        hopper_proof::basins_at_every_mass_ratio(&fates, first, last, samples, refinement)
     };
     in_background(py, work, value_error, |_| Ok(())).map(|found| IntervalBasins { found })
 }

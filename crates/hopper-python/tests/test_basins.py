@@ -37,11 +37,11 @@ def test_intervals_agree_with_fates():
     m = hopper.LiftOffMap(0.2)
     wide = right - left > 1e-9
     assert np.array_equal(m.fates((0.5 * (left + right))[wide]), labels[wide])
-    assert basins.ground == "proved" and basins.probes[1] == 0
+    assert basins.ground == "branches" and basins.probes[1] == 0
     total = sum(basins.fraction(int(label)).lower for label in np.unique(labels))
     assert total == pytest.approx(1 - basins.undecided / (basins.window[1] - basins.window[0]), abs=1e-9)
     assert basins.label(4.55) == 1
-    assert hopper.interval_basins(2.0, last=2).ground == "sampled"
+    assert hopper.interval_basins(2.0, last=2).ground == "enclosures"
 
 
 def test_the_papers_fraction():
