@@ -67,16 +67,18 @@ const RISING: [(u64, f64); 10] = [
 ];
 
 /// Mass ratios of the fractions, with the width that is asked for.
-const MEASURES: [(f64, f64); 9] = [
-    (0.1, 1e-6),
+const MEASURES: [(f64, f64); 11] = [
+    (0.1, 1e-7),
     (0.15, 1e-6),
-    (0.2, 1e-6),
+    (0.2, 1e-7),
     (0.3, 1e-6),
     (0.5, 1e-6),
     (0.8, 1e-6),
-    (1.0, 1e-3),
+    (1.0, 1e-4),
     (2.0, 1e-3),
     (3.0, 1e-3),
+    (5.0, 1e-2),
+    (10.0, 1e-1),
 ];
 
 /// The area that may stay open, of Figs. 6 and 9.
