@@ -1,4 +1,4 @@
-// The core: numbers in, bytes or JSON out. The only file that touches WebAssembly.
+// The core: numbers in, bytes or JSON out.
 
 /** A question that the libraries refuse, with their text. */
 export class Refusal extends Error {}
