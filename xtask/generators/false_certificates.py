@@ -121,10 +121,12 @@ def cells(lines):
     swapped[place][2] = 0
     yield "a label swapped", [changed(lines, at, intervals=swapped)], "line"
     # One label swapped below the window: no area tells it.
-    below = copy.deepcopy(own)
-    if below[1][1] < lines[1]["speeds"][0]:
-        below[1][2] = 0 if below[1][2] != 0 else GROUNDED
-        yield "a label swapped below the window", [changed(lines, at, intervals=below)], f"line {at + 1}"
+    for below, line in enumerate(lines):
+        if line.get("kind") == "basins" and len(line["intervals"]) > 1 and line["intervals"][1][1] < lines[1]["speeds"][0]:
+            other = copy.deepcopy(line["intervals"])
+            other[1][2] = 0 if other[1][2] != 0 else GROUNDED
+            yield "a label swapped below the window", [changed(lines, below, intervals=other)], f"line {below + 1}"
+            break
     wider = copy.deepcopy(own)
     wider[place][1] = 0.5 * (wider[place][1] + wider[place + 1][0])
     yield "an interval too long", [changed(lines, at, intervals=wider)], f"line {at + 1}"

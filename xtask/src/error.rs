@@ -21,6 +21,8 @@ pub(crate) enum Error {
     Python { program: PathBuf, reason: String },
     /// The explorer could not be built, served or tested.
     Explorer(String),
+    /// A program of the certificates failed; it has printed what.
+    Certificates(&'static str),
     /// Builds failed; each has been printed with the compiler's messages.
     Builds(usize),
     /// The workspace's manifest promises no oldest Rust.
@@ -50,6 +52,7 @@ impl fmt::Display for Error {
                 program.display()
             ),
             Error::Explorer(reason) => write!(f, "the explorer: {reason}"),
+            Error::Certificates(name) => write!(f, "{name} failed; its messages stand above"),
             Error::Builds(count) => write!(f, "{count} builds failed"),
             Error::NoRustVersion => {
                 write!(f, "Cargo.toml has no rust-version; write the oldest Rust that is supported")
