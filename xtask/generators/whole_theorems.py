@@ -13,7 +13,7 @@ from ball_hops import parameter
 from claims import fate_of, intervals, pair
 
 # Traps end so near a speed that falls below alpha*_n, and crises are enclosed so narrowly.
-TRAP_WIDTH, CRISIS_WIDTH = 4e-12, 1e-13
+TRAP_WIDTH, CRISIS_WIDTH = 1e-12, 1e-13
 # Theorem 81 proves that f rises so far left of alpha*_n, for M <= 1.
 RISES_TO_STAR = "0.0586"
 # The middle of a pixel may be rounded so much.
@@ -97,7 +97,7 @@ class Traps(Whole):
         self.last = line["mass_ratio"]
         self.counts[-1] += 1
         require(line["beyond"] is not None, "no speed beyond the trap")
-        require(0 < line["beyond"] - line["right"] <= TRAP_WIDTH, "the end is not enclosed to 4e-12")
+        require(0 < line["beyond"] - line["right"] <= TRAP_WIDTH, "the end is not enclosed to 1e-12")
 
     def end(self):
         super().end()

@@ -24,6 +24,7 @@ pub mod figures;
 mod independent;
 pub mod job;
 pub mod models;
+mod proved_figure;
 pub mod report;
 
 pub use error::Error;

@@ -18,7 +18,8 @@ const FINER: f64 = 10.0;
 /// Most speeds of a part.
 const SPEEDS: usize = 1_000_000;
 
-/// No further sweep begins if it would find more intervals than are asked for: measured at M = 0.95 to 10, the next one finds two to four times as many.
+/// No finer sweep begins if the last one found more than this part of the intervals that are asked for. A larger number ends earlier, with
+/// more that is undecided; a smaller one could end with several times as many intervals as asked for.
 const MORE: usize = 4;
 
 /// The largest M at which windows are enclosed. Above it, their hops have hundreds of landings, and needles in them are narrower than
@@ -32,8 +33,8 @@ const SEED: u64 = 1;
 /// The basins of all fates on [α*_`from`, α*_`to`], from images of intervals that are enclosed with rounding outwards. No label is
 /// wrong, at any M. Levels are not counted.
 ///
-/// Sweeps become finer until no more than `undecided` of the refinement is open, or until the next one would find more `intervals` than
-/// allowed; its other limits have no effect.
+/// Sweeps become finer until no more than `undecided` of the refinement is open, or until one finds a quarter of its `intervals`; its other limits
+/// have no effect.
 ///
 /// ```
 /// use basin_of_attraction::Refinement;

@@ -10,6 +10,7 @@ mod humps_of_window;
 mod large_speeds;
 mod measure;
 mod needles;
+mod proved;
 mod resilience;
 mod tipping;
 mod tree;
@@ -26,6 +27,7 @@ pub type Find = fn(&Job) -> Result<Finding, Error>;
 /// All results, with their names for `--only`.
 pub const ALL: &[(&str, Find)] = &[
     ("measure", measure::measure),
+    ("proved", proved::proved_basins),
     ("asymmetry", measure::asymmetry),
     ("tipping", tipping::tipping_of_basins),
     ("resilience", resilience::resilience),

@@ -5,6 +5,7 @@ use super::figure_files::write_figure;
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
+use crate::proved_figure::{draw_cells, draw_window, fig_6, proved_cells};
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{FIG_9, FigureWindow, basin_raster, first_humps};
 use hopper_figures::{Window, draw_pixels, fate_colors, label_png};
@@ -84,12 +85,6 @@ const MEASURES: [(f64, f64); 11] = [
 /// The area that may stay open, of Figs. 6 and 9.
 const OPEN_OF_FIG_6: f64 = 0.12;
 const OPEN_OF_FIG_9: f64 = 0.08;
-
-/// Fig. 6, with the mass ratios that are illegible in our copy taken from 0.02.
-fn fig_6() -> FigureWindow {
-    let speeds = first_humps(5);
-    ((0.02, 1.0), (speeds.left, speeds.right))
-}
 
 /// Runs the command.
 pub fn run(options: &Options) -> Result<(), Error> {
@@ -181,65 +176,13 @@ fn points(
     })?;
     bar.finish();
     let computed = basin_raster(grid, |_| ControlFlow::Continue(()))?;
-    let labels = proved.counts().into_iter().map(|(label, _)| label).collect();
-    write(name, window, &label_png(name, &proved)?, labels, folder)?;
+    let labels = proved.counts().into_iter().map(|(label, _)| label);
+    let drawn = draw_window(name, window, &label_png(name, &proved)?, labels);
+    write(name, drawn, folder)?;
     Ok(points_theorem(name, &proved, &computed)?)
 }
 
-/// Columns that are stored together: a run that is killed loses at most so many.
-const COLUMNS: usize = 16;
-
-/// The strips of all columns of a figure. Those that an earlier run finished are read.
-fn strips(
-    name: &'static str,
-    grid: &Grid,
-    strips: usize,
-    job: &Job,
-) -> Result<Vec<ProvedStrip>, Error> {
-    let Grid { columns, rows, .. } = *grid;
-    let scan = format!("{name} {columns} by {rows}, {strips} strips");
-    let block = |k: usize| {
-        let range = k * COLUMNS..columns.min((k + 1) * COLUMNS);
-        let found = proved_strips(grid, strips, range, |_| ControlFlow::Continue(()))?;
-        Ok(found.iter().flat_map(numbers).collect())
-    };
-    let rows = job.scan_with(name, &scan, columns.div_ceil(COLUMNS), block)?;
-    let stored =
-        || Error::CheckFailed(format!("the stored strips of {scan} are damaged: remove them"));
-    let mut found = Vec::with_capacity(columns * strips);
-    for row in rows {
-        let mut numbers = row.into_iter();
-        while let Some(strip) = strip(&mut numbers) {
-            found.push(strip);
-        }
-        if numbers.next().is_some() {
-            return Err(stored());
-        }
-    }
-    Ok(found)
-}
-
-/// A strip as numbers: its ends, how many intervals, and the ends and the label of each.
-fn numbers((own, line): &ProvedStrip) -> Vec<f64> {
-    let intervals = line.intervals();
-    let head = [own.left, own.right, intervals.len() as f64];
-    let each =
-        intervals.iter().flat_map(|(own, label)| [own.left, own.right, f64::from(label.code())]);
-    head.into_iter().chain(each).collect()
-}
-
-/// The next strip of such numbers; `None` at their end.
-fn strip(numbers: &mut impl Iterator<Item = f64>) -> Option<ProvedStrip> {
-    let (left, right, count) = (numbers.next()?, numbers.next()?, numbers.next()?);
-    let mut interval = || {
-        let (left, right, label) = (numbers.next()?, numbers.next()?, numbers.next()?);
-        Some((Interval { left, right }, Label::from_code(label as u16)))
-    };
-    let intervals = (0..count as usize).map(|_| interval()).collect::<Option<Vec<_>>>()?;
-    Some((Interval { left, right }, ProvedLine::restored(intervals)))
-}
-
-/// Every cell of a figure: its colour mixes those of the basins by their proved shares, and yellow by the share that is open.
+/// Every cell of a figure.
 fn cells(
     name: &'static str,
     window: FigureWindow,
@@ -247,31 +190,14 @@ fn cells(
     options: &Options,
     folder: &Folder,
 ) -> Result<Theorem, Error> {
-    let grid = grid_of(window, options)?;
     let job = Job::new(folder.path())?;
-    let strips = strips(name, &grid, options.strips as usize, &job)?;
-    let found = ProvedCells::of_strips(grid, strips)?;
-    // A picture has its highest row first.
-    let shares = found.shares()?;
-    let rows = shares.chunks(grid.columns).rev().flatten();
-    let pixels: Vec<u8> = rows.flat_map(|cell| fate_colors::mixed(cell.iter().copied())).collect();
-    let png = rgb_png(name, grid.columns, grid.rows, &pixels)?;
-    let mut labels: Vec<_> = found.areas.iter().map(|&(label, _)| label).collect();
-    labels.push(hopper_basin::HopperFate::UNDECIDED);
-    write(name, window, &png, labels, folder)?;
+    let found = proved_cells(name, grid_of(window, options)?, options.strips as usize, &job)?;
+    write(name, draw_cells(name, window, &found)?, folder)?;
     job.done()?;
     Ok(cells_theorem(name, found, open)?)
 }
 
-fn write(
-    name: &'static str,
-    (mass_ratio, alpha): FigureWindow,
-    png: &[u8],
-    labels: Vec<basin_of_attraction::Label>,
-    folder: &Folder,
-) -> Result<(), Error> {
-    let window = Window { name, mass_ratio, alpha, inset: None, tick_counts: (6, 8) };
-    let svg: Svg = draw_pixels(&window, png, labels.into_iter());
+fn write(name: &'static str, svg: Svg, folder: &Folder) -> Result<(), Error> {
     let figure = Figure {
         name,
         title: name.into(),

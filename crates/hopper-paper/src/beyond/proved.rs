@@ -1,0 +1,48 @@
+//! The basins of Fig. 6, every cell proved.
+
+use super::finding::{Finding, Table};
+use crate::error::Error;
+use crate::figure::Figure;
+use crate::job::Job;
+use crate::proved_figure::{draw_cells, fig_6, proved_cells};
+use basin_of_attraction::{Grid, Interval};
+use hopper_figures::fate_colors;
+use journal_figures::csv_file;
+
+/// Cells each way. Four times as many leave a third as much open, and take some ten minutes (`cargo xtask prove fig6-cells`).
+const SIDE: usize = 256;
+
+/// Bounds on the area of each basin, and the picture of what is proved.
+pub(super) fn proved_basins(job: &Job) -> Result<Finding, Error> {
+    let window = fig_6();
+    let ((light, heavy), (bottom, top)) = window;
+    let (x, y) = (Interval::new(light, heavy)?, Interval::new(bottom, top)?);
+    let grid = Grid { x, y, columns: SIDE, rows: SIDE };
+    let found = proved_cells("proved", grid, 1, job)?;
+    let mut table = Table::new(&["basin", "area at least", "area at most"]);
+    for (label, share) in &found.areas {
+        let percent = |share: f64| format!("{:.3} %", 100.0 * share);
+        table.row([fate_colors::name(*label), percent(share.low), percent(share.high)]);
+    }
+    let rows = found.areas.iter().map(|(label, share)| {
+        vec![Some(f64::from(label.code())), Some(share.low), Some(share.high)]
+    });
+    let data = vec![csv_file("proved.csv", &["label", "area_lower", "area_upper"], rows)?];
+    Ok(Finding {
+        figure: Figure {
+            name: "beyond_proved",
+            title: "The basins, proved: every cell with all its mass ratios and all its speeds"
+                .into(),
+            paper: "The basins are computed on a grid of points (Fig. 6).".into(),
+            notes: format!(
+                "Each of {SIDE}² cells is a range of mass ratios and a range of speeds. Its colour mixes those of the basins by the shares of \
+                 the cell that are proved, by intervals rounded outwards (docs/theorems.md). Yellow is what is open, {:.1} % of the area: \
+                 boundaries that move with $M$ within a cell.",
+                100.0 * found.open_area()
+            ),
+            svg: draw_cells("beyond_proved", window, &found)?,
+            data,
+        },
+        table,
+    })
+}
