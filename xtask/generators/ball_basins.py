@@ -26,8 +26,8 @@ RIGHT_REACH, RIGHT_CONSTANT = "0.1", "1.15"
 SMALL_HOP = 0.3
 # Theorem 81: so far left of alpha*_n the map rises, for all M and for M <= 1. Corollary 93: in the second range it falls with kappa.
 LEFT_REACH, LEFT_REACH_LIGHT = "0.0109", "0.0586"
-# Most parts of an interval, and hops of a single speed.
-MOST_PARTS = 5000
+# Most parts of an interval, and hops of a single speed. At M = 3, where slopes reach thousands, an interval needs some ten thousand parts.
+MOST_PARTS = 100000
 MOST_HOPS = 20000
 # Parts with fewer speeds than this part of the range of kappa are divided by kappa.
 NARROW_PART = 0.01
