@@ -129,6 +129,12 @@ def test_a_client_needs_a_store():
         hopper.basins(**JOB, client=object())
 
 
+def test_what_is_no_client_leaves_no_store(tmp_path):
+    with pytest.raises(TypeError, match="dask.distributed.Client, not 3"):
+        hopper.basins(**JOB, store=tmp_path / "basins.zarr", client=3)
+    assert not list(tmp_path.iterdir())
+
+
 @pytest.fixture(scope="module")
 def client():
     pytest.importorskip("distributed", reason="SKIPPED clusters: dask.distributed is not installed")

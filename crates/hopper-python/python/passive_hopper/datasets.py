@@ -48,10 +48,10 @@ def basins(
     shape = tuple(operator.index(side) for side in shape)
     if any(side < 1 for side in shape):
         raise ValueError(f"a raster has at least one pixel across and up, not {shape}")
-    if client is not None and not callable(getattr(client, "submit", None)):
-        raise TypeError(f"client is a dask.distributed.Client, not {client!r}")
     _native.pixel_middles((M, alpha), shape)
     if store is not None:
+        if client is not None and not callable(getattr(client, "submit", None)):
+            raise TypeError(f"client is a dask.distributed.Client, not {client!r}")
         from .stores import write_basins
 
         return write_basins(store, (M, alpha, shape), client=client, progress=progress)
