@@ -6,15 +6,14 @@ use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use crate::proved_figure::{draw_cells, draw_window, fig_6, proved_cells};
-use basin_of_attraction::{Grid, Interval, Label};
-use hopper_basin::{FIG_9, FigureWindow, basin_raster, first_humps};
-use hopper_figures::{Window, draw_pixels, fate_colors, label_png};
+use basin_of_attraction::{Grid, Interval};
+use hopper_basin::{FIG_9, FigureWindow, basin_raster};
+use hopper_figures::label_png;
 use hopper_proof::{
-    ProvedCells, ProvedLine, ProvedStrip, Theorem, cells_theorem, crises, everything_hops,
-    measures, one_sided, one_sudden, points_theorem, proved_points, proved_strips, rising,
-    trap_edges,
+    Theorem, cells_theorem, crises, everything_hops, measures, one_sided, one_sudden,
+    points_theorem, proved_points, rising, trap_edges,
 };
-use journal_figures::{Svg, rgb_png};
+use journal_figures::Svg;
 use repository_tools::{Folder, Progress, results_folder, say};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
