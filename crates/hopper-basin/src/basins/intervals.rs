@@ -10,6 +10,7 @@ use basin_of_attraction::{
     interval_basins_from_known,
 };
 use passive_hopper::alpha_star;
+use std::f64::consts::PI;
 
 /// All basins between two fixed points, as intervals.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,22 +124,26 @@ pub fn hopper_basins(
     };
     let mass_ratio = fates.map().mass_ratio();
     // Orbits fall below the window: all branches of the map down to zero are needed.
-    let (branches, traps, ground) = if has_whole_humps(fates, to)? {
-        (Vec::new(), traps_and_gaps(fates, Vec::new(), to)?, BranchGround::Proved)
-    } else if branches_are_proved(mass_ratio, to) {
-        let branches = branches(fates, 0, to, samples)?;
-        let traps = traps_and_grounding(fates, &branches, to, top)?;
-        (branches, traps, BranchGround::Proved)
-    } else {
-        let (mut branches, mut gaps) = (Vec::new(), Vec::new());
-        for n in 0..to {
-            let found = contact_branches(fates, n)?;
-            let between = found.windows(2).map(|pair| (pair[0].domain.right, pair[1].domain.left));
-            gaps.extend(between.filter_map(|(left, right)| grounded_between(fates, left, right)));
-            branches.extend(found);
-        }
-        (branches, traps_and_gaps(fates, gaps, to)?, BranchGround::ContactParts)
-    };
+    let (branches, traps, ground) =
+        if has_whole_humps(fates, to)? {
+            (Vec::new(), traps_and_gaps(fates, Vec::new(), to)?, BranchGround::Proved)
+        } else if branches_are_proved(mass_ratio, to) {
+            let branches = branches(fates, 0, to, samples)?;
+            let traps = traps_and_grounding(fates, &branches, to, top)?;
+            (branches, traps, BranchGround::Proved)
+        } else {
+            let (mut branches, mut gaps) = (Vec::new(), Vec::new());
+            for n in 0..to {
+                let found = contact_branches(fates, n)?;
+                let starts = found.iter().skip(1).map(|branch| branch.domain.left);
+                let between = found.iter().zip(starts.chain([(n + 1) as f64 * PI]));
+                gaps.extend(between.filter_map(|(branch, right)| {
+                    grounded_between(fates, branch.domain.right, right)
+                }));
+                branches.extend(found);
+            }
+            (branches, traps_and_gaps(fates, gaps, to)?, BranchGround::ContactParts)
+        };
     let whole = Interval::new(0.0, top)?;
     let basins =
         interval_basins_from_known(fates, &traps, &branches, whole, refinement)?.within(window)?;
