@@ -23,7 +23,7 @@ const SPEEDS: usize = 1_000_000;
 const MORE: usize = 4;
 
 /// The largest M at which windows are enclosed. Above it, their hops have hundreds of landings, and needles in them are narrower than
-/// any spacing of `f64` (docs/theory.md, Section 4: 10⁻²² at M = 50): an enclosure would decide nothing that the contact parts leave open.
+/// any spacing of `f64` (docs/theory.md, Section 4: 10⁻²² at M = 50), so that a sweep would take long for little.
 const LARGEST_ENCLOSED: f64 = 50.0;
 
 /// Random speeds that test the intervals, and their seed, as in [`hopper_basins`].
