@@ -24,9 +24,8 @@ pub(super) fn proved_basins(job: &Job) -> Result<Finding, Error> {
         let percent = |share: f64| format!("{:.3} %", 100.0 * share);
         table.row([fate_colors::name(*label), percent(share.low), percent(share.high)]);
     }
-    let rows = found.areas.iter().map(|(label, share)| {
-        vec![Some(f64::from(label.code())), Some(share.low), Some(share.high)]
-    });
+    let rows =
+        found.areas.iter().map(|(label, share)| [f64::from(label.code()), share.low, share.high]);
     let data = vec![csv_file("proved.csv", &["label", "area_lower", "area_upper"], rows)?];
     Ok(Finding {
         figure: Figure {
