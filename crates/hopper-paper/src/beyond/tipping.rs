@@ -38,10 +38,9 @@ const CURVE: CurveLimits = CurveLimits {
     matching: Matching::ByLabel,
 };
 
-/// When the search for intervals stops. What is undecided opens the bounds by some 10⁻⁵, and by some 10⁻³ above M = 0.83, where the
-/// search ends at this number of intervals.
+/// When the search for intervals stops: at this undecided length below M = 0.83, above it at this number of intervals.
 const REFINEMENT: Refinement =
-    Refinement { shortest: 1e-8, undecided: 1e-4, levels: 1_000_000, intervals: 100_000 };
+    Refinement { shortest: 1e-8, undecided: 1e-5, levels: 1_000_000, intervals: 200_000 };
 
 /// The drift from the first to the second of these mass ratios, both of the paper, takes 1 to 2⁹ hops.
 const DRIFT: (f64, f64) = (0.1, 0.2);
@@ -117,7 +116,7 @@ fn drifts(job: &Job) -> Result<Vec<Vec<f64>>, Error> {
 pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
     let (sudden, drifts) = (sudden_changes(job)?, drifts(job)?);
     let mut svg = Svg::new(860.0, 420.0);
-    let left = Frame::linear(70.0, 34.0, 350.0, 310.0, RATIOS, (1e-4, 1.3)).log_x().log_y();
+    let left = Frame::linear(70.0, 34.0, 350.0, 310.0, RATIOS, (1e-3, 1.3)).log_x().log_y();
     svg.text(left.left, 22.0, Anchor::Start, 13.0, "(a)  stays incessant, $M$ changes at once");
     for (at, (_, pen, name)) in (0u8..).zip(AFTER) {
         fraction_curve(&mut svg, &left, &sudden.of(at.into()).collect::<Vec<_>>(), pen);
