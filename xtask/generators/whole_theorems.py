@@ -159,6 +159,7 @@ class Rising(Whole):
 
     def add_rising_window(self, line):
         n, (low, high) = line["n"], pair(line["speeds"])
+        require(n >= 1, f"there is no window {n!r}")
         require(0 < line["largest_mass_ratio"] <= 1, "Theorem 81 has this range for M <= 1")
         require(low <= n * arb.pi() and arb(high) >= star(n) - arb(RISES_TO_STAR), "the window is not whole")
         self.windows.append((n, line["largest_mass_ratio"], (low, high), []))
