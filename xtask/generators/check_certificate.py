@@ -39,7 +39,7 @@ def read_header(lines):
     _, header = next(lines, (1, {}))
     if header.get("format") != FORMAT or header.get("version") != VERSION:
         raise Refuted(f"line 1: no certificate of version {VERSION}")
-    if header.get("theorem") not in WHOLE:
+    if not isinstance(header.get("theorem"), str) or header["theorem"] not in WHOLE:
         raise Refuted(f"line 1: no theorem {header.get('theorem')!r}")
     return header
 
@@ -50,7 +50,7 @@ def guarded(number, action, *arguments):
         return action(*arguments)
     except (Refuted, Unconfirmed, Undecided) as error:
         raise type(error)(f"line {number}: {error}")
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, ArithmeticError, IndexError, AttributeError) as error:
         raise Refuted(f"line {number}: a field is missing or wrong ({type(error).__name__}: {error})")
 
 
@@ -61,9 +61,9 @@ def check(path, sample, seed):
     whole = WHOLE[header["theorem"]]()
     counts = []
     for number, line in lines:
-        kind = KINDS.get(line.get("kind"))
-        if kind is None or line["kind"] not in whole.KINDS:
+        if line.get("kind") not in whole.KINDS:
             raise Refuted(f"line {number}: no line of kind {line.get('kind')!r} belongs to {header['theorem']}")
+        kind = KINDS[line["kind"]]
         guarded(number, whole.add, line)
         counts.append(guarded(number, kind.count, line))
     if len(counts) != header.get("lines"):

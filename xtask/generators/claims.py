@@ -99,6 +99,9 @@ class Crisis(Kind):
         last = Hop(arb(end).union(contact_end), parameter(low), derivatives=False).square
         if not last > star(n) ** 2:
             raise Unconfirmed(f"f > alpha*_{n} at {n + 1} pi")
+        # Below alpha*_n and beyond the contact part a fall through alpha*_n is no sign of a crisis.
+        if not star(n) < arb(line["speed"]) < contact_end:
+            raise Refuted(f"the speed {line['speed']!r} is not on the contact part of hump {n}")
         if not square_at(line["speed"], high) < star(n) ** 2:
             raise Refuted(f"the speed {line['speed']!r} does not fall below alpha*_{n} at M = {high!r}")
 

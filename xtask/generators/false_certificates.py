@@ -14,7 +14,7 @@ from flint import ctx
 
 from ball_basins import BITS, GROUNDED, Refuted, Unconfirmed, star
 from ball_hops import Undecided
-from check_certificate import check
+from check_certificate import FORMAT, VERSION, check
 
 # A file of many equal lines is shortened to so many of each hump: what is falsified is then among the claims that are confirmed.
 KEPT = 3
@@ -72,6 +72,10 @@ def crisis(lines):
     shrunk = [changed(lines, 5, mass_ratio=ends) for ends in ([low, low + part], [high - part, high])]
     yield "one of two enclosures shrunk to a twentieth", shrunk, "line 6"
     yield "a crisis moved by three times its width", [changed(lines, 5, mass_ratio=[3 * high - 2 * low, 4 * high - 3 * low])], "line 6"
+    # Every speed below alpha*_n falls below it at every mass ratio.
+    lower = [low - 1e-9, high - 1e-9]
+    yield "a crisis too low, with a speed below the hump", [changed(lines, 5, mass_ratio=lower, speed=1.0)], "line 6"
+    yield "a number that no f64 is", [changed(lines, 5, mass_ratio=[10**400, 10**400])], "line 6"
 
 
 def traps(lines):
@@ -100,6 +104,13 @@ def rising(lines):
     yield "a box left out", [without(lines, 100)], "boxes of window 1 leave a gap"
     low, high = lines[50]["speeds"]
     yield "a box made smaller", [changed(lines, 50, speeds=[low, 0.5 * (low + high)])], "leave a gap"
+
+
+def measures():
+    header = {"format": FORMAT, "version": VERSION, "theorem": "measures"}
+    basins = {"kind": "basins", "mass_ratios": [0.1, 0.1], "intervals": []}
+    shares = [{"kind": "fraction", "fate": fate, "humps": 0, "uniform": [5, 6], "by_humps": [0, 1]} for fate in (0, GROUNDED)]
+    yield "fractions of no humps", [[header, basins, *shares]], "line 3"
 
 
 def points(lines):
@@ -134,6 +145,14 @@ def cells(lines):
     yield "a strip left out", [without(lines, at)], f"line {at + 1}"
     low, high = lines[-1]["share"]
     yield "an area shrunk", [changed(lines, len(lines) - 1, share=[low, 0.5 * (low + high)])], f"line {len(lines)}"
+    edges = [first + 1e-9 for first in lines[2]["edges"]]
+    edges[0], edges[-1] = lines[2]["edges"][0], lines[2]["edges"][-1]
+    yield "rows of another height", [changed(lines, 2, edges=edges)], "line 3"
+    # One more strip for each column, all of them from one strip: equally many for each, at other places.
+    ends, columns = lines[at]["mass_ratios"], lines[1]["columns"]
+    cuts = [ends[0] + (ends[1] - ends[0]) * k / (columns + 1) for k in range(columns + 1)] + [ends[1]]
+    parts = [{**lines[at], "mass_ratios": list(pair)} for pair in zip(cuts, cuts[1:])]
+    yield "columns of another width", [lines[:at] + parts + lines[at + 1 :]], "edge of a column"
     more = lines[2]["of_one_basin"] + 1
     yield "a cell too many", [changed(lines, 2, of_one_basin=more)], "line"
 
@@ -144,10 +163,13 @@ FALSE = {
     "traps": traps,
     "everything-hops": everything_hops,
     "rising": rising,
+    "measures": measures,
     "fig6-points": points,
     "fig6-cells": cells,
 }
 NEEDED = ("one-sided", "crisis", "traps", "everything-hops")
+# False from the first line on, so that no file is read.
+MADE_HERE = ("measures",)
 
 
 def main():
@@ -156,9 +178,9 @@ def main():
     failures = 0
     for theorem, falsify in FALSE.items():
         path = os.path.join(folder, f"{theorem}.jsonl")
-        if not os.path.exists(path) and theorem not in NEEDED:
+        if not os.path.exists(path) and theorem not in NEEDED + MADE_HERE:
             continue
-        for what, variants, reason, *recount in falsify(read(path)):
+        for what, variants, reason, *recount in falsify() if theorem in MADE_HERE else falsify(read(path)):
             # Of an enclosure's two halves one may be true.
             reasons = [refused(lines, *recount) for lines in variants]
             found = next((text for text in reasons if text and reason in text), None)

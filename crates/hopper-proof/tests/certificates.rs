@@ -62,6 +62,10 @@ fn a_swapped_label_and_a_missing_point_are_not_proved() {
     assert!(theorem.is_proved(), "{theorem:#?}");
     // The grid, the speeds, and one line a column.
     assert_eq!(theorem.evidence.len(), 2 + grid.columns);
+    // The labels of fewer points.
+    let mut fewer = computed.clone();
+    fewer.labels.truncate(7);
+    assert!(!points_theorem("points", &proved, &fewer).unwrap().is_proved());
     for label in [HopperFate::label_of_fixed_point(3), HopperFate::UNDECIDED_PRECISION] {
         let mut false_one = proved.clone();
         assert_ne!(false_one.labels[7], label);

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::strip::Strip;
 use crate::line::ProvedLine;
+use crate::theorems::digits::{at_least, at_most};
 use crate::theorems::theorem::Theorem;
 use basin_of_attraction::{Interval, Label};
 use hopper_basin::HopperFate;
@@ -20,6 +21,9 @@ const SPEEDS: usize = 1_000_000;
 /// The share that a sweep may leave open of a part, over the width that is asked for. With a larger one the width is missed; with a smaller
 /// one a sweep takes longer.
 const FINER: f64 = 0.1;
+
+/// Digits of a fraction that are printed: more than the narrowest one has.
+const DIGITS: usize = 12;
 
 /// The share of a basin among the lift-off speeds of humps 1 to 5, enclosed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +119,11 @@ impl ProvedFractions {
     }
 }
 
+/// An interval with the digits of a fraction.
+fn digits(share: Enclosure) -> String {
+    format!("[{}, {}]", at_least(share.low, DIGITS), at_most(share.high, DIGITS))
+}
+
 /// The fractions at some mass ratios, each to a width of its own.
 ///
 /// # Errors
@@ -137,10 +146,7 @@ pub fn measures(cases: &[(f64, f64)]) -> Result<Theorem, Error> {
             });
             theorem.step(
                 format!("M = {mass_ratio}, {}: to {width:e}", HopperFate::label_name(*label)),
-                format!(
-                    "uniform in [{:.12}, {:.12}], by humps in [{:.12}, {:.12}]",
-                    uniform.low, uniform.high, by_humps.low, by_humps.high
-                ),
+                format!("uniform in {}, by humps in {}", digits(*uniform), digits(*by_humps)),
                 uniform.width() <= width && by_humps.width() <= width,
             );
         }

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::hop::strip::Strip;
 use crate::line::traps_up_to;
 use crate::theorems::cells::ProvedCells;
+use crate::theorems::digits::{at_least, at_most};
 use crate::theorems::theorem::Theorem;
 use basin_of_attraction::{Grid, LabelImage, PixelShares};
 use hopper_basin::HopperFate;
@@ -46,7 +47,7 @@ pub fn points_theorem(
     theorem.step(
         "the raster of the library has the same labels",
         format!("{other} differ"),
-        other == 0,
+        other == 0 && computed.grid == proved.grid && computed.labels.len() == proved.labels.len(),
     );
     let grid = proved.grid;
     theorem.evidence.push(Evidence::Grid(grid));
@@ -76,7 +77,7 @@ pub fn cells_theorem(name: &'static str, found: ProvedCells, open: f64) -> Resul
     for (label, share) in &found.areas {
         theorem.step(
             format!("the area: {}", HopperFate::label_name(*label)),
-            format!("{:.4} to {:.4} of the window", share.low, share.high),
+            format!("{} to {} of the window", at_least(share.low, 4), at_most(share.high, 4)),
             share.low >= 0.0,
         );
     }
@@ -84,7 +85,8 @@ pub fn cells_theorem(name: &'static str, found: ProvedCells, open: f64) -> Resul
     theorem.step(
         format!("at most {open} of the area is open"),
         format!(
-            "open area {area:.4}; cells that are open {:.4}, or open or cut by a boundary {:.4}",
+            "open area {}; cells that are open {:.4}, or open or cut by a boundary {:.4}",
+            at_most(area, 4),
             found.open_cells(),
             found.undecided_cells()
         ),
