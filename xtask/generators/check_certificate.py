@@ -19,7 +19,7 @@ from ball_hops import Undecided
 from claims import KINDS
 from whole_theorems import WHOLE
 
-FORMAT, VERSION = "passive hopper certificate", 1
+FORMAT, VERSION = "passive hopper certificate", 2
 
 
 def lines_of(path):
@@ -55,7 +55,10 @@ def guarded(number, action, *arguments):
 
 
 def check(path, sample, seed):
-    """A sentence about the file. Raises an error for the first line that is not confirmed."""
+    """A sentence about the file. Raises an error for the first line that is not confirmed.
+
+    `sample` is the number of claims to confirm, or a list of their places, or None for all.
+    """
     lines = lines_of(path)
     header = read_header(lines)
     whole = WHOLE[header["theorem"]]()
@@ -70,7 +73,10 @@ def check(path, sample, seed):
         raise Refuted(f"line {len(counts) + 1}: {len(counts)} lines follow the header, which says {header.get('lines')}")
     guarded(len(counts) + 1, whole.end)
     total = sum(counts)
-    chosen = None if sample is None or sample >= total else sorted(random.Random(seed).sample(range(total), sample))
+    if sample is None or isinstance(sample, list):
+        chosen = sample
+    else:
+        chosen = None if sample >= total else sorted(random.Random(seed).sample(range(total), sample))
     confirmed, before, shared = 0, 0, {}
     lines = lines_of(path)
     next(lines)

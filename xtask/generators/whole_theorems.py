@@ -10,7 +10,7 @@ from flint import arb
 
 from ball_basins import GROUNDED, Basins, Refuted, star
 from ball_hops import parameter
-from claims import fate_of, intervals, pair
+from claims import fate_of, gaps_of, intervals, pair
 
 # Traps end so near a speed that falls below alpha*_n, and crises are enclosed so narrowly.
 TRAP_WIDTH, CRISIS_WIDTH = 1e-12, 1e-13
@@ -211,7 +211,7 @@ def implied(claimed, lengths, fate, whole):
 
 
 class Measures(Whole):
-    KINDS = ("basins", "fraction")
+    KINDS = ("basins", "gaps", "fraction")
 
     def __init__(self):
         super().__init__()
@@ -222,9 +222,14 @@ class Measures(Whole):
         low, high = pair(line["mass_ratios"])
         require(low == high, "a strip of mass ratios")
         self.mass_ratios.append(low)
-        self.list = intervals(line, "intervals")
+        self.list, self.gaps = intervals(line, "intervals"), None
         Basins(low, high, self.list)
         self.wanted, self.humps = None, None
+
+    def add_gaps(self, line):
+        require(self.list is not None and self.gaps is None and self.wanted is None, "gaps come after intervals")
+        self.gaps = gaps_of(line)
+        require_disjoint(self.list, self.gaps)
 
     def add_fraction(self, line):
         fate, humps = fate_of(line["fate"]), line["humps"]
@@ -244,10 +249,17 @@ class Measures(Whole):
         implied(line["by_humps"], means, fate, arb(1))
 
     def measure(self, humps):
-        """The length of each fate on each hump."""
+        """The length of each fate on each hump, at least."""
+        require(self.gaps is not None, "no gaps")
         self.humps, self.wanted = humps, {*range(humps + 1), GROUNDED}
         self.lengths = [{} for _ in range(humps)]
-        lengths_between([star(n) for n in range(1, humps + 2)], self.list, self.lengths)
+        stars = [star(n) for n in range(1, humps + 2)]
+        lengths_between(stars, self.list, self.lengths)
+        for left, right, own in self.gaps:
+            for first, last, of_hump in zip(stars, stars[1:], self.lengths):
+                if left > first and right < last:
+                    for fate, least in own.items():
+                        of_hump[fate] = of_hump.get(fate, arb(0)) + least
 
     def complete(self):
         require(not self.wanted and self.wanted is not None, f"no share of {self.wanted or 'any fate'}")
@@ -258,6 +270,14 @@ class Measures(Whole):
 
     def summary(self):
         return f"fractions of humps 1 to {self.humps} at M = {', '.join(map(repr, self.mass_ratios))}"
+
+
+def require_disjoint(intervals, gaps):
+    """No speed is counted twice."""
+    last = 0.0
+    for left, right, _ in sorted([*intervals, *gaps], key=lambda own: own[:2]):
+        require(last <= left, f"[{left!r}, {right!r}] is not above the interval or gap before it")
+        last = right
 
 
 def lengths_between(edges, intervals, lengths):

@@ -8,10 +8,19 @@ use basin_of_attraction::{Grid, Interval, Label};
 use interval_arithmetic::Enclosure;
 
 /// The version of the format. It changes with the meaning or the name of a field.
-pub const CERTIFICATE_VERSION: u32 = 1;
+pub const CERTIFICATE_VERSION: u32 = 2;
 
 /// Speeds with one fate, from `left` to `right`.
 pub type BasinInterval = (Interval, Label);
+
+/// Speeds between intervals of one fate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BasinGap {
+    /// The speeds.
+    pub speeds: Interval,
+    /// The length that a basin has of them at least. Of basins that are left out nothing is known.
+    pub at_least: Vec<(Label, f64)>,
+}
 
 /// One line of a certificate.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,6 +105,8 @@ pub enum Evidence {
         /// The intervals.
         intervals: Vec<BasinInterval>,
     },
+    /// The gaps between the intervals of the line of basins before, and parts of gaps: disjoint, from the lowest up.
+    Gaps(Vec<BasinGap>),
     /// The fraction of a basin on humps 1 to `humps`, at the mass ratio of the line of basins before.
     Fraction {
         /// The basin.

@@ -16,13 +16,14 @@ mod certificate;
 mod error;
 mod fixed_points;
 mod hop;
+mod lengths;
 mod line;
 mod theorems;
 mod traps;
 
 pub use basins::{basins_at_every_mass_ratio, proved_basins};
 pub use cell::Cell;
-pub use certificate::{BasinInterval, CERTIFICATE_VERSION, Evidence};
+pub use certificate::{BasinGap, BasinInterval, CERTIFICATE_VERSION, Evidence};
 pub use error::Error;
 pub use fixed_points::fixed_point;
 pub use hop::proved_images::ProvedImages;

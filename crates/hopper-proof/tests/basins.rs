@@ -103,6 +103,57 @@ fn fractions_lie_between_their_bounds() {
     assert!(of(0).low == 0.0 && of(0).high < 1e-4);
 }
 
+/// Bounds to different widths, from other intervals and gaps, hold the same fractions, and so do the fates of equally spaced speeds; also where
+/// hops have several sudden lift-offs, and where F is not continuous.
+#[test]
+fn bounds_of_fractions_agree_with_each_other_and_with_fates() {
+    for (ratio, widths) in [(0.1, [1e-3, 1e-7]), (0.5, [1e-2, 1e-5]), (1.0, [1e-2, 1e-4])] {
+        let found = widths.map(|width| ProvedFractions::new(ratio, width).unwrap());
+        let fates = Fates::new(MassRatio::new(ratio).unwrap()).unwrap();
+        let window = first_humps(5);
+        let fate = |k: u32| {
+            let place = (f64::from(k) + 0.5) / 20_000.0;
+            fates.fate(window.left + window.length() * place).unwrap().label()
+        };
+        let labels: Vec<_> = (0..20_000).map(fate).collect();
+        for (coarse, fine) in found[0].fractions.iter().zip(&found[1].fractions) {
+            assert_eq!(coarse.label, fine.label);
+            assert!(coarse.uniform.intersection(&fine.uniform).is_some(), "{coarse:?} {fine:?}");
+            assert!(coarse.by_humps.intersection(&fine.by_humps).is_some(), "{coarse:?} {fine:?}");
+            let count = labels.iter().filter(|&&label| label == fine.label).count();
+            let share = count as f64 / labels.len() as f64;
+            assert!((share - fine.uniform.middle()).abs() < 5e-3, "{ratio}: {share} {fine:?}");
+        }
+        assert!(found.iter().zip(widths).all(|(found, width)| found.width < width), "{ratio}");
+    }
+}
+
+/// Of each gap, basins have the length that is proved: the fates of its speeds tell it.
+#[test]
+fn gaps_have_the_lengths_that_are_proved() {
+    const SPEEDS: u32 = 400;
+    for ratio in [0.1, 0.5, 1.5] {
+        let mut gaps = ProvedFractions::new(ratio, 1e-2).unwrap().gaps;
+        gaps.sort_by(|a, b| b.speeds.length().total_cmp(&a.speeds.length()));
+        let fates = Fates::new(MassRatio::new(ratio).unwrap()).unwrap();
+        let (mut proved, mut whole) = (0.0, 0.0);
+        for gap in &gaps[..100] {
+            let place = |k: u32| (f64::from(k) + 0.5) / f64::from(SPEEDS);
+            let speed = |k: u32| gap.speeds.left + gap.speeds.length() * place(k);
+            let labels: Vec<_> =
+                (0..SPEEDS).map(|k| fates.fate(speed(k)).unwrap().label()).collect();
+            for &(label, least) in &gap.at_least {
+                let count = labels.iter().filter(|&&own| own == label).count();
+                let share = count as f64 / f64::from(SPEEDS);
+                assert!(least / gap.speeds.length() <= share + 0.03, "{ratio}: {gap:?} {share}");
+                proved += least;
+            }
+            whole += gap.speeds.length();
+        }
+        assert!(proved > 0.8 * whole, "{ratio}: {proved} of {whole}");
+    }
+}
+
 #[test]
 fn what_is_no_question_is_refused() {
     for (low, high) in [(0.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.1, f64::INFINITY), (-1.0, 1.0)]

@@ -5,7 +5,7 @@
 use crate::error::Error;
 use basin_of_attraction::Label;
 use hopper_basin::HopperFate;
-use hopper_proof::{BasinInterval, CERTIFICATE_VERSION, Evidence, Theorem};
+use hopper_proof::{BasinGap, BasinInterval, CERTIFICATE_VERSION, Evidence, Theorem};
 use repository_tools::Folder;
 use resumable_job::AtomicFile;
 use serde_json::{Value, json};
@@ -51,6 +51,15 @@ fn intervals(list: &[BasinInterval]) -> Vec<Value> {
     list.iter().map(|(own, label)| json!([own.left, own.right, fate(*label)])).collect()
 }
 
+/// [left, right, [fate, least], …] for each gap.
+fn gaps(list: &[BasinGap]) -> Vec<Value> {
+    let gap = |BasinGap { speeds, at_least }: &BasinGap| {
+        let own = at_least.iter().map(|&(label, least)| json!([fate(label), least]));
+        Value::Array([json!(speeds.left), json!(speeds.right)].into_iter().chain(own).collect())
+    };
+    list.iter().map(gap).collect()
+}
+
 /// [fate, count] for each run of equal fates.
 fn runs(labels: &[Label]) -> Vec<Value> {
     let equal = labels.chunk_by(|a, b| a == b);
@@ -90,6 +99,7 @@ fn line(evidence: &Evidence) -> Value {
             "kind": "basins", "mass_ratios": [mass_ratios.left, mass_ratios.right],
             "intervals": intervals(list),
         }),
+        Evidence::Gaps(list) => json!({ "kind": "gaps", "gaps": gaps(list) }),
         Evidence::Fraction { label, humps, uniform, by_humps } => json!({
             "kind": "fraction", "fate": fate(*label), "humps": humps,
             "uniform": [uniform.low, uniform.high], "by_humps": [by_humps.low, by_humps.high],

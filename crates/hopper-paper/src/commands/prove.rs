@@ -33,6 +33,12 @@ pub struct Options {
     /// Strips of mass ratios in a column of cells: with more of them less area stays open
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     strips: u32,
+    /// The only mass ratio of `measures` [default: those of the table, each to a width of its own]
+    #[arg(short = 'M', long, value_name = "M", requires = "width")]
+    mass_ratio: Option<f64>,
+    /// The width of its fractions
+    #[arg(long, value_name = "WIDTH", requires = "mass_ratio")]
+    width: Option<f64>,
     /// Folder for certificates and pictures [default: target/proofs in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -141,7 +147,10 @@ fn prove(name: &str, options: &Options, folder: &Folder) -> Result<Theorem, Erro
         "traps" => trap_edges(HUMPS, TRAPS)?,
         "everything-hops" => everything_hops()?,
         "rising" => rising(&RISING)?,
-        "measures" => measures(&MEASURES)?,
+        "measures" => match (options.mass_ratio, options.width) {
+            (Some(mass_ratio), Some(width)) => measures(&[(mass_ratio, width)])?,
+            _ => measures(&MEASURES)?,
+        },
         "fig6-points" => points("fig6-points", fig_6(), options, folder)?,
         "fig9-points" => points("fig9-points", FIG_9, options, folder)?,
         "fig6-cells" => cells("fig6-cells", fig_6(), OPEN_OF_FIG_6, options, folder)?,
