@@ -46,6 +46,18 @@ fn no_interval_has_a_wrong_fate() {
     }
 }
 
+/// The edge of grounding at α = 6.2636 moves by 3·10⁻⁴ with the mass ratios of the strip. This band stays open, and leaves enough speeds for what
+/// lies above it.
+#[test]
+fn an_open_band_takes_few_speeds() {
+    let strip = Strip::between(0.8555, 0.8565).unwrap();
+    let line = ProvedLine::new(strip, Interval::new(6.23, 6.48).unwrap(), 1, 1e-5, 600).unwrap();
+    let decays = Some(HopperFate::label_of_fixed_point(0));
+    assert_eq!(line.label_of_all(6.2640, 6.4250), decays);
+    assert_eq!(line.label_of_all(6.4265, 6.4799), Some(HopperFate::GROUNDED));
+    assert_eq!(line.label_of_all(6.2636, 6.2637), None);
+}
+
 /// A raster in which every point is proved has the labels of the library.
 #[test]
 fn all_points_of_a_raster_are_proved() {
