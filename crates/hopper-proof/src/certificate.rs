@@ -4,6 +4,7 @@
 //! kind of line means, and how `xtask/generators/check_certificate.py` checks it.
 
 use crate::fixed_points::fixed_point;
+use crate::theorems::cells::ProvedStrip;
 use basin_of_attraction::{Grid, Interval, Label};
 use interval_arithmetic::Enclosure;
 
@@ -107,6 +108,8 @@ pub enum Evidence {
     },
     /// The gaps between the intervals of the line of basins before, and parts of gaps: disjoint, from the lowest up.
     Gaps(Vec<BasinGap>),
+    /// So many lines of [`Evidence::Basins`], which are too long to be held: those of [`proved_strips`](crate::proved_strips), from the left.
+    Strips(usize),
     /// The fraction of a basin on humps 1 to `humps`, at the mass ratio of the line of basins before.
     Fraction {
         /// The basin.
@@ -151,5 +154,15 @@ impl Evidence {
     /// A trap, whose left end is α*_n.
     pub(crate) fn trap(n: u64, mass_ratio: f64, right: f64, beyond: Option<f64>) -> Self {
         Evidence::Trap { n, fixed_point: fixed_point(n), mass_ratio, right, beyond }
+    }
+
+    /// The intervals of a strip.
+    pub fn of_strip((mass_ratios, line): ProvedStrip) -> Self {
+        Evidence::Basins { mass_ratios, intervals: line.into_intervals() }
+    }
+
+    /// The number of lines that it has in a certificate.
+    pub fn lines(&self) -> usize {
+        if let Evidence::Strips(count) = self { *count } else { 1 }
     }
 }

@@ -11,19 +11,31 @@ use resumable_job::AtomicFile;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Writes NAME.jsonl into the folder: its path, and its size.
+/// Writes NAME.jsonl into the folder: its path, and its size. `strips` are the lines for which [`Evidence::Strips`] stands, and are written as
+/// they come.
 pub(super) fn write_certificate(
     theorem: &Theorem,
+    mut strips: impl Iterator<Item = Result<Evidence, Error>>,
     folder: &Folder,
 ) -> Result<(PathBuf, usize), Error> {
     let path = folder.path().join(format!("{}.jsonl", theorem.name));
     let mut file = AtomicFile::create(&path)?;
     let mut size = 0;
-    let lines = theorem.evidence.iter().map(line);
-    for value in std::iter::once(header(theorem)).chain(lines) {
+    let mut write = |value: Value| -> Result<(), Error> {
         let text = format!("{value}\n");
         size += text.len();
-        file.append(text.as_bytes())?;
+        Ok(file.append(text.as_bytes())?)
+    };
+    write(header(theorem))?;
+    for evidence in &theorem.evidence {
+        match line(evidence) {
+            Some(own) => write(own)?,
+            None => {
+                for strip in strips.by_ref().take(evidence.lines()) {
+                    line(&strip?).map_or(Ok(()), &mut write)?;
+                }
+            }
+        }
     }
     file.finish()?;
     Ok((path, size))
@@ -35,7 +47,7 @@ fn header(theorem: &Theorem) -> Value {
         "version": CERTIFICATE_VERSION,
         "theorem": theorem.name,
         "statement": theorem.statement,
-        "lines": theorem.evidence.len(),
+        "lines": theorem.evidence.iter().map(Evidence::lines).sum::<usize>(),
     })
 }
 
@@ -66,8 +78,10 @@ fn runs(labels: &[Label]) -> Vec<Value> {
     equal.filter_map(|run| Some(json!([fate(*run.first()?), run.len()]))).collect()
 }
 
-fn line(evidence: &Evidence) -> Value {
-    match evidence {
+/// The line of a piece of evidence; `None` for one that stands for other lines.
+fn line(evidence: &Evidence) -> Option<Value> {
+    let value = match evidence {
+        Evidence::Strips(_) => return None,
         Evidence::OneSudden { fixed_point, largest_mass_ratio, available, needed } => json!({
             "kind": "one-sudden", "fixed_point": [fixed_point.low, fixed_point.high],
             "largest_mass_ratio": largest_mass_ratio, "available": available, "needed": needed,
@@ -119,5 +133,6 @@ fn line(evidence: &Evidence) -> Value {
         Evidence::Cells { edges, of_one_basin } => json!({
             "kind": "cells", "edges": edges, "of_one_basin": of_one_basin,
         }),
-    }
+    };
+    Some(value)
 }
