@@ -19,6 +19,17 @@ const MOST_HALVINGS: usize = 48;
 /// unknown.
 const STALLED: f64 = 0.8;
 
+/// If a larger part of a gap than this is lost to its curvature, halves are worth it in any case.
+const CURVED: f64 = 0.5;
+
+/// What is known of a gap.
+struct Found {
+    /// The least length that each basin has.
+    at_least: Vec<f64>,
+    /// The length that would stay unknown if all of the image were known.
+    lost: f64,
+}
+
 fn point(value: f64) -> Enclosure {
     Enclosure::new(value, value)
 }
@@ -40,41 +51,40 @@ impl BasinLengths<'_> {
         }
     }
 
-    /// Adds a part of a gap, of which the lengths `found` are known.
-    fn add(&mut self, gap: Interval, found: Option<Vec<f64>>, goal: f64, halvings: usize) {
-        let unknown = |gap: Interval, found: &Option<Vec<f64>>| {
-            gap.length() - found.as_ref().map_or(0.0, |lengths| sum(lengths))
-        };
+    /// Adds a part of a gap, of which `found` is known.
+    fn add(&mut self, gap: Interval, found: Found, goal: f64, halvings: usize) {
+        let unknown = |gap: Interval, found: &Found| gap.length() - sum(&found.at_least);
         let before = unknown(gap, &found);
         let middle = gap.left.midpoint(gap.right);
         let divisible = halvings > 0 && gap.left < middle && middle < gap.right;
+        let curved = found.lost > CURVED * gap.length();
         // Next to a fixed point the image reaches into the gap itself, and so does that of the upper half.
-        if before > goal && divisible && !(found.is_some() && self.reaches_itself(gap)) {
+        if before > goal && divisible && (curved || !self.reaches_itself(gap)) {
             let halves = [Interval { right: middle, ..gap }, Interval { left: middle, ..gap }];
             let of_halves = halves.map(|half| self.of_whole_gap(half));
             let after = unknown(halves[0], &of_halves[0]) + unknown(halves[1], &of_halves[1]);
-            if found.is_none() || after < STALLED * before {
+            if curved || after < STALLED * before {
                 for (half, found) in halves.into_iter().zip(of_halves) {
                     self.add(half, found, goal, halvings - 1);
                 }
                 return;
             }
         }
-        let known = Known::AtLeast(found.unwrap_or_else(|| self.nothing()));
-        self.segments.push(Segment { interval: gap, known });
+        self.segments.push(Segment { interval: gap, known: Known::AtLeast(found.at_least) });
     }
 
     fn reaches_itself(&self, gap: Interval) -> bool {
         self.images.square(gap.right).is_none_or(|image| image.high > gap.left * gap.left)
     }
 
-    fn of_whole_gap(&self, gap: Interval) -> Option<Vec<f64>> {
+    fn of_whole_gap(&self, gap: Interval) -> Found {
         let mut hops = MOST_HOPS;
-        self.of_gap(gap, &mut hops)
+        let nothing = || Found { at_least: self.nothing(), lost: gap.length() };
+        self.of_gap(gap, &mut hops).unwrap_or_else(nothing)
     }
 
     /// What each basin has at least of a gap, from its image; `None` if a decision of the hops is open.
-    fn of_gap(&self, gap: Interval, hops: &mut usize) -> Option<Vec<f64>> {
+    fn of_gap(&self, gap: Interval, hops: &mut usize) -> Option<Found> {
         let all = Enclosure::new(gap.left, gap.right);
         // On one part, and with one number of sudden lift-offs, F is smooth.
         let hop = HopEnclosure::plain(all, Part::of(all)?, self.images.strip())?;
@@ -84,7 +94,7 @@ impl BasinLengths<'_> {
         let low = ends[0].high.min(ends[1].high);
         let high = ends[0].low.max(ends[1].low);
         if !(low < high && steepest.is_finite()) {
-            return Some(self.nothing());
+            return None;
         }
         let mut values = self.values_between(low.max(0.0), high, hops);
         if let Some(grounded) = self.labels.iter().position(|&own| own == HopperFate::GROUNDED) {
@@ -92,7 +102,8 @@ impl BasinLengths<'_> {
             values[grounded] = (point(values[grounded]) + below_zero).low;
         }
         let length = |value: f64| (point(value) / point(steepest)).low.max(0.0);
-        Some(values.into_iter().map(length).collect())
+        let lost = gap.length() - length(distance(low, high));
+        Some(Found { at_least: values.into_iter().map(length).collect(), lost })
     }
 
     /// What each basin has at least of the values of F from `low` ≥ 0 to `high`.
@@ -120,7 +131,7 @@ impl BasinLengths<'_> {
                         Some(lengths.clone())
                     } else if *hops > 0 {
                         *hops -= 1;
-                        self.of_gap(inside, hops)
+                        self.of_gap(inside, hops).map(|found| found.at_least)
                     } else {
                         None
                     };

@@ -22,13 +22,13 @@ const SPEEDS: usize = 1_000_000;
 
 /// The share that a sweep may leave open of a part, over the root of the width that is asked for, and at most. What is unknown of the gaps is of the
 /// size of their square. With a larger one the gaps, with a smaller one the sweep takes the time.
-const OPEN: f64 = 20.0;
+const OPEN: f64 = 14.0;
 const MOST_OPEN: f64 = 0.1;
 
 /// The length next to a fixed point that is not divided further, and the unknown length of a gap that is not either, over the width that is asked for.
 /// With larger ones the width is missed; with smaller ones it takes longer.
-const SHORTEST: f64 = 3e-3;
-const UNKNOWN: f64 = 5e-5;
+const SHORTEST: f64 = 1.5e-3;
+const UNKNOWN: f64 = 2.5e-5;
 
 /// Digits of a fraction that are printed: more than the narrowest one has.
 const DIGITS: usize = 12;
