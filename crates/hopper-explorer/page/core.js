@@ -35,6 +35,7 @@ export class Core {
 
   legend() { return this.#json(this.exports.legend()); }
   point(m, alpha, hops) { return this.#json(this.exports.point(m, alpha, hops)); }
+  proof(m, alpha) { return this.#json(this.exports.proof(m, alpha)); }
   map(m, from, to, points) { return this.#json(this.exports.map(m, from, to, points)); }
   motion(m, alpha, hops) { return new Float64Array(this.#answer(this.exports.motion(m, alpha, hops)).buffer); }
   units(m, mass, stiffness, gravity) { return this.#json(this.exports.units(m, mass, stiffness, gravity)); }

@@ -2,7 +2,7 @@
 import { state } from "./state.js";
 import { isView } from "./view.js";
 
-const LAYERS = ["fate", "hops", "coverage"];
+const LAYERS = ["fate", "hops", "coverage", "proof"];
 
 function write({ view, layer, pin, hops, depth }) {
   const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`, `layer=${LAYERS[layer]}`];

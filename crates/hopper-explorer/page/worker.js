@@ -3,6 +3,8 @@ import { Core, Refusal } from "./core.js";
 
 /** Columns of a strip: some milliseconds of work. */
 const STRIP = 32;
+/** The same for proofs, which take up to a hundred times as long. */
+const STRIP_OF_PROOFS = 2;
 
 let core = null;
 let wanted = null; // the tile in work; another value stops it
@@ -18,8 +20,9 @@ async function tile(id, job) {
   const { columns, rows } = job;
   const image = new ImageData(columns, rows);
   const values = job.values ? new Uint32Array(columns * rows) : null;
-  for (let from = 0; from < columns; from += STRIP) {
-    const to = Math.min(from + STRIP, columns);
+  const wide = job.layer === 3 ? STRIP_OF_PROOFS : STRIP;
+  for (let from = 0; from < columns; from += wide) {
+    const to = Math.min(from + wide, columns);
     const strip = core.tile(job, from, to);
     const width = 4 * (to - from);
     for (let row = 0; row < rows; row++) {
