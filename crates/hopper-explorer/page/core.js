@@ -42,7 +42,9 @@ export class Core {
   circle(m, n) { return this.#json(this.exports.circle(m, n)); }
   intervals(m, first, last) { return this.#json(this.exports.intervals(m, first, last)); }
   openDepth(m, alpha) { return this.#json(this.exports.open_depth(m, alpha)); }
-  depthFrame(depth, columns, rows) {
+  /** The frame about the opened boundary point, or about the one at (m, alpha): a worker that replaces a dead one opens it again. */
+  depthFrame(depth, columns, rows, m, alpha) {
+    if (m !== undefined) this.openDepth(m, alpha);
     return new Uint8ClampedArray(this.#answer(this.exports.depth_frame(depth, columns, rows)).buffer);
   }
 }

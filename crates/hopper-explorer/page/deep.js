@@ -45,7 +45,7 @@ export class Deep {
     if (pixels === 0) { this.plane.canvas.dispatchEvent(new Event("complete")); return; }
     this.busy = true;
     try {
-      const data = await this.desk.ask("depthFrame", depth, pixels, pixels);
+      const data = await this.desk.ask("depthFrame", depth, pixels, pixels, about.massRatio, about.alpha);
       const bitmap = await createImageBitmap(new ImageData(data, pixels, pixels));
       if (state.depth?.about === about) this.frames.push({ depth, pixels, bitmap });
       while (this.frames.length > KEPT) this.frames.shift().bitmap.close();

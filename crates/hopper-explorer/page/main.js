@@ -127,14 +127,18 @@ async function showPointNow(mine) {
     [shown, shownWindow] = [found, window];
     showFate(found);
     showOrbit(found);
-    showMap(map, found, window);
-    showMotion(motion);
+    if (map.refused) hideMap(`No map: ${map.refused}.`); else showMap(map, found, window);
+    showMotion(motion.refused ? null : motion);
+    if (motion.refused) say(`No motion: ${motion.refused}.`);
     await measure();
     canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
     desk.ask("proof", m, alpha).then((proof) => { if (mine === round) showProof(found, proof); }, () => {});
     slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
   } catch (error) {
+    shown = null;
     showError(error.message);
+    showMotion(null);
+    hideMap();
     say(error.message);
   }
 }

@@ -66,6 +66,7 @@ export function showError(text) {
   const line = document.createElement("p");
   line.textContent = text;
   document.getElementById("fate").replaceChildren(line);
+  document.querySelector("#orbit div").replaceChildren();
 }
 
 /** Hops that are listed after the fate is known. */

@@ -47,7 +47,14 @@ function windowOf({ speeds, grounded }) {
 function pinned(m, alpha, orbit, hops, points, kept) {
   const point = core.point(m, alpha, orbit);
   const window = kept ?? windowOf(point);
-  return { point, window, map: core.map(m, ...window, points), motion: core.motion(m, alpha, hops) };
+  // A point with a fate may have a map or a motion too long to be shown.
+  const tried = (make) => {
+    try { return make(); } catch (error) {
+      if (error instanceof Refusal) return { refused: error.message };
+      throw error;
+    }
+  };
+  return { point, window, map: tried(() => core.map(m, ...window, points)), motion: tried(() => core.motion(m, alpha, hops)) };
 }
 
 async function answer({ id, kind, args }) {
