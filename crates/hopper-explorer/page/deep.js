@@ -8,9 +8,9 @@ const QUICK = 48;
 const FINE = 256;
 /** Frames that are kept. */
 const KEPT = 48;
-/** Depths at which the chart is left for the plane, and the deepest one. */
+/** Depths at which the chart is left for the plane, and the deepest one: there a fine frame takes seconds, and at 2000 half a minute. */
 export const SHALLOWEST = 5.5;
-export const DEEPEST = 9000;
+export const DEEPEST = 1000;
 
 export class Deep {
   constructor(plane, desk) {
