@@ -16,12 +16,12 @@ pub(crate) const INSTALL: &str = "rustup target add wasm32-unknown-unknown";
 /// Flags of the compiler for the page's core.
 ///
 /// - simd128: two doubles at a time, for which a tile takes four fifths of the time. All browsers have had it since 2023.
-/// - inline-threshold: at the level of the profile the compiler inlines next to nothing. With 40 a tile takes four fifths of the time,
-///   and the core has no more bytes.
+/// - inline-threshold: at the level of the profile the compiler inlines next to nothing. With 40 a tile takes four fifths of the time.
+///   With 30 it takes as long as with 40, and the core has 1 kB less.
 /// - compress-relocations: numbers of functions as short as they are, 2 % of the bytes.
 const FLAGS: (&str, &str) = (
     "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS",
-    "-C target-feature=+simd128 -C llvm-args=-inline-threshold=40 -C link-arg=--compress-relocations",
+    "-C target-feature=+simd128 -C llvm-args=-inline-threshold=30 -C link-arg=--compress-relocations",
 );
 
 /// The profile in the manifest.
@@ -83,11 +83,20 @@ pub(crate) fn build(folder: &Path) -> Result<(), Error> {
     std::fs::create_dir_all(folder).map_err(at(folder))?;
     for page in page_files()? {
         let to = folder.join(page.file_name().unwrap_or_default());
-        std::fs::copy(&page, &to).map_err(at(&page))?;
+        let text = std::fs::read_to_string(&page).map_err(at(&page))?;
+        std::fs::write(&to, without_comments(&text)).map_err(at(&to))?;
     }
     let core = target.join(TARGET).join(PROFILE).join("hopper_explorer.wasm");
     std::fs::copy(&core, folder.join("core.wasm")).map_err(at(&core))?;
     Ok(())
+}
+
+/// A file of the page without lines that are comments and without indentation: a seventh less to load.
+fn without_comments(text: &str) -> String {
+    let is_comment =
+        |line: &str| line.starts_with("//") || (line.starts_with("/*") && line.ends_with("*/"));
+    let lines = text.lines().map(str::trim).filter(|line| !is_comment(line));
+    lines.flat_map(|line| [line, "\n"]).collect()
 }
 
 /// The files of the page.
@@ -120,6 +129,12 @@ mod tests {
             let name = file.file_name().unwrap().to_string_lossy();
             assert!(kept.contains(&format!("\"{name}\"")), "{name} is not in the list of sw.js");
         }
+    }
+
+    #[test]
+    fn lines_that_are_comments_are_left_out() {
+        let text = "// What.\n/** Why. */\nif (a) {\n  b(\"//\"); // here\n\n}\n";
+        assert_eq!(without_comments(text), "if (a) {\nb(\"//\"); // here\n\n}\n");
     }
 
     #[test]

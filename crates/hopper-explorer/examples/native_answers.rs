@@ -23,12 +23,14 @@ const POINTS: [(f64, f64); 10] = [
 type Scene = (u32, bool, [f64; 2], [f64; 2], usize);
 
 /// Windows of each layer.
-const WINDOWS: [Scene; 5] = [
+const WINDOWS: [Scene; 7] = [
     (0, false, [0.0, 1.0], [4.0, 20.0], 256),
     (0, false, [0.17, 0.18], [17.0, 17.8], 256),
     (0, true, [-4.0, 4.0], [4.0, 12.0], 128),
     (1, false, [0.0, 0.5], [4.0, 12.0], 64),
     (2, false, [0.1, 0.3], [8.0, 10.0], 32),
+    (3, false, [0.1, 0.3], [8.0, 10.0], 32),
+    (3, true, [-6.0, 0.0], [100.0, 120.0], 32),
 ];
 
 /// FNV-1a, which the browser's tests compute alike.

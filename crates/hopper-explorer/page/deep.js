@@ -8,9 +8,9 @@ const QUICK = 48;
 const FINE = 256;
 /** Frames that are kept. */
 const KEPT = 48;
-/** Depths at which the chart is left for the plane, and the deepest one. */
+/** Depths at which the chart is left for the plane, and the deepest one: there a fine frame takes seconds, and at 2000 half a minute. */
 export const SHALLOWEST = 5.5;
-export const DEEPEST = 9000;
+export const DEEPEST = 1000;
 
 export class Deep {
   constructor(plane, desk) {
@@ -45,7 +45,7 @@ export class Deep {
     if (pixels === 0) { this.plane.canvas.dispatchEvent(new Event("complete")); return; }
     this.busy = true;
     try {
-      const data = await this.desk.ask("depthFrame", depth, pixels, pixels);
+      const data = await this.desk.ask("depthFrame", depth, pixels, pixels, about.massRatio, about.alpha);
       const bitmap = await createImageBitmap(new ImageData(data, pixels, pixels));
       if (state.depth?.about === about) this.frames.push({ depth, pixels, bitmap });
       while (this.frames.length > KEPT) this.frames.shift().bitmap.close();

@@ -1,8 +1,9 @@
 // The address of a view. Doubles are written with all their digits, so that a link gives the same bits.
+import { DEEPEST } from "./deep.js";
 import { state } from "./state.js";
 import { isView } from "./view.js";
 
-const LAYERS = ["fate", "hops", "coverage"];
+const LAYERS = ["fate", "hops", "coverage", "proof"];
 
 function write({ view, layer, pin, hops, depth }) {
   const parts = [`${view.logarithmic ? "log" : "lin"}=${[...view.x, ...view.alpha].join(",")}`, `layer=${LAYERS[layer]}`];
@@ -44,7 +45,7 @@ export function read(hash) {
       if (good) fields.hops = Number(value);
     } else if (name === "depth") {
       const all = doubles(value, 3);
-      good = all !== null && all[0] > 0 && all[1] > 0 && all[2] >= 0;
+      good = all !== null && all[0] > 0 && all[1] > 0 && all[2] >= 0 && all[2] <= DEEPEST;
       if (good) fields.depth = { m: all[0], alpha: all[1], depth: all[2] };
     }
     if (!good) wrong.push(part.slice(0, 40));

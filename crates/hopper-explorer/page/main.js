@@ -11,7 +11,7 @@ import { measure, play, showMotion, start as startMotion, stateAt, step } from "
 import { parse, pretty, show } from "./numbers.js";
 import { Plane } from "./plane.js";
 import { showCircle, showIntervals } from "./circle_panel.js";
-import { showError, showFate, showNothing, showOrbit, showPin } from "./point_panel.js";
+import { showError, showFate, showNothing, showOrbit, showPin, showProof } from "./point_panel.js";
 import { Pool } from "./pool.js";
 import { snippets } from "./same.js";
 import * as files from "./save.js";
@@ -26,7 +26,8 @@ const PIECE = 120;
 /** Below this height of the window an edge inside it is looked for, to change to its chart. */
 const EDGE_HEIGHT = 1e-8;
 
-const module = WebAssembly.compileStreaming(fetch("core.wasm"));
+// A host that does not know the type of the file is no reason to stop.
+const module = WebAssembly.compileStreaming(fetch("core.wasm")).catch(async () => WebAssembly.compile(await (await fetch("core.wasm")).arrayBuffer()));
 const workers = Math.max((navigator.hardwareConcurrency || 2) - 1, 1);
 const pool = new Pool(module, Math.min(workers, 16)).warm();
 const desk = new Pool(module, 1);  // panels
@@ -126,13 +127,18 @@ async function showPointNow(mine) {
     [shown, shownWindow] = [found, window];
     showFate(found);
     showOrbit(found);
-    showMap(map, found, window);
-    showMotion(motion);
+    if (map.refused) hideMap(`No map: ${map.refused}.`); else showMap(map, found, window);
+    showMotion(motion.refused ? null : motion);
+    if (motion.refused) say(`No motion: ${motion.refused}.`);
     await measure();
     canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
+    desk.ask("proof", m, alpha).then((proof) => { if (mine === round) showProof(found, proof); }, () => {});
     slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
   } catch (error) {
+    shown = null;
     showError(error.message);
+    showMotion(null);
+    hideMap();
     say(error.message);
   }
 }
@@ -172,7 +178,7 @@ function showLegend() {
   const scale = legend.hops.map(({ color }) => color).join(",");
   byId("legend").innerHTML = state.layer === 1 && !state.depth
     ? `<span class="scale">0 <span style="background:linear-gradient(90deg,${scale})"></span> ${legend.hops.at(-1).hops} hops until the fate is known</span>`
-    : legend.fates.map(swatch).join("") + (state.layer === 2 || state.depth ? "<span>mixed by shares</span>" : "");
+    : legend.fates.map(swatch).join("") + (state.layer === 2 || state.depth ? "<span>mixed by shares</span>" : state.layer === 3 ? swatch(legend.onlyComputed) : "");
 }
 
 // The tour.
@@ -262,7 +268,7 @@ keys({
   ArrowLeft: () => pan(-0.1, 0), ArrowRight: () => pan(0.1, 0), ArrowUp: () => pan(0, 0.1), ArrowDown: () => pan(0, -0.1),
   "+": scale(1 / 1.5, 1 / 1.5), "=": scale(1 / 1.5, 1 / 1.5), "-": scale(1.5, 1.5), "−": scale(1.5, 1.5),
   X: scale(1 / 1.5, 1), x: scale(1.5, 1), A: scale(1, 1 / 1.5), a: scale(1, 1.5),
-  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), 1: setLayer(0), 2: setLayer(1), 3: setLayer(2),
+  Enter: pinCentre, h: goHome, l: () => setLogarithmic(!state.view.logarithmic), 1: setLayer(0), 2: setLayer(1), 3: setLayer(2), 4: setLayer(3),
   d: deepHere, t: () => goTo(0), n: () => stop >= 0 && goTo(stop + 1), p: () => stop > 0 && goTo(stop - 1),
   Escape: () => { if (state.depth) leaveDepth(); goTo(-1); },
   " ": () => play(), ",": () => step(-1), ".": () => step(1), s: saveDialog, c: dialogs.share, "?": dialogs.help,

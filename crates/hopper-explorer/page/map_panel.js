@@ -6,7 +6,7 @@ import { Drawing } from "./svg.js";
 const panel = document.getElementById("map");
 let drawing = null;
 
-export const hideMap = () => { drawing = null; panel.replaceChildren(); };
+export const hideMap = (why = "") => { drawing = null; panel.textContent = why; };
 
 export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }, window) {
   drawing = new Drawing({ x: window, y: window, height: 400, xName: "α", yName: "f(α; M)",

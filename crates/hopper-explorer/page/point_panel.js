@@ -52,13 +52,21 @@ export function showFate(found) {
   const slopes = first?.slope === null || !first ? "" :
     `<p class="soft">∂α′/∂α = ${show(first.slope)}, ∂α′/∂M = ${show(first.massRatioSlope)}</p>`;
   document.getElementById("fate").innerHTML =
-    `<p class="verdict"><i class="swatch" style="background:${fate.color}"></i>${pretty(fate.name)}</p><p>${reason(found)}</p>${slopes}`;
+    `<p class="verdict"><i class="swatch" style="background:${fate.color}"></i>${pretty(fate.name)}</p><p>${reason(found)}</p><p id="proof"></p>${slopes}`;
+}
+
+/** Whether the fate is proved. */
+export function showProof({ fate }, { fate: proved }) {
+  const text = !proved ? (fate.label < 65533 ? "Computed, not proved: enclosures of the orbit do not lead into a proved trap." : "")
+    : `Proved${proved.label === fate.label ? "" : `: ${pretty(proved.name)}`}, by enclosures of the whole orbit with rounding outwards.`;
+  document.getElementById("proof").textContent = text;
 }
 
 export function showError(text) {
   const line = document.createElement("p");
   line.textContent = text;
   document.getElementById("fate").replaceChildren(line);
+  document.querySelector("#orbit div").replaceChildren();
 }
 
 /** Hops that are listed after the fate is known. */

@@ -8,7 +8,7 @@ import { toM } from "./view.js";
 
 /** Pixels of a table each way. */
 const TABLE = 256;
-const LAYERS = ["fate", "number of hops", "exact coverage"];
+const LAYERS = ["fate", "number of hops", "exact coverage", "proved or computed"];
 
 /** The parameters in words. */
 export function parameters(deep) {
@@ -53,9 +53,11 @@ export async function csv(pool, desk, deep) {
   const job = { layer: state.layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true };
   const places = await desk.ask("places", job);
   const { values } = await pool.ask("tile", job);
-  const lines = [`# ${parameters(deep)}`, `# ${address()}`, state.layer === 0 ? "M,alpha,label" : "M,alpha,hops"];
+  // A proved label has a bit above its code.
+  const valueOf = state.layer === 3 ? (value) => `${value & 0xffff},${value >> 16}` : String;
+  const lines = [`# ${parameters(deep)}`, `# ${address()}`, `M,alpha,${["label", "hops", "", "label,proved"][state.layer]}`];
   for (let column = 0; column < TABLE; column++) {
-    for (let row = 0; row < TABLE; row++) lines.push(`${places[column]},${places[TABLE + row]},${values[column * TABLE + row]}`);
+    for (let row = 0; row < TABLE; row++) lines.push(`${places[column]},${places[TABLE + row]},${valueOf(values[column * TABLE + row])}`);
   }
   return new Blob([lines.join("\n"), "\n"], { type: "text/csv" });
 }

@@ -3,8 +3,10 @@
 export const SIZE = 256;
 /** Pixels of the first, coarse picture of a tile each way: a sixteenth of the work. */
 export const COARSE = 64;
+/** The same where a point takes longer. */
+export const COARSE_PROOF = 16;
 /** Numbers of layers. */
-export const [FATE, COVERAGE] = [0, 2];
+export const [FATE, COVERAGE, PROOF] = [0, 2, 3];
 /** A coarser tile whose picture is as good as the first one. */
 const AS_GOOD = 2;
 /** Tiles that are kept: 256 kB each. A view of 4K has 160. */

@@ -3,6 +3,8 @@ import { Core, Refusal } from "./core.js";
 
 /** Columns of a strip: some milliseconds of work. */
 const STRIP = 32;
+/** The same for proofs, which take up to a hundred times as long. */
+const STRIP_OF_PROOFS = 2;
 
 let core = null;
 let wanted = null; // the tile in work; another value stops it
@@ -18,8 +20,9 @@ async function tile(id, job) {
   const { columns, rows } = job;
   const image = new ImageData(columns, rows);
   const values = job.values ? new Uint32Array(columns * rows) : null;
-  for (let from = 0; from < columns; from += STRIP) {
-    const to = Math.min(from + STRIP, columns);
+  const wide = job.layer === 3 ? STRIP_OF_PROOFS : STRIP;
+  for (let from = 0; from < columns; from += wide) {
+    const to = Math.min(from + wide, columns);
     const strip = core.tile(job, from, to);
     const width = 4 * (to - from);
     for (let row = 0; row < rows; row++) {
@@ -44,7 +47,14 @@ function windowOf({ speeds, grounded }) {
 function pinned(m, alpha, orbit, hops, points, kept) {
   const point = core.point(m, alpha, orbit);
   const window = kept ?? windowOf(point);
-  return { point, window, map: core.map(m, ...window, points), motion: core.motion(m, alpha, hops) };
+  // A point with a fate may have a map or a motion too long to be shown.
+  const tried = (make) => {
+    try { return make(); } catch (error) {
+      if (error instanceof Refusal) return { refused: error.message };
+      throw error;
+    }
+  };
+  return { point, window, map: tried(() => core.map(m, ...window, points)), motion: tried(() => core.motion(m, alpha, hops)) };
 }
 
 async function answer({ id, kind, args }) {

@@ -84,6 +84,12 @@ pub(crate) extern "C" fn point(mass_ratio: f64, alpha: f64, hops: usize) -> u32 
     json(crate::point::point_json(mass_ratio, alpha, hops))
 }
 
+/// Whether the fate of a point is proved, as JSON.
+#[unsafe(no_mangle)]
+pub(crate) extern "C" fn proof(mass_ratio: f64, alpha: f64) -> u32 {
+    json(crate::point::proof_json(mass_ratio, alpha))
+}
+
 /// The map between two speeds, as JSON.
 #[unsafe(no_mangle)]
 pub(crate) extern "C" fn map(mass_ratio: f64, from: f64, to: f64, points: usize) -> u32 {

@@ -2,7 +2,7 @@
 
 use crate::json::{Json, numbers, objects};
 use crate::labels;
-use crate::tile::DARKEST_HOPS;
+use crate::tile::{DARKEST_HOPS, ONLY_COMPUTED};
 use basin_of_attraction::Label;
 use hopper_basin::{FIG_8, FIG_9, FigureWindow, HopperFate, RASTER_VERSION, first_humps};
 use hopper_figures::{fate_colors, hop_color};
@@ -37,10 +37,15 @@ pub(crate) fn legend_json() -> Json {
             .integer("hops", hops)
             .text("color", &format!("#{red:02x}{green:02x}{blue:02x}"))
     });
+    let [red, green, blue] = ONLY_COMPUTED;
+    let only_computed = Json::object()
+        .text("name", "computed, not proved")
+        .text("color", &format!("#{red:02x}{green:02x}{blue:02x}"));
     let humps = first_humps(5);
     Json::object()
         .integer("rasterVersion", u64::from(RASTER_VERSION))
         .json("fates", objects(fates.into_iter().map(labels::label)))
+        .json("onlyComputed", only_computed)
         .json("hops", objects(scale))
         .json("fixedPoints", numbers((0..=FIXED_POINTS).map(alpha_star)))
         .json("home", numbers([0.0, 1.0, humps.left, humps.right]))

@@ -1,7 +1,7 @@
 //! The core of the explorer: the libraries behind a few functions with numbers in, and bytes or text out.
 //!
 //! ```text
-//!   page ── numbers ──► exports ──► one room for each view ──► passive-hopper, hopper-basin, hopper-figures
+//!   page ── numbers ──► exports ──► one room for each view ──► passive-hopper, hopper-basin, hopper-proof, hopper-figures
 //!        ◄── bytes, JSON ── answer
 //! ```
 //!
@@ -10,8 +10,8 @@
 //!
 //! | item | role |
 //! |---|---|
-//! | [`Window`], [`Layer`], [`strip`], [`places`] | pixels of the (M, α) plane: fates, numbers of hops, shares |
-//! | [`point`] | a fate with its reasons, and the orbit hop by hop |
+//! | [`Window`], [`Layer`], [`PROVED`], [`ONLY_COMPUTED`], [`strip`], [`places`] | pixels of the (M, α) plane: fates, numbers of hops, shares, proofs |
+//! | [`point`], [`proof`] | a fate with its reasons, and the orbit hop by hop; whether the fate is proved |
 //! | [`map`] | the map at one M: its pieces, fixed points, traps and crises |
 //! | [`motion`], [`units`] | both masses against time; metres and seconds |
 //! | [`circle`], [`intervals`] | the circle of fates of α*_n; the basins at one M as intervals |
@@ -39,6 +39,6 @@ pub use depth::Depth;
 pub use legend::legend;
 pub use map::map;
 pub use motion::{motion, units};
-pub use point::point;
+pub use point::{point, proof};
 pub use refusal::Refusal;
-pub use tile::{Layer, Strip, Window, places, strip};
+pub use tile::{Layer, ONLY_COMPUTED, PROVED, Strip, Window, places, strip};

@@ -5,6 +5,7 @@ use crate::labels;
 use crate::refusal::Refusal;
 use basin_of_attraction::UndecidedReason;
 use hopper_basin::{Fates, HOP_BUDGET, HopperFate, Trap, TrapEdge};
+use hopper_proof::ProvedPoints;
 use passive_hopper::{
     Arithmetic, BoundedOrbit, ExtendedStep, Landing, LiftOffMap, MassRatio, index_below,
 };
@@ -43,6 +44,24 @@ pub(crate) fn point_json(mass_ratio: f64, alpha: f64, hops: usize) -> Result<Jso
         .json("speeds", numbers(orbit.speeds))
         .json("errors", numbers(orbit.errors))
         .json("orbit", objects(details)))
+}
+
+/// Whether the fate of a point is proved, as JSON: its label, or `null` without a proof.
+///
+/// # Errors
+/// Those of [`ProvedPoints`].
+pub fn proof(mass_ratio: f64, alpha: f64) -> Result<String, Refusal> {
+    Ok(proof_json(mass_ratio, alpha)?.finish())
+}
+
+pub(crate) fn proof_json(mass_ratio: f64, alpha: f64) -> Result<Json, Refusal> {
+    let label = ProvedPoints::new(mass_ratio)?.label(alpha)?;
+    let answer = Json::object();
+    Ok(if label.is_undecided() {
+        answer.null("fate")
+    } else {
+        answer.json("fate", labels::label(label))
+    })
 }
 
 fn arithmetic_text(arithmetic: Option<Arithmetic>) -> &'static str {

@@ -38,6 +38,12 @@ impl From<hopper_figures::Error> for Refusal {
     }
 }
 
+impl From<hopper_proof::Error> for Refusal {
+    fn from(error: hopper_proof::Error) -> Self {
+        Refusal(error.to_string())
+    }
+}
+
 impl From<basin_of_attraction::Error> for Refusal {
     fn from(error: basin_of_attraction::Error) -> Self {
         Refusal(error.to_string())

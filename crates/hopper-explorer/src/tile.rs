@@ -10,6 +10,7 @@ use hopper_basin::{
     basin_columns,
 };
 use hopper_figures::{coverage_pixels, fate_colors, hop_color};
+use hopper_proof::ProvedPoints;
 use passive_hopper::MassRatio;
 use std::ops::Range;
 
@@ -22,10 +23,12 @@ pub enum Layer {
     Hops,
     /// The share of every basin in each pixel, mixed as light.
     Coverage,
+    /// Whether the fate of each pixel's middle is proved, or only computed.
+    Proof,
 }
 
 impl Layer {
-    /// The layer of that number: 0, 1, 2 in the order above.
+    /// The layer of that number: 0 to 3 in the order above.
     ///
     /// # Errors
     /// A refusal for other numbers.
@@ -34,7 +37,8 @@ impl Layer {
             0 => Ok(Layer::Fate),
             1 => Ok(Layer::Hops),
             2 => Ok(Layer::Coverage),
-            _ => Err(Refusal::new(format!("there is no layer {number}; there are 0, 1 and 2"))),
+            3 => Ok(Layer::Proof),
+            _ => Err(Refusal::new(format!("there is no layer {number}; there are 0 to 3"))),
         }
     }
 }
@@ -86,7 +90,8 @@ impl Window {
 pub struct Strip {
     /// Red, green, blue and opacity, the highest row first.
     pub pixels: Vec<u8>,
-    /// Column by column, each from below: the codes of the labels, or the numbers of hops up to 2³² − 1. Empty for shares.
+    /// Column by column, each from below: the codes of the labels, with [`PROVED`] added where the layer says so, or the numbers of hops up to
+    /// 2³² − 1. Empty for shares.
     pub values: Vec<u32>,
 }
 
@@ -104,6 +109,7 @@ pub fn strip(layer: Layer, window: &Window, columns: Range<usize>) -> Result<Str
         Layer::Fate => fates(window, &grid, columns),
         Layer::Hops => hops(window, &grid, columns),
         Layer::Coverage => coverage(window, &grid, columns),
+        Layer::Proof => proof(window, &grid, columns),
     }
 }
 
@@ -134,6 +140,34 @@ fn fates(window: &Window, grid: &Grid, columns: Range<usize>) -> Result<Strip, R
     let color = |label: &Label| fate_colors::rgb(*label);
     let values = labels.iter().flatten().map(|label| u32::from(label.code())).collect();
     Ok(Strip { pixels: painted(&labels, grid.rows, color), values })
+}
+
+/// The colour of a fate that is computed and not proved: a light blue. The colours of fates are black, grey, yellow and dark ones.
+pub const ONLY_COMPUTED: [u8; 3] = [0x38, 0xc0, 0xff];
+
+/// What a value of the layer of proofs has beside the code of its label if the fate is proved.
+pub const PROVED: u32 = 1 << 16;
+
+fn proof(window: &Window, grid: &Grid, columns: Range<usize>) -> Result<Strip, Refusal> {
+    let speeds = speeds(grid);
+    let column = |at| {
+        let ratio = window.mass_ratio(grid, at)?;
+        let computed = Fates::new(ratio)?.labels(&speeds)?;
+        let mut points = ProvedPoints::new(ratio.value())?;
+        let of = |(&speed, computed): (&f64, Label)| {
+            let proved = points.label(speed)?;
+            Ok(if proved.is_undecided() { (computed, false) } else { (proved, true) })
+        };
+        speeds.iter().zip(computed).map(of).collect()
+    };
+    let found: Vec<Vec<(Label, bool)>> = columns.map(column).collect::<Result<_, Refusal>>()?;
+    let color = |&(label, proved): &(Label, bool)| {
+        let only_computed = !proved && !label.is_undecided();
+        if only_computed { ONLY_COMPUTED } else { fate_colors::rgb(label) }
+    };
+    let value = |&(label, proved)| u32::from(Label::code(label)) | if proved { PROVED } else { 0 };
+    let values = found.iter().flatten().map(value).collect();
+    Ok(Strip { pixels: painted(&found, grid.rows, color), values })
 }
 
 fn hops(window: &Window, grid: &Grid, columns: Range<usize>) -> Result<Strip, Refusal> {

@@ -3,7 +3,8 @@
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{Fates, HopperFate, basin_columns};
 use hopper_explorer::{
-    Depth, Layer, Window, circle, intervals, legend, map, motion, places, point, strip, units,
+    Depth, Layer, ONLY_COMPUTED, PROVED, Window, circle, intervals, legend, map, motion, places,
+    point, proof, strip, units,
 };
 use hopper_figures::fate_colors;
 use passive_hopper::MassRatio;
@@ -34,6 +35,24 @@ fn strips_make_the_tile() {
         let parts = [0..7, 7..20].map(|part| strip(layer, &of, part).unwrap().values);
         assert_eq!(whole.values, parts.concat());
     }
+}
+
+/// High up, where enclosures are wider, some points have no proof; the others have one, of the fate that is computed.
+#[test]
+fn a_fate_is_proved_or_computed() {
+    let of = window((0.01, 1.0), false, (100.0, 120.0), 24);
+    let [found, computed] =
+        [Layer::Proof, Layer::Fate].map(|layer| strip(layer, &of, 0..24).unwrap());
+    let bare: Vec<u32> = found.values.iter().map(|value| value & (PROVED - 1)).collect();
+    assert_eq!(bare, computed.values);
+    let proved = found.values.iter().filter(|&&value| value >= PROVED).count();
+    assert!(proved > 500 && proved < 24 * 24, "{proved}");
+    let open = found.pixels.chunks(4).filter(|pixel| pixel[..3] == ONLY_COMPUTED).count();
+    assert_eq!(open, 24 * 24 - proved);
+    assert!(proof(0.2, 4.55).unwrap().contains(r#""name":"to α*_1""#));
+    // Enclosures do not tell on which side of α*_1 its double lies.
+    assert_eq!(proof(0.2, 4.493_409_457_909_064).unwrap(), r#"{"fate":null}"#);
+    assert!(proof(0.2, -1.0).is_err() && proof(0.0, 7.0).is_err());
 }
 
 #[test]
@@ -109,7 +128,7 @@ fn wrong_questions_are_refused_with_words() {
             && tile(window((0.1, 0.2), false, (-9.0, 5.0), 4))
     );
     assert!(strip(Layer::Fate, &window((0.1, 0.2), false, (4.0, 5.0), 4), 3..9).is_err());
-    assert!(Layer::numbered(3).is_err());
+    assert!(Layer::numbered(4).is_err());
     let depth = Depth::near(0.12, 11.920553918335775).unwrap();
     assert!(
         depth.frame(nan, 4, 4).is_err()

@@ -6,6 +6,7 @@
 //! | [`ProvedImages`] | hops from all speeds of an interval, enclosed with rounding outwards |
 //! | [`proved_trap`], [`Touch`] | traps and crises, enclosed |
 //! | [`ProvedLine`] | the basins of a line of speeds, for all mass ratios of a strip |
+//! | [`ProvedPoints`], [`proved_points`] | the fates of single speeds at one M; of the points of a raster |
 //! | [`proved_basins`], [`basins_at_every_mass_ratio`] | all basins at one M as intervals |
 //! | [`fixed_point`] | α*_n, enclosed |
 //! | [`Theorem`], [`Evidence`] | a statement with the steps of its proof, and the numbers with which another program checks it |
@@ -18,6 +19,7 @@ mod fixed_points;
 mod hop;
 mod lengths;
 mod line;
+mod points;
 mod theorems;
 mod traps;
 
@@ -29,6 +31,7 @@ pub use fixed_points::fixed_point;
 pub use hop::proved_images::ProvedImages;
 pub use hop::strip::Strip;
 pub use line::ProvedLine;
+pub use points::ProvedPoints;
 pub use theorems::cells::{CellShares, ProvedCells, ProvedStrip, proved_strips};
 pub use theorems::crisis::crises;
 pub use theorems::everything_hops::everything_hops;

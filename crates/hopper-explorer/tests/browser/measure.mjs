@@ -78,11 +78,13 @@ const frames = await page.evaluate(async () => {
 const mean = frames.reduce((sum, gap) => sum + gap, 0) / frames.length;
 say("frames while zooming", `${(1000 / mean).toFixed(0)} a second; 95 of 100 come within ${frames[Math.floor(0.95 * frames.length)].toFixed(0)} ms`);
 
-// Memory of the browser's processes under random zooming.
-const memory = () => {
-  const out = execFileSync("ps", ["-e", "-o", "rss=,args="], { encoding: "utf8" });
-  const rows = out.split("\n").filter((row) => /chrom/i.test(row) && /--type=renderer/.test(row));
-  return rows.reduce((sum, row) => sum + Number(row.trim().split(/\s+/)[0]), 0) / 1000;
+// Memory of this browser's pages under random zooming; other browsers may run beside it.
+const session = await browser.newBrowserCDPSession();
+const memory = async () => {
+  const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+  const pages = processInfo.filter(({ type }) => type === "renderer").map(({ id }) => id);
+  const out = execFileSync("ps", ["-o", "rss=", "-p", pages.join(",")], { encoding: "utf8" });
+  return out.trim().split(/\s+/).reduce((sum, size) => sum + Number(size), 0) / 1000;
 };
 const minutes = Number(process.env.EXPLORER_MINUTES ?? 6);
 const points = [];
@@ -95,7 +97,7 @@ while (Date.now() - begin < minutes * 60_000) {
   const [left, low] = [random() * (1 - width), 4 + random() * (16 - height)];
   await page.evaluate((view) => explorer.change({ view }), { logarithmic: false, x: [left, left + width], alpha: [Math.max(low, 1), Math.max(low, 1) + height] });
   await page.waitForTimeout(300);
-  points.push([(Date.now() - begin) / 60_000, memory()]);
+  points.push([(Date.now() - begin) / 60_000, await memory()]);
 }
 // The slope over the second half, when the store of tiles is full.
 const late = points.filter(([time]) => time > minutes / 2);

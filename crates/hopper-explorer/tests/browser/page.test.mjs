@@ -42,7 +42,7 @@ onPage("the first picture has several colours", "", async (page) => {
 
 onPage("tiles have the bits of the native ones", "", async (page) => {
   for (const { values, colors, pixels, milliseconds, ...window } of native.tiles) {
-    const job = { ...window, columns: pixels, rows: pixels, values: window.layer < 2 };
+    const job = { ...window, columns: pixels, rows: pixels, values: window.layer !== 2 };
     const found = await page.evaluate(async ({ job, digest }) => {
       const hash = eval(digest);
       const { values, bitmap } = await explorer.pool.ask("tile", job);
@@ -127,6 +127,66 @@ onPage("a click pins the point under the cursor", "", async (page) => {
   assert.ok((await page.inputValue("#pin-m")) === String(pin.m) && pin.m > 0.5 && pin.m < 0.8);
 });
 
+onPage("a pinned point says whether its fate is proved", "#pin=0.2,4.55", async (page) => {
+  const words = (pattern) => page.waitForFunction((pattern) => new RegExp(pattern).test(document.getElementById("proof")?.textContent), pattern, READY);
+  await words("^Proved, by enclosures");
+  // Enclosures do not tell on which side of α*₁ its double lies.
+  await page.evaluate(() => explorer.change({ pin: { m: 0.2, alpha: 4.493409457909064 } }));
+  await words("^Computed, not proved");
+});
+
+onPage("a point shows its fate although its map or motion is too long, and nothing of the point before", "#pin=0.2,7", async (page) => {
+  await page.waitForSelector("#map svg");
+  const pin = (m, alpha) => page.evaluate((pin) => new Promise((done) => {
+    explorer.plane.canvas.addEventListener("panels", done, { once: true });
+    explorer.change({ pin });
+  }).then(() => document.querySelector("#fate .verdict").textContent), { m, alpha });
+  assert.match(await pin(0.2, 1e5), /to α\*|decaying|grounded/);
+  assert.match(await page.textContent("#map"), /No map: .* humps/);
+  assert.match(await pin(1e-300, 7), /to α\*₁/);
+  assert.match(await said(page), /No motion: the motion lasts/);
+  assert.equal(await page.$("#stage svg"), null);
+  // Beyond the model.
+  await page.evaluate(() => explorer.change({ pin: { m: 0.2, alpha: 1e300 } }));
+  await page.waitForFunction(() => /does not resolve/.test(document.getElementById("fate").textContent), null, READY);
+  assert.deepEqual([await page.textContent("#map"), await page.textContent("#orbit div")], ["", ""]);
+});
+
+onPage("the layer of proofs has its legend, table and key", "#lin=0.1,0.3,8,10", async (page) => {
+  await page.keyboard.press("4");
+  await page.waitForFunction(() => document.getElementById("legend").textContent.includes("computed, not proved"));
+  assert.match(await page.evaluate(() => new Promise((done) => setTimeout(() => done(location.hash), 400))), /layer=proof/);
+  const csv = (await saved(page, "CSV")).toString().trim().split("\n");
+  assert.equal(csv[2], "M,alpha,label,proved");
+  assert.ok(csv.slice(3).every((line) => line.endsWith(",1")));
+  await page.keyboard.press("1");
+  await page.waitForFunction(() => !document.getElementById("legend").textContent.includes("computed, not proved"));
+});
+
+onPage("dragging along the map moves α", "#pin=0.2,7", async (page) => {
+  await page.waitForSelector("#map svg");
+  await page.evaluate(() => document.querySelector("#map svg").scrollIntoView({ block: "center" }));
+  const { x, y, width, height } = await page.evaluate(() => document.querySelector("#map svg").getBoundingClientRect().toJSON());
+  const alpha = () => page.evaluate(() => explorer.state.pin.alpha);
+  const [middle, right] = [x + 0.5 * width, x + 0.7 * width];
+  await page.mouse.move(middle, y + 0.5 * height);
+  await page.mouse.down();
+  const pressed = await alpha();
+  await page.mouse.move(right, y + 0.4 * height, { steps: 8 });
+  const dragged = await alpha();
+  // The axis stays while the button is held: equal steps of the mouse are equal steps of α.
+  await page.mouse.move(middle, y + 0.5 * height);
+  assert.equal(await alpha(), pressed);
+  await page.mouse.move(right, y + 0.4 * height);
+  assert.equal(await alpha(), dragged);
+  await page.mouse.up();
+  assert.ok(pressed < dragged && dragged < 10 && pressed > 2, `${pressed} ${dragged}`);
+  // The panels follow, and a movement without a button moves nothing.
+  await page.waitForFunction((alpha) => document.querySelector("#map svg title")?.textContent.includes(`orbit from ${alpha}`), dragged, READY);
+  await page.mouse.move(middle, y + 0.5 * height);
+  assert.equal(await alpha(), dragged);
+});
+
 onPage("the motion has the heights of the library", "#pin=0.2,7&hops=6", async (page) => {
   await page.waitForSelector("#stage svg");
   const found = await page.evaluate(() => explorer.desk.ask("motion", 0.2, 7, 6).then((all) => [...all]));
@@ -157,7 +217,7 @@ onPage("a link gives the same bits", "", async (page) => {
   await other.context().close();
 });
 
-for (const garbage of ["#lin=1,2,3", "#lin=NaN,1,2,3&pin=-1,x", "#%E0%A4%A&depth=a,b,c", "#layer=<script>", "#pin=1e400,7&lin=1,0,5,4", "#lin=0,1e308,0,1e308"]) {
+for (const garbage of ["#lin=1,2,3", "#lin=NaN,1,2,3&pin=-1,x", "#%E0%A4%A&depth=a,b,c", "#layer=<script>", "#pin=1e400,7&lin=1,0,5,4", "#lin=0,1e308,0,1e308", "#depth=0.12,11.92,1e9"]) {
   onPage(`garbage in the address survives: ${garbage}`, garbage, async (page) => {
     assert.ok((await view(page)).alpha[1] > 4);
     assert.match(await said(page), /makes no sense|M from/);
@@ -175,6 +235,12 @@ onPage("deep zoom to 10⁻¹⁰⁰ and on", "#depth=0.12,11.920553918335775,100"
     return [eval(digest)(data), about];
   }, DIGEST);
   assert.deepEqual(hash, [native.frame, native.depth]);
+  // A worker that dies is replaced, and its chart is opened again.
+  await page.evaluate(() => {
+    explorer.deep.desk.ask("none").catch(() => {});
+    explorer.change({ depth: { ...explorer.state.depth, depth: 100.05 } });
+  });
+  await page.waitForFunction(() => explorer.deep.frames.some(({ depth, pixels }) => depth === 100.05 && pixels === 256), null, READY);
   for (let k = 0; k < 4; k++) await page.keyboard.press("+");
   const deeper = await page.evaluate(() => explorer.state.depth.depth);
   assert.ok(deeper > 100.5, `${deeper}`);
@@ -209,7 +275,7 @@ onPage("keyboard only", "", async (page) => {
   assert.ok(there.x[0] > 0.1 && span(there.x) < 0.5 * span(home.x));
   await page.keyboard.press("Enter");
   await page.waitForSelector("#fate .verdict");
-  for (const [key, layer] of [["2", 1], ["1", 0]]) {
+  for (const [key, layer] of [["2", 1], ["4", 3], ["1", 0]]) {
     await page.keyboard.press(key);
     assert.equal(await page.evaluate(() => explorer.state.layer), layer);
   }

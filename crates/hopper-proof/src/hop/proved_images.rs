@@ -70,6 +70,12 @@ impl ProvedImages {
         Ok(ProvedImages { strip, middle: strip.centre(), turns, cuts })
     }
 
+    /// The images of single speeds, and of intervals as narrow as their enclosures: without the turns of humps, which help wide intervals
+    /// and take longer than hundreds of hops.
+    pub(crate) fn of_points(strip: Strip) -> Self {
+        ProvedImages { strip, middle: strip.centre(), turns: Vec::new(), cuts: Vec::new() }
+    }
+
     /// The mass ratios.
     pub fn strip(&self) -> &Strip {
         &self.strip
