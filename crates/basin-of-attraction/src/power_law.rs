@@ -106,7 +106,7 @@ pub enum NoInterval {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadFit`] for fewer than three points in a replicate, equal scales, scales that are not positive, and values that are
+/// [`Error::BadFit`] for fewer than three points in a replicate, scales whose logarithms are equal, scales that are not positive, and values that are
 /// negative or not finite; [`Error::UnlikeReplicates`] for replicates with different scales; [`Error::NothingFound`] if the value
 /// is 0 in all replicates at some scale.
 pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, Error> {
@@ -193,6 +193,11 @@ impl Measured {
         }
         let count = sorted.len() as f64;
         let scales: Vec<f64> = first.iter().map(|point| point.0).collect();
+        let places: Vec<f64> = scales.iter().map(|scale| pxfm::f_log(*scale)).collect();
+        // Scales that differ by some ulps have equal logarithms, and no slope.
+        if places.windows(2).any(|pair| pair[0] >= pair[1]) {
+            return Err(Error::BadFit { points: scales.len() });
+        }
         let mean = |at: usize| sorted.iter().map(|points| points[at].1 / count).sum::<f64>();
         let means: Vec<f64> = (0..scales.len()).map(mean).collect();
         if let Some(at) = means.iter().position(|mean| *mean <= 0.0) {
@@ -210,7 +215,7 @@ impl Measured {
             variances: (0..scales.len()).map(variance).collect(),
             errors,
             heights: means.into_iter().map(pxfm::f_log).collect(),
-            places: scales.iter().map(|scale| pxfm::f_log(*scale)).collect(),
+            places,
             range: (scales[0], scales[scales.len() - 1]),
         })
     }
@@ -389,6 +394,8 @@ mod tests {
     fn bad_points_are_errors() {
         let fit = |points: &[(f64, f64)]| power_law(&[points]).unwrap_err();
         assert_eq!(fit(&[(1.0, 1.0), (1.0, 2.0), (2.0, 2.0)]), Error::BadFit { points: 3 });
+        let close = fit(&[(1e10, 1.0), (1e10f64.next_up(), 1.0), (1e11, 2.0)]);
+        assert_eq!(close, Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, -1.0), (3.0, 2.0)]), Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, f64::NAN), (3.0, 2.0)]), Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, 0.0), (3.0, 2.0)]), Error::NothingFound { scale: 2.0 });
