@@ -229,7 +229,7 @@ pub fn fractions_along<E: From<Error>>(
     Ok(found)
 }
 
-/// Each parameter takes a measurement of all fractions. More than this many would take longer than anybody waits, and gigabytes.
+/// Each takes a measurement of all fractions: more would take gigabytes, and longer than anybody waits.
 const MOST_FIRST_PARAMETERS: usize = 10_000_000;
 
 /// The parameters at which every curve is computed.
@@ -263,8 +263,7 @@ fn first_parameters(
         return Err(error);
     }
     if fewest > MOST_FIRST_PARAMETERS {
-        let (samples, most) = (fewest, MOST_FIRST_PARAMETERS);
-        let remedy = "take fewer first steps: they are halved where the fractions differ";
+        let (samples, most, remedy) = (fewest, MOST_FIRST_PARAMETERS, "take fewer first steps");
         return Err(Error::TooManySamples { samples, most, remedy });
     }
     let mut parameters = Vec::with_capacity(fewest);
