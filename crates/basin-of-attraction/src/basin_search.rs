@@ -74,7 +74,7 @@ pub fn interval_basins(
 ///
 /// # Errors
 /// [`Error::OverlappingTraps`] if two intervals have a point in common; [`Error::BadInterval`] for a window or a branch that is reversed
-/// or not finite; [`Error::BadRefinement`] for limits that are negative or NaN.
+/// or not finite, and for a window of infinite length; [`Error::BadRefinement`] for limits that are negative or NaN.
 pub fn interval_basins_from_known(
     map: &(impl ScalarMap + Sync),
     known: &[(Interval, Label)],

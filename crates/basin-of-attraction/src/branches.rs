@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::golden_section::highest_point;
 use crate::interval::Interval;
+use crate::sampling::check_window;
 use crate::scalar_map::{Image, ScalarMap};
 
 /// A monotone branch: the map restricted to a lap, an interval on which it has values and is monotone.
@@ -213,13 +214,13 @@ const MOST_SAMPLES: usize = 100_000_000;
 ///
 /// # Errors
 /// [`Error::TooFewSamples`] for fewer than three samples, [`Error::TooManySamples`] for more than a hundred million,
-/// [`Error::BadInterval`] for a window that is reversed or not finite.
+/// [`Error::BadInterval`] for a window that is reversed, or whose length is not finite.
 pub fn monotone_branches(
     map: &impl ScalarMap,
     window: Interval,
     samples: usize,
 ) -> Result<Vec<Branch>, Error> {
-    Interval::new(window.left, window.right)?;
+    check_window(window)?;
     if samples < 3 {
         return Err(Error::TooFewSamples { samples });
     }

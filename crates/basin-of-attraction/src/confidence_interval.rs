@@ -1,5 +1,6 @@
 //! Estimates with 95 % confidence intervals.
 
+use crate::boundary_between::check_point;
 use crate::error::Error;
 
 /// An estimate from a random sample, with an interval that is meant to contain the true number in 95 of 100 samples.
@@ -142,12 +143,13 @@ fn at_least(successes: usize, trials: usize, p: f64) -> f64 {
 /// replicates only.
 ///
 /// # Errors
-/// [`Error::TooFewReplicates`] for fewer than two.
+/// [`Error::TooFewReplicates`] for fewer than two; [`Error::BadPoint`] for one that is not finite.
 pub fn student_interval(replicates: &[f64]) -> Result<ConfidenceInterval, Error> {
     let count = replicates.len();
     if count < 2 {
         return Err(Error::TooFewReplicates { replicates: count });
     }
+    check_point(replicates)?;
     let n = count as f64;
     let mean = replicates.iter().sum::<f64>() / n;
     let squares: f64 = replicates.iter().map(|x| (x - mean) * (x - mean)).sum();
@@ -249,6 +251,7 @@ mod tests {
                 && wilson_interval(1, 0).is_err()
                 && wilson_interval(2, 1).is_err()
                 && student_interval(&[1.0]).is_err()
+                && student_interval(&[1.0, f64::NAN]).is_err()
         );
     }
 }

@@ -88,7 +88,8 @@ struct Ray {
 /// # Errors
 /// [`Error::NoBasin`] for a state that is undecided or outside; [`Error::NoDimension`] and [`Error::BadPoint`] for a state without, or
 /// with bad coordinates; [`Error::BadSearch`] unless `farthest`, `directions`, `along` and `precision` are positive and finite;
-/// [`Error::TooManySamples`] for more than a billion states on the rays.
+/// [`Error::TooManySamples`] for more than a billion states on the rays, or changes of all
+/// shocks.
 pub fn minimal_fatal_shock(
     state: &[f64],
     search: ShockSearch,
@@ -109,6 +110,7 @@ pub fn minimal_fatal_shock(
         return Err(Error::BadSearch { name, value, remedy: "" });
     }
     check_count(directions.saturating_mul(along))?;
+    check_count(search.changes.saturating_mul(search.improved.clamp(1, directions)))?;
     let own = label(state);
     if !own.is_basin() {
         return Err(Error::NoBasin { label: own });

@@ -186,8 +186,8 @@ impl FractionsAlong {
 ///
 /// # Errors
 /// [`Error::BadInterval`] for a range that is reversed, of length 0, or not finite; [`Error::BadCurveLimits`] for no first step, a
-/// difference or a shortest step that is not positive, or a budget below the number of the first parameters; [`Error::BadPoint`] for
-/// a known parameter that is not finite; [`Error::TooManyAttractors`] if attractors that appear and vanish use up all labels; errors of
+/// difference or a shortest step that is not positive, or a budget below the number of the first parameters;
+/// [`Error::TooManySamples`] for more than ten million first parameters; [`Error::BadPoint`] for a known parameter that is not finite; [`Error::TooManyAttractors`] if attractors that appear and vanish use up all labels; errors of
 /// `fractions`.
 pub fn fractions_along<E: From<Error>>(
     range: Interval,
@@ -229,6 +229,9 @@ pub fn fractions_along<E: From<Error>>(
     Ok(found)
 }
 
+/// Each takes a measurement of all fractions: more would take gigabytes, and longer than anybody waits.
+const MOST_FIRST_PARAMETERS: usize = 10_000_000;
+
 /// The parameters at which every curve is computed.
 fn first_parameters(
     range: Interval,
@@ -258,6 +261,10 @@ fn first_parameters(
         let error =
             Error::BadCurveLimits { first_steps, difference, relative, shortest, budget, fewest };
         return Err(error);
+    }
+    if fewest > MOST_FIRST_PARAMETERS {
+        let (samples, most, remedy) = (fewest, MOST_FIRST_PARAMETERS, "take fewer first steps");
+        return Err(Error::TooManySamples { samples, most, remedy });
     }
     let mut parameters = Vec::with_capacity(fewest);
     for pair in ends.windows(2) {

@@ -6,6 +6,7 @@ use crate::interval::{Interval, IntervalSet};
 use crate::label::Label;
 use crate::probes::TrapGround;
 use crate::refinement::StopReason;
+use crate::sampling::check_window;
 use std::collections::BTreeMap;
 
 /// An interval whose points all have one fate.
@@ -50,8 +51,8 @@ impl IntervalBasins {
     /// ```
     ///
     /// # Errors
-    /// [`Error::BadInterval`] for a window or an interval that is reversed or not finite, or that begins before the end of the one
-    /// before.
+    /// [`Error::BadInterval`] for a window as for [`within`](Self::within), and for an interval that is reversed or not finite, or that
+    /// begins before the end of the one before.
     pub fn from_known(
         window: Interval,
         known: &[(Interval, Label)],
@@ -81,9 +82,9 @@ impl IntervalBasins {
     /// The same basins in a smaller window. A part of it outside this window is undecided.
     ///
     /// # Errors
-    /// [`Error::BadInterval`] for a window that is reversed or not finite.
+    /// [`Error::BadInterval`] for a window that is reversed, or whose length is not finite.
     pub fn within(&self, window: Interval) -> Result<IntervalBasins, Error> {
-        Interval::new(window.left, window.right)?;
+        check_window(window)?;
         let cut = |part: &LabelledInterval| {
             part.interval
                 .intersection(&window)

@@ -106,7 +106,7 @@ pub enum NoInterval {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadFit`] for fewer than three points in a replicate, equal scales, scales that are not positive, and values that are
+/// [`Error::BadFit`] for fewer than three points in a replicate, scales whose logarithms are equal, scales that are not positive, and values that are
 /// negative or not finite; [`Error::UnlikeReplicates`] for replicates with different scales; [`Error::NothingFound`] if the value
 /// is 0 in all replicates at some scale.
 pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, Error> {
@@ -183,7 +183,7 @@ impl Measured {
             let good = |&(scale, value): &(f64, f64)| {
                 scale > 0.0 && scale.is_finite() && value >= 0.0 && value.is_finite()
             };
-            let distinct = points.windows(2).all(|pair| pair[0].0 < pair[1].0);
+            let distinct = points.windows(2).all(|p| pxfm::f_log(p[0].0) < pxfm::f_log(p[1].0));
             if points.len() < 3 || !distinct || !points.iter().all(good) {
                 return Err(Error::BadFit { points: points.len() });
             }
@@ -388,7 +388,10 @@ mod tests {
     #[test]
     fn bad_points_are_errors() {
         let fit = |points: &[(f64, f64)]| power_law(&[points]).unwrap_err();
-        assert_eq!(fit(&[(1.0, 1.0), (1.0, 2.0), (2.0, 2.0)]), Error::BadFit { points: 3 });
+        assert_eq!(
+            fit(&[(1e9, 1.0), (1e9f64.next_up(), 2.0), (2e9, 2.0)]),
+            Error::BadFit { points: 3 }
+        );
         assert_eq!(fit(&[(1.0, 1.0), (2.0, -1.0), (3.0, 2.0)]), Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, f64::NAN), (3.0, 2.0)]), Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, 0.0), (3.0, 2.0)]), Error::NothingFound { scale: 2.0 });

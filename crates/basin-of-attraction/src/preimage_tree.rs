@@ -248,7 +248,8 @@ impl PreimageTree {
 /// The limit of a sum whose terms fall geometrically in the end, and an estimate of its error.
 ///
 /// Aitken's extrapolation: the missing terms are assumed to fall by the ratio of the last two. The error is the change
-/// that the last term made. `None` for fewer than four terms, and if the terms do not fall.
+/// that the last term made. `None` for fewer than four terms, if the terms do not fall, and if the sum is
+/// not finite.
 ///
 /// ```
 /// let terms: Vec<f64> = (0..12).map(|k| 0.5f64.powi(k)).collect();
@@ -266,13 +267,20 @@ pub fn geometric_limit(terms: &[f64]) -> Option<(f64, f64)> {
         return None;
     }
     let (value, before) = (limit(terms)?, limit(&terms[..terms.len() - 1])?);
-    Some((value, (value - before).abs()))
+    let error = (value - before).abs();
+    (value.is_finite() && error.is_finite()).then_some((value, error))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    #[test]
+    fn terms_that_are_not_finite_have_no_limit() {
+        assert_eq!(geometric_limit(&[f64::NAN, 1.0, 0.5, 0.25]), None);
+        assert_eq!(geometric_limit(&[f64::INFINITY, 1.0, 0.5, 0.25]), None);
+    }
 
     proptest! {
         /// Two linear branches with a gap between them. The number of nodes doubles in every level, nodes are

@@ -4,6 +4,7 @@ use crate::branches::Branch;
 use crate::error::Error;
 use crate::golden_section::INVERSE_GOLDEN_RATIO;
 use crate::interval::{Interval, IntervalSet};
+use crate::sampling::check_window;
 use crate::scalar_map::{Image, ScalarMap};
 use crate::split_mix::SplitMix64;
 
@@ -160,11 +161,10 @@ pub(crate) fn check_given(
     Ok(grounds)
 }
 
-/// Returns an error if an interval is reversed or not finite: of the list, of the domains of the branches or of their values.
+/// Returns an error if an interval is reversed or not finite: of the list, of the domains of the branches or of their values. Those of the
+/// list have a finite length too.
 pub(crate) fn check_intervals(list: &[Interval], branches: &[Branch]) -> Result<(), Error> {
-    for &Interval { left, right } in list {
-        Interval::new(left, right)?;
-    }
+    list.iter().try_for_each(|&interval| check_window(interval))?;
     for branch in branches {
         Interval::new(branch.domain.left, branch.domain.right)?;
         Interval::new(branch.at_left.min(branch.at_right), branch.at_left.max(branch.at_right))?;

@@ -199,6 +199,8 @@ fn curves_that_cannot_be_divided_are_refused() {
     ] {
         assert!(matches!(bad(limits), Error::BadCurveLimits { .. }), "{limits:?}");
     }
+    let many = CurveLimits { first_steps: 1 << 40, budget: usize::MAX, ..limits };
+    assert!(matches!(bad(many), Error::TooManySamples { .. }));
     for (left, right) in [(1.0, 0.0), (0.0, 0.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
         assert!(fractions_along(Interval { left, right }, &[], limits, all).is_err());
     }

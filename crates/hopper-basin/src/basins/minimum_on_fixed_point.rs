@@ -44,13 +44,14 @@ const ON_FIXED_POINT: f64 = 1e-6;
 /// ```
 ///
 /// # Errors
-/// [`Error::Hopper`] for an end that is no mass ratio, or a hop that cannot be computed; [`Error::Index`] for a hump whose fixed point has
+/// [`Error::BasinOfAttraction`] for a range that is reversed; [`Error::Hopper`] for an end that is no mass ratio, or a hop that cannot be computed; [`Error::Index`] for a hump whose fixed point has
 /// no label of its own.
 pub fn minima_on_fixed_points(
     range: Interval,
     last: u64,
     hops: u8,
 ) -> Result<Vec<MinimumOnFixedPoint>, Error> {
+    let range = Interval::new(range.left, range.right)?;
     let largest = HopperFate::LARGEST_LABEL;
     if last > largest {
         return Err(Error::Index { n: last, smallest: 0, largest });
@@ -164,6 +165,8 @@ mod tests {
         assert_eq!(none(1e-9, 2e-9).unwrap(), []);
         assert!(none(-1.0, 0.1).is_err());
         assert!(none(0.1, f64::NAN).is_err());
+        // The crisis of hump 1 lies between these ends.
+        assert!(none(0.104, 0.103).is_err());
         assert!(minima_on_fixed_points(Interval { left: 0.1, right: 0.2 }, u64::MAX, 1).is_err());
     }
 }
