@@ -188,7 +188,7 @@ fn half_angle_moved(at: &HalfAngle, e: f64) -> HalfAngle {
 /// The flight from `start`; `None` if the general solver must decide.
 ///
 /// The first round has the same operations in the same order as the loops of `batch/later_flights.rs` (I1).
-#[inline(always)]
+#[inline]
 pub(crate) fn later_flight(start: &GroundState, kappa: f64) -> Option<FlightEnd> {
     let bracket = if start.velocity < PI {
         LandingBracket::below_pi(start)
