@@ -126,6 +126,8 @@ class Basins:
         """Condition 1 for one interval. Returns the number of its parts."""
         left, right, fate = self.intervals[at]
         begins_at_star = self.contains_no_other_star(left, right, fate)
+        if begins_at_star and not self.stays_right_of(fate, left):
+            raise Unconfirmed(f"the speeds from alpha*_{fate} to {left!r}")
         parts, work = 0, [(left, right, self.kappas)]
         while work:
             low, high, kappas = work.pop()

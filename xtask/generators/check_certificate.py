@@ -19,7 +19,7 @@ from ball_hops import Undecided
 from claims import KINDS
 from whole_theorems import WHOLE
 
-FORMAT, VERSION = "passive hopper certificate", 1
+FORMAT, VERSION = "passive hopper certificate", 2
 
 
 def lines_of(path):
@@ -39,7 +39,7 @@ def read_header(lines):
     _, header = next(lines, (1, {}))
     if header.get("format") != FORMAT or header.get("version") != VERSION:
         raise Refuted(f"line 1: no certificate of version {VERSION}")
-    if header.get("theorem") not in WHOLE:
+    if not isinstance(header.get("theorem"), str) or header["theorem"] not in WHOLE:
         raise Refuted(f"line 1: no theorem {header.get('theorem')!r}")
     return header
 
@@ -50,27 +50,33 @@ def guarded(number, action, *arguments):
         return action(*arguments)
     except (Refuted, Unconfirmed, Undecided) as error:
         raise type(error)(f"line {number}: {error}")
-    except (KeyError, TypeError, ValueError, IndexError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, ArithmeticError, IndexError, AttributeError) as error:
         raise Refuted(f"line {number}: a field is missing or wrong ({type(error).__name__}: {error})")
 
 
 def check(path, sample, seed):
-    """A sentence about the file. Raises an error for the first line that is not confirmed."""
+    """A sentence about the file. Raises an error for the first line that is not confirmed.
+
+    `sample` is the number of claims to confirm, or a list of their places, or None for all.
+    """
     lines = lines_of(path)
     header = read_header(lines)
     whole = WHOLE[header["theorem"]]()
     counts = []
     for number, line in lines:
-        kind = KINDS.get(line.get("kind"))
-        if kind is None or line["kind"] not in whole.KINDS:
+        if line.get("kind") not in whole.KINDS:
             raise Refuted(f"line {number}: no line of kind {line.get('kind')!r} belongs to {header['theorem']}")
+        kind = KINDS[line["kind"]]
         guarded(number, whole.add, line)
         counts.append(guarded(number, kind.count, line))
     if len(counts) != header.get("lines"):
         raise Refuted(f"line {len(counts) + 1}: {len(counts)} lines follow the header, which says {header.get('lines')}")
     guarded(len(counts) + 1, whole.end)
     total = sum(counts)
-    chosen = None if sample is None or sample >= total else sorted(random.Random(seed).sample(range(total), sample))
+    if sample is None or isinstance(sample, list):
+        chosen = sample
+    else:
+        chosen = None if sample >= total else sorted(random.Random(seed).sample(range(total), sample))
     confirmed, before, shared = 0, 0, {}
     lines = lines_of(path)
     next(lines)

@@ -6,6 +6,7 @@ from flint import arb
 
 from ball_basins import Basins, Refuted, Unconfirmed, GROUNDED, orbit_fate, star
 from ball_hops import Hop, Undecided, parameter, square_bounds
+from gap_lengths import confirm_gap
 
 # Most halvings of a part of a hump, and of a box.
 MOST_PARTS = 20000
@@ -28,6 +29,20 @@ def fate_of(value):
 
 def intervals(line, key):
     return [(float(left), float(right), fate_of(fate)) for left, right, fate in line[key]]
+
+
+def gaps_of(line):
+    """(left, right, {fate: least length}) of each gap."""
+    gaps, last = [], 0.0
+    for left, right, *bounds in line["gaps"]:
+        left, right = float(left), float(right)
+        if not last <= left < right:
+            raise Refuted(f"the gap [{left!r}, {right!r}] is not above the one before it")
+        if any(not 0 <= least <= right - left for _, least in bounds) or len({fate for fate, _ in bounds}) < len(bounds):
+            raise Refuted(f"the gap [{left!r}, {right!r}] has wrong lengths")
+        gaps.append((left, right, {fate_of(fate): arb(least) for fate, least in bounds}))
+        last = right
+    return gaps
 
 
 def encloses(values, ball, what):
@@ -99,6 +114,9 @@ class Crisis(Kind):
         last = Hop(arb(end).union(contact_end), parameter(low), derivatives=False).square
         if not last > star(n) ** 2:
             raise Unconfirmed(f"f > alpha*_{n} at {n + 1} pi")
+        # Below alpha*_n and beyond the contact part a fall through alpha*_n is no sign of a crisis.
+        if not star(n) < arb(line["speed"]) < contact_end:
+            raise Refuted(f"the speed {line['speed']!r} is not on the contact part of hump {n}")
         if not square_at(line["speed"], high) < star(n) ** 2:
             raise Refuted(f"the speed {line['speed']!r} does not fall below alpha*_{n} at M = {high!r}")
 
@@ -182,10 +200,27 @@ class BasinLines(Kind):
 
     @staticmethod
     def confirm(line, wanted, shared):
+        shared["basins"] = line
         if wanted:
             basins = Basins(*pair(line["mass_ratios"]), intervals(line, "intervals"))
             for at in wanted:
                 basins.confirm(at)
+
+
+class GapLines(Kind):
+    """One claim for each gap between the intervals of the line before."""
+
+    @staticmethod
+    def count(line):
+        return len(line["gaps"])
+
+    @staticmethod
+    def confirm(line, wanted, shared):
+        if wanted:
+            basins = Basins(*pair(shared["basins"]["mass_ratios"]), intervals(shared["basins"], "intervals"))
+            gaps = gaps_of(line)
+            for at in wanted:
+                confirm_gap(basins, gaps[at])
 
 
 class Speeds(Given):
@@ -226,6 +261,7 @@ KINDS = {
     "rising-window": Given,
     "rising-box": RisingBox,
     "basins": BasinLines,
+    "gaps": GapLines,
     "fraction": Given,
     "grid": Given,
     "speeds": Speeds,

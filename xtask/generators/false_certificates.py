@@ -14,7 +14,7 @@ from flint import ctx
 
 from ball_basins import BITS, GROUNDED, Refuted, Unconfirmed, star
 from ball_hops import Undecided
-from check_certificate import check
+from check_certificate import FORMAT, VERSION, check
 
 # A file of many equal lines is shortened to so many of each hump: what is falsified is then among the claims that are confirmed.
 KEPT = 3
@@ -25,15 +25,15 @@ def read(path):
         return [json.loads(line) for line in file]
 
 
-def refused(lines, recount=True):
-    """The reason, or None if the certificate is confirmed."""
+def refused(lines, recount=True, claims=None):
+    """The reason, or None if the certificate is confirmed, of which only some claims may be looked at."""
     lines = copy.deepcopy(lines)
     if recount:
         lines[0]["lines"] = len(lines) - 1
     with tempfile.NamedTemporaryFile("w", suffix=".jsonl", encoding="utf-8", delete=False) as file:
         file.writelines(json.dumps(line) + "\n" for line in lines)
     try:
-        check(file.name, None, 1)
+        check(file.name, claims, 1)
     except (Refuted, Unconfirmed, Undecided) as error:
         return str(error)
     finally:
@@ -72,6 +72,10 @@ def crisis(lines):
     shrunk = [changed(lines, 5, mass_ratio=ends) for ends in ([low, low + part], [high - part, high])]
     yield "one of two enclosures shrunk to a twentieth", shrunk, "line 6"
     yield "a crisis moved by three times its width", [changed(lines, 5, mass_ratio=[3 * high - 2 * low, 4 * high - 3 * low])], "line 6"
+    # Every speed below alpha*_n falls below it at every mass ratio.
+    lower = [low - 1e-9, high - 1e-9]
+    yield "a crisis too low, with a speed below the hump", [changed(lines, 5, mass_ratio=lower, speed=1.0)], "line 6"
+    yield "a number that no f64 is", [changed(lines, 5, mass_ratio=[10**400, 10**400])], "line 6"
 
 
 def traps(lines):
@@ -100,6 +104,27 @@ def rising(lines):
     yield "a box left out", [without(lines, 100)], "boxes of window 1 leave a gap"
     low, high = lines[50]["speeds"]
     yield "a box made smaller", [changed(lines, 50, speeds=[low, 0.5 * (low + high)])], "leave a gap"
+
+
+def measures(lines):
+    gaps, before = lines[2]["gaps"], len(lines[1]["intervals"])
+    at, (left, right, (one, least), (other, more)) = next(
+        (at, gap) for at, gap in enumerate(gaps) if len(gap) == 4 and gap[1] - gap[0] > 1e-6
+    )
+    # The sums are looked at in any case, of the claims that of the gap alone.
+    claim = [before + at]
+    changed_to = lambda *gap: [changed(lines, 2, gaps=gaps[:at] + list(gap) + gaps[at + 1 :])]
+    if refused(lines, claims=claim):
+        raise Refuted(refused(lines, claims=claim))
+    longer = least + 0.02 * (right - left)
+    yield "a length in a gap that is too large", changed_to([left, right, [one, longer], [other, more]]), "line 3", True, claim
+    yield "lengths in a gap that are swapped", changed_to([left, right, [one, more], [other, least]]), "line", True, claim
+    yield "lengths longer than their gap", changed_to([left, right, [one, 2 * (right - left)]]), "line 3", True, []
+    yield "a gap counted twice", changed_to(gaps[at], gaps[at]), "line 3", True, []
+    yield "an interval as a gap", [changed(lines, 2, gaps=[[*lines[1]["intervals"][5][:2], [0, 1e-9]]])], "line 3", True, []
+    widest = max(range(len(gaps)), key=lambda own: sum(least for _, least in gaps[own][2:]))
+    yield "a gap left out", [changed(lines, 2, gaps=without(gaps, widest))], "do not show", True, []
+    yield "fractions of no humps", [changed(lines, 3, humps=0)], "line 4", True, []
 
 
 def points(lines):
@@ -134,6 +159,14 @@ def cells(lines):
     yield "a strip left out", [without(lines, at)], f"line {at + 1}"
     low, high = lines[-1]["share"]
     yield "an area shrunk", [changed(lines, len(lines) - 1, share=[low, 0.5 * (low + high)])], f"line {len(lines)}"
+    edges = [first + 1e-9 for first in lines[2]["edges"]]
+    edges[0], edges[-1] = lines[2]["edges"][0], lines[2]["edges"][-1]
+    yield "rows of another height", [changed(lines, 2, edges=edges)], "line 3"
+    # One more strip for each column, all of them from one strip: equally many for each, at other places.
+    ends, columns = lines[at]["mass_ratios"], lines[1]["columns"]
+    cuts = [ends[0] + (ends[1] - ends[0]) * k / (columns + 1) for k in range(columns + 1)] + [ends[1]]
+    parts = [{**lines[at], "mass_ratios": list(pair)} for pair in zip(cuts, cuts[1:])]
+    yield "columns of another width", [lines[:at] + parts + lines[at + 1 :]], "edge of a column"
     more = lines[2]["of_one_basin"] + 1
     yield "a cell too many", [changed(lines, 2, of_one_basin=more)], "line"
 
@@ -144,6 +177,7 @@ FALSE = {
     "traps": traps,
     "everything-hops": everything_hops,
     "rising": rising,
+    "measures": measures,
     "fig6-points": points,
     "fig6-cells": cells,
 }
@@ -158,9 +192,9 @@ def main():
         path = os.path.join(folder, f"{theorem}.jsonl")
         if not os.path.exists(path) and theorem not in NEEDED:
             continue
-        for what, variants, reason, *recount in falsify(read(path)):
+        for what, variants, reason, *how in falsify(read(path)):
             # Of an enclosure's two halves one may be true.
-            reasons = [refused(lines, *recount) for lines in variants]
+            reasons = [refused(lines, *how) for lines in variants]
             found = next((text for text in reasons if text and reason in text), None)
             print(f"{'refused ' if found else 'NOT REFUSED'} {theorem}, {what}: {found or reasons}", flush=True)
             failures += found is None

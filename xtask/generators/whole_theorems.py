@@ -10,13 +10,15 @@ from flint import arb
 
 from ball_basins import GROUNDED, Basins, Refuted, star
 from ball_hops import parameter
-from claims import fate_of, intervals, pair
+from claims import fate_of, gaps_of, intervals, pair
 
 # Traps end so near a speed that falls below alpha*_n, and crises are enclosed so narrowly.
 TRAP_WIDTH, CRISIS_WIDTH = 1e-12, 1e-13
 # Theorem 81 proves that f rises so far left of alpha*_n, for M <= 1.
 RISES_TO_STAR = "0.0586"
-# The middle of a pixel may be rounded so much.
+# The theorem `rising` is for windows 1 to 10, and for M <= 0.9 in all of them.
+RISING_WINDOWS, RISING_MASS_RATIO = 10, 0.9
+# The middle and the edges of a pixel may be rounded so much.
 ROUNDING = 1e-12
 
 
@@ -142,6 +144,7 @@ class EverythingHops(Whole):
         super().end()
         self.end_of_hump()
         require(self.losses == self.hump + 1, "the bound on losses does not begin where the humps end")
+        require(self.hump <= RISING_WINDOWS and self.mass_ratio <= RISING_MASS_RATIO, "`rising` has no such windows")
 
     def summary(self):
         return f"f >= alpha*_1 on contact parts 1 to {self.hump} and beyond for M <= {self.mass_ratio!r} (windows by `rising`; Lemma 32)"
@@ -156,6 +159,7 @@ class Rising(Whole):
 
     def add_rising_window(self, line):
         n, (low, high) = line["n"], pair(line["speeds"])
+        require(n >= 1, f"there is no window {n!r}")
         require(0 < line["largest_mass_ratio"] <= 1, "Theorem 81 has this range for M <= 1")
         require(low <= n * arb.pi() and arb(high) >= star(n) - arb(RISES_TO_STAR), "the window is not whole")
         self.windows.append((n, line["largest_mass_ratio"], (low, high), []))
@@ -207,7 +211,7 @@ def implied(claimed, lengths, fate, whole):
 
 
 class Measures(Whole):
-    KINDS = ("basins", "fraction")
+    KINDS = ("basins", "gaps", "fraction")
 
     def __init__(self):
         super().__init__()
@@ -218,12 +222,18 @@ class Measures(Whole):
         low, high = pair(line["mass_ratios"])
         require(low == high, "a strip of mass ratios")
         self.mass_ratios.append(low)
-        self.list = intervals(line, "intervals")
+        self.list, self.gaps = intervals(line, "intervals"), None
         Basins(low, high, self.list)
         self.wanted, self.humps = None, None
 
+    def add_gaps(self, line):
+        require(self.list is not None and self.gaps is None and self.wanted is None, "gaps come after intervals")
+        self.gaps = gaps_of(line)
+        require_disjoint(self.list, self.gaps)
+
     def add_fraction(self, line):
         fate, humps = fate_of(line["fate"]), line["humps"]
+        require(humps >= 1, "no humps")
         if self.wanted is None:
             self.measure(humps)
         require(fate in self.wanted and humps == self.humps, f"the share of {fate!r} is out of order")
@@ -239,10 +249,17 @@ class Measures(Whole):
         implied(line["by_humps"], means, fate, arb(1))
 
     def measure(self, humps):
-        """The length of each fate on each hump."""
+        """The length of each fate on each hump, at least."""
+        require(self.gaps is not None, "no gaps")
         self.humps, self.wanted = humps, {*range(humps + 1), GROUNDED}
         self.lengths = [{} for _ in range(humps)]
-        lengths_between([star(n) for n in range(1, humps + 2)], self.list, self.lengths)
+        stars = [star(n) for n in range(1, humps + 2)]
+        lengths_between(stars, self.list, self.lengths)
+        for left, right, own in self.gaps:
+            for first, last, of_hump in zip(stars, stars[1:], self.lengths):
+                if left > first and right < last:
+                    for fate, least in own.items():
+                        of_hump[fate] = of_hump.get(fate, arb(0)) + least
 
     def complete(self):
         require(not self.wanted and self.wanted is not None, f"no share of {self.wanted or 'any fate'}")
@@ -252,7 +269,15 @@ class Measures(Whole):
         self.complete()
 
     def summary(self):
-        return f"fractions at M = {', '.join(map(repr, self.mass_ratios))}"
+        return f"fractions of humps 1 to {self.humps} at M = {', '.join(map(repr, self.mass_ratios))}"
+
+
+def require_disjoint(intervals, gaps):
+    """No speed is counted twice."""
+    last = 0.0
+    for left, right, _ in sorted([*intervals, *gaps], key=lambda own: own[:2]):
+        require(last <= left, f"[{left!r}, {right!r}] is not above the interval or gap before it")
+        last = right
 
 
 def lengths_between(edges, intervals, lengths):
@@ -263,6 +288,12 @@ def lengths_between(edges, intervals, lengths):
                 low = left if left > first else first
                 high = right if right < last else last
                 of_part[fate] = of_part.get(fate, arb(0)) + (arb(high) - arb(low))
+
+
+def require_place(value, ends, part, what):
+    """`value` is at this part of the way between the ends, up to rounding."""
+    wanted = ends[0] + (ends[1] - ends[0]) * part
+    require(abs(value - wanted) <= ROUNDING * abs(wanted), f"{value!r} is not {what}")
 
 
 class Raster(Whole):
@@ -276,6 +307,7 @@ class Raster(Whole):
         require(self.lines == 1, "the grid comes first")
         self.grid = line
         self.ratios, self.speeds = pair(line["mass_ratios"]), pair(line["speeds"])
+        require(line["columns"] >= 1 and line["rows"] >= 1, "no pixels")
 
     def name(self):
         return f"M from {self.ratios[0]!r} to {self.ratios[1]!r}, speeds from {self.speeds[0]!r} to {self.speeds[1]!r}"
@@ -289,8 +321,7 @@ class RasterPoints(Raster):
         self.columns = 0
 
     def is_middle(self, value, ends, at, count):
-        wanted = ends[0] + (ends[1] - ends[0]) * ((at + 0.5) / count)
-        require(abs(value - wanted) <= ROUNDING * abs(wanted), f"{value!r} is not in the middle of a pixel")
+        require_place(value, ends, (at + 0.5) / count, "in the middle of a pixel")
 
     def add_speeds(self, line):
         require(self.lines == 2 and len(line["speeds"]) == self.grid["rows"], "not one speed for each row")
@@ -323,6 +354,8 @@ class RasterCells(Raster):
         require(self.lines == 2 and len(self.edges) == self.grid["rows"] + 1, "not one edge for each row")
         require((self.edges[0], self.edges[-1]) == self.speeds, "the rows do not end at the window")
         require(all(a < b for a, b in zip(self.edges, self.edges[1:])), "the edges do not rise")
+        for row, edge in enumerate(self.edges):
+            require_place(edge, self.speeds, row / self.grid["rows"], "the edge of a row")
 
     def add_basins(self, line):
         low, high = pair(line["mass_ratios"])
@@ -355,6 +388,7 @@ class RasterCells(Raster):
         require(self.areas == set(self.lengths[0]), "not one area for each fate")
         each, count = strips // columns, 0
         for column in range(columns):
+            require_place(self.strips[column * each][0], self.ratios, column / columns, "the edge of a column")
             together = zip(*(fates for _, _, fates in self.strips[column * each : (column + 1) * each]))
             count += sum(first is not None and all(fate == first for fate in rest) for first, *rest in together)
         require(count == self.claimed, f"{count} cells lie in intervals of one fate, not {self.claimed}")

@@ -18,6 +18,10 @@ const PROVED: [&str; 6] =
 const POINTS: [&str; 3] = ["fig6-points", "--size", "16"];
 const CELLS: [&str; 3] = ["fig6-cells", "--size", "4"];
 
+/// The fractions at one mass ratio, coarse. To confirm a gap takes a second.
+const FRACTIONS: [&str; 5] = ["measures", "--mass-ratio", "0.1", "--width", "1e-3"];
+const SAMPLE_OF_FRACTIONS: &str = "30";
+
 /// Random claims of each certificate: all of the short ones, and enough of the long ones for seconds.
 const SAMPLE: &str = "1000";
 
@@ -42,7 +46,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         prove.args(arguments).arg("--out").arg(&folder).current_dir(repository());
         prove.status().map_err(|source| Error::Cargo { program: cargo.clone(), source })
     };
-    for arguments in [&PROVED[..], &POINTS[..]] {
+    for arguments in [&PROVED[..], &POINTS[..], &FRACTIONS[..]] {
         if !prove(arguments)?.success() {
             return Err(Error::Certificates("prove"));
         }
@@ -62,6 +66,8 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     };
     let checker = "check_certificate.py";
     passes(checker, script(checker).args(["--sample", SAMPLE]).args(files))?;
+    let fractions = file(FRACTIONS[0]);
+    passes(checker, script(checker).args(["--sample", SAMPLE_OF_FRACTIONS]).arg(fractions))?;
     let falsifier = "false_certificates.py";
     passes(falsifier, script(falsifier).arg(&folder))?;
     // Sines and cosines, which both programs and all lemmas rest on.

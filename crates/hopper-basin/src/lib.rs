@@ -23,6 +23,7 @@
 //! | [`CoverageLimits`], [`CoverageGround`], [`CoverageSummary`] | how far pixels are resolved, and what their shares stand on |
 //! | [`basin_fractions`], [`BasinFractions`] | basin fractions by the paper's protocol |
 //! | [`hump_fractions`], [`fractions_over_mass_ratio`] | basin fractions with bounds or 95 % intervals, at one M and over M with [`known_kinks`] |
+//! | [`minima_on_fixed_points`], [`MinimumOnFixedPoint`] | why a fraction has an infinite slope at some M: an orbit from a minimum of the map falls onto α*_n |
 //! | [`tipping`], [`random_tipping`], [`tipping_along_drift`] | the fate of a speed after M changes, at once or from hop to hop |
 //! | [`hopper_basins`], [`HopperBasins`] | all basins at one M as intervals, with what is undecided |
 //! | [`BranchGround`], [`Probes`] | what these intervals rest on, and how they agree with single fates |
@@ -74,6 +75,7 @@ pub use basins::fractions_over_mass_ratio::{
 pub use basins::hop_counts::hop_columns;
 pub use basins::intervals::{BranchGround, HopperBasins, Probes, hopper_basins};
 pub use basins::levels::basin_levels;
+pub use basins::minimum_on_fixed_point::{MinimumOnFixedPoint, minima_on_fixed_points};
 pub use basins::rasters::{RASTER_VERSION, basin_columns, basin_raster};
 pub use basins::tipping::{HopperTipping, random_tipping, tipping, tipping_along_drift};
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};

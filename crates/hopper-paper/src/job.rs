@@ -28,18 +28,7 @@ impl Job {
         count: usize,
         row: impl Fn(usize) -> Result<Vec<f64>, Error>,
     ) -> Result<Vec<Vec<f64>>, Error> {
-        self.scan_with(name, name, count, row)
-    }
-
-    /// The same, for rows that depend on parameters: `scan` has the name and all of them, and `name` is shown.
-    pub(crate) fn scan_with(
-        &self,
-        name: &'static str,
-        scan: &str,
-        count: usize,
-        row: impl Fn(usize) -> Result<Vec<f64>, Error>,
-    ) -> Result<Vec<Vec<f64>>, Error> {
-        let kept = Pieces::open(&self.scans.join(scan), scan)?;
+        let kept = Pieces::open(&self.scans.join(name), name)?;
         let bar = Progress.bar(name, count as u64);
         let mut rows = Vec::with_capacity(count);
         for k in 0..count {
@@ -51,8 +40,8 @@ impl Job {
     }
 
     /// Rows that are computed one after the other, each depending on those before it. Rows that an earlier run finished are read: it
-    /// asked for the same ones in the same order.
-    pub(crate) fn rows(&self, name: &'static str) -> Result<Rows<'_>, Error> {
+    /// asked for the same ones in the same order. The name has the parameters, if the rows depend on some.
+    pub(crate) fn rows(&self, name: &str) -> Result<Rows<'_>, Error> {
         Ok(Rows { job: self, kept: Pieces::open(&self.scans.join(name), name)?, finished: 0 })
     }
 

@@ -5,8 +5,9 @@ use crate::job::Job;
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{FigureWindow, HopperFate, first_humps};
 use hopper_figures::{Window, draw_pixels, fate_colors};
-use hopper_proof::{ProvedCells, ProvedLine, ProvedStrip, proved_strips};
+use hopper_proof::{Evidence, ProvedCells, ProvedLine, ProvedStrip, proved_strips};
 use journal_figures::{Svg, rgb_png};
+use repository_tools::Progress;
 use std::ops::ControlFlow;
 
 /// Columns that are stored together: a run that is killed loses at most so many.
@@ -18,27 +19,78 @@ pub(crate) fn fig_6() -> FigureWindow {
     ((0.02, 1.0), (speeds.left, speeds.right))
 }
 
-/// The cells of a raster, from `strips` strips of each column. Columns that an earlier run finished are read.
-pub(crate) fn proved_cells(
+/// The strips of a raster. Each is computed once and stored, and read when it is needed again: all together need more memory than cells do.
+pub(crate) struct StoredStrips<'a> {
+    job: &'a Job,
     name: &'static str,
     grid: Grid,
     strips: usize,
-    job: &Job,
-) -> Result<ProvedCells, Error> {
-    let Grid { columns, rows, .. } = grid;
-    let block = |k: usize| {
-        let range = k * COLUMNS..columns.min((k + 1) * COLUMNS);
-        let found = proved_strips(&grid, strips, range, |_| ControlFlow::Continue(()))?;
-        Ok(found.iter().flat_map(numbers).collect())
-    };
-    let scan = format!("{name} {columns} by {rows}, {strips} strips");
-    let mut found = Vec::with_capacity(columns * strips);
-    for block in job.scan_with(name, &scan, columns.div_ceil(COLUMNS), block)? {
-        let mut numbers = block.into_iter();
-        found.extend(std::iter::from_fn(|| strip(&mut numbers)));
+}
+
+impl<'a> StoredStrips<'a> {
+    /// `strips` strips of each column, stored under a name. Those that an earlier run of the job finished are read.
+    pub(crate) fn new(name: &'static str, grid: Grid, strips: usize, job: &'a Job) -> Self {
+        StoredStrips { job, name, grid, strips }
     }
-    // It refuses strips that are not those of the raster.
-    Ok(ProvedCells::of_strips(grid, found)?)
+
+    fn number_of_blocks(&self) -> usize {
+        self.grid.columns.div_ceil(COLUMNS)
+    }
+
+    /// The strips of all columns, in blocks of columns from the left.
+    fn blocks(&self) -> Result<impl Iterator<Item = Result<Vec<ProvedStrip>, Error>>, Error> {
+        let Grid { columns, rows, .. } = self.grid;
+        let compute = move |k: usize| {
+            let range = k * COLUMNS..columns.min((k + 1) * COLUMNS);
+            let found =
+                proved_strips(&self.grid, self.strips, range, |_| ControlFlow::Continue(()))?;
+            Ok(found.iter().flat_map(numbers).collect())
+        };
+        let scan = format!("{} {columns} by {rows}, {} strips", self.name, self.strips);
+        let mut kept = self.job.rows(&scan)?;
+        let block = move |k: usize| {
+            let mut numbers = kept.next(|| compute(k))?.into_iter();
+            Ok(std::iter::from_fn(|| strip(&mut numbers)).collect())
+        };
+        Ok((0..self.number_of_blocks()).map(block))
+    }
+
+    /// The cells, with their picture: a colour mixes those of the basins by their proved shares, and yellow by the share that is open.
+    pub(crate) fn cells(
+        &self,
+        figure: &'static str,
+        window: FigureWindow,
+    ) -> Result<(ProvedCells, Svg), Error> {
+        let Grid { columns, rows, .. } = self.grid;
+        let mut found = ProvedCells::new(self.grid, self.strips)?;
+        let mut pixels = vec![[0; 3]; columns * rows];
+        let bar = Progress.bar(self.name, self.number_of_blocks() as u64);
+        for (block, k) in self.blocks()?.zip(1..) {
+            for strips in block?.chunks(self.strips) {
+                let column = found.columns_added();
+                for (shares, row) in found.add_column(strips)?.into_iter().zip(1..) {
+                    // A picture has its highest row first.
+                    pixels[(rows - row) * columns + column] =
+                        fate_colors::mixed(shares.into_iter());
+                }
+            }
+            bar.set(k);
+        }
+        bar.finish();
+        let png = rgb_png(figure, columns, rows, pixels.as_flattened())?;
+        let basins = found.areas().into_iter().map(|(label, _)| label);
+        let svg = draw_window(figure, window, &png, basins.chain([HopperFate::UNDECIDED]));
+        Ok((found, svg))
+    }
+
+    /// The lines of the strips in a certificate.
+    pub(crate) fn evidence(&self) -> Result<impl Iterator<Item = Result<Evidence, Error>>, Error> {
+        let lines = |block: Result<Vec<ProvedStrip>, Error>| match block {
+            Ok(strips) => strips.into_iter().map(|strip| Ok(Evidence::of_strip(strip))).collect(),
+            Err(error) => vec![Err(error)],
+        };
+        Ok(self.blocks()?.flat_map(lines))
+    }
 }
 
 /// A strip as numbers: its ends, how many intervals, and the ends and the label of each.
@@ -59,22 +111,6 @@ fn strip(numbers: &mut impl Iterator<Item = f64>) -> Option<ProvedStrip> {
     };
     let intervals = (0..count as usize).map(|_| interval()).collect::<Option<Vec<_>>>()?;
     Some((Interval { left, right }, ProvedLine::restored(intervals)))
-}
-
-/// The cells: a colour mixes those of the basins by their proved shares, and yellow by the share that is open.
-pub(crate) fn draw_cells(
-    name: &'static str,
-    window: FigureWindow,
-    found: &ProvedCells,
-) -> Result<Svg, Error> {
-    let Grid { columns, rows, .. } = found.grid;
-    let shares = found.shares()?;
-    // A picture has its highest row first.
-    let cells = shares.chunks(columns).rev().flatten();
-    let pixels: Vec<u8> = cells.flat_map(|cell| fate_colors::mixed(cell.iter().copied())).collect();
-    let png = rgb_png(name, columns, rows, &pixels)?;
-    let basins = found.areas.iter().map(|&(label, _)| label);
-    Ok(draw_window(name, window, &png, basins.chain([HopperFate::UNDECIDED])))
 }
 
 /// Pixels over mass ratio and lift-off speed, with the legend of these labels.

@@ -4,14 +4,24 @@
 //! kind of line means, and how `xtask/generators/check_certificate.py` checks it.
 
 use crate::fixed_points::fixed_point;
+use crate::theorems::cells::ProvedStrip;
 use basin_of_attraction::{Grid, Interval, Label};
 use interval_arithmetic::Enclosure;
 
 /// The version of the format. It changes with the meaning or the name of a field.
-pub const CERTIFICATE_VERSION: u32 = 1;
+pub const CERTIFICATE_VERSION: u32 = 2;
 
 /// Speeds with one fate, from `left` to `right`.
 pub type BasinInterval = (Interval, Label);
+
+/// Speeds between intervals of one fate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BasinGap {
+    /// The speeds.
+    pub speeds: Interval,
+    /// The length that a basin has of them at least. Of basins that are left out nothing is known.
+    pub at_least: Vec<(Label, f64)>,
+}
 
 /// One line of a certificate.
 #[derive(Debug, Clone, PartialEq)]
@@ -96,6 +106,10 @@ pub enum Evidence {
         /// The intervals.
         intervals: Vec<BasinInterval>,
     },
+    /// The gaps between the intervals of the line of basins before, and parts of gaps: disjoint, from the lowest up.
+    Gaps(Vec<BasinGap>),
+    /// So many lines of [`Evidence::Basins`], which are too long to be held: those of [`proved_strips`](crate::proved_strips), from the left.
+    Strips(usize),
     /// The fraction of a basin on humps 1 to `humps`, at the mass ratio of the line of basins before.
     Fraction {
         /// The basin.
@@ -140,5 +154,15 @@ impl Evidence {
     /// A trap, whose left end is α*_n.
     pub(crate) fn trap(n: u64, mass_ratio: f64, right: f64, beyond: Option<f64>) -> Self {
         Evidence::Trap { n, fixed_point: fixed_point(n), mass_ratio, right, beyond }
+    }
+
+    /// The intervals of a strip.
+    pub fn of_strip((mass_ratios, line): ProvedStrip) -> Self {
+        Evidence::Basins { mass_ratios, intervals: line.into_intervals() }
+    }
+
+    /// The number of lines that it has in a certificate.
+    pub fn lines(&self) -> usize {
+        if let Evidence::Strips(count) = self { *count } else { 1 }
     }
 }

@@ -38,15 +38,25 @@ pub enum Error {
         /// The number of parts.
         parts: usize,
     },
-    /// The strips are not those of the raster, or it has no such columns.
+    /// The strips are not those of the next column of the raster.
     #[error(
-        "{found} strips for a raster that has {needed}: give those of its own columns, in order"
+        "{found} strips for column {column}, which has {needed}: give those of this column, from the left"
     )]
     Strips {
-        /// The number that was given, or the last one that was asked for.
+        /// The column, from 0.
+        column: usize,
+        /// The number that was given.
         found: usize,
-        /// The number that the raster has.
+        /// The number that the column has.
         needed: usize,
+    },
+    /// Columns that the raster has not, or a statement about a raster that lacks columns.
+    #[error("{wanted} columns of a raster that has {all}: give all its columns, and no others")]
+    Columns {
+        /// The number of columns up to the last one that was asked for or added.
+        wanted: usize,
+        /// The number that the raster has.
+        all: usize,
     },
     /// A trap, a crisis or a critical point was not enclosed.
     #[error(

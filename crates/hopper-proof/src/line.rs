@@ -45,6 +45,19 @@ impl ProvedLine {
         open: f64,
         speeds: usize,
     ) -> Result<Self, Error> {
+        Self::finer_at_fixed_points(strip, window, parts, open, speeds, f64::INFINITY)
+    }
+
+    /// As [`Self::new`], in parts that are halved towards the ends of each trap down to `shortest`: of each of them at most the share `open` is left
+    /// as well.
+    pub(crate) fn finer_at_fixed_points(
+        strip: Strip,
+        window: Interval,
+        parts: usize,
+        open: f64,
+        speeds: usize,
+        shortest: f64,
+    ) -> Result<Self, Error> {
         let largest = alpha_star(HopperFate::LARGEST_LABEL);
         let Interval { left: low, right: high } = window;
         if !(low >= 0.0 && low < high && high <= largest) {
@@ -55,9 +68,13 @@ impl ProvedLine {
         }
         let last = index_below(high)?;
         let traps = traps_up_to(&strip, high)?;
+        let finer = edges_at_traps(&traps, high, shortest);
         let mut sweep = LapsSweep::new(ProvedImages::new(strip, high)?, traps);
         let mut add = |range: Interval, parts: usize| -> Result<(), Error> {
-            let edges = PixelShares::edges(range, parts).map_err(hopper_basin::Error::from)?;
+            let mut edges = PixelShares::edges(range, parts).map_err(hopper_basin::Error::from)?;
+            edges.extend(finer.iter().filter(|&&edge| range.left < edge && edge < range.right));
+            edges.sort_by(f64::total_cmp);
+            edges.dedup();
             for pair in edges.windows(2) {
                 let below = last - index_below(pair[0])?;
                 let tolerance = open * FINER_BELOW.powi(i32::try_from(below).unwrap_or(i32::MAX));
@@ -111,6 +128,20 @@ impl ProvedLine {
     pub fn intervals(&self) -> &[(Interval, Label)] {
         &self.intervals
     }
+}
+
+/// Edges of parts on both sides of the traps, the nearest ones at most `shortest` away, each next one at twice the distance.
+fn edges_at_traps(traps: &[(Interval, Label)], top: f64, shortest: f64) -> Vec<f64> {
+    let mut edges = Vec::new();
+    let last = Interval { left: top, right: top };
+    for trap in traps.iter().map(|(trap, _)| trap).chain([&last]) {
+        let mut distance = shortest;
+        while distance < std::f64::consts::PI {
+            edges.extend([trap.left - distance, trap.right + distance]);
+            distance *= 2.0;
+        }
+    }
+    edges
 }
 
 /// The traps that are proved, from α*_0 up to a speed.

@@ -5,7 +5,7 @@ use basin_of_attraction::{Grid, Interval, Refinement, StopReason};
 use hopper_basin::{BranchGround, Fates, HopperFate, basin_raster, first_humps};
 use hopper_proof::{
     Cell, Error, ProvedCells, ProvedFractions, ProvedLine, Strip, basins_at_every_mass_ratio,
-    proved_basins, proved_points,
+    proved_basins, proved_points, proved_strips,
 };
 use passive_hopper::MassRatio;
 use std::ops::ControlFlow::Continue;
@@ -46,6 +46,18 @@ fn no_interval_has_a_wrong_fate() {
     }
 }
 
+/// The edge of grounding at α = 6.2636 moves by 3·10⁻⁴ with the mass ratios of the strip. This band stays open, and leaves enough speeds for what
+/// lies above it.
+#[test]
+fn an_open_band_takes_few_speeds() {
+    let strip = Strip::between(0.8555, 0.8565).unwrap();
+    let line = ProvedLine::new(strip, Interval::new(6.23, 6.48).unwrap(), 1, 1e-5, 600).unwrap();
+    let decays = Some(HopperFate::label_of_fixed_point(0));
+    assert_eq!(line.label_of_all(6.2640, 6.4250), decays);
+    assert_eq!(line.label_of_all(6.4265, 6.4799), Some(HopperFate::GROUNDED));
+    assert_eq!(line.label_of_all(6.2636, 6.2637), None);
+}
+
 /// A raster in which every point is proved has the labels of the library.
 #[test]
 fn all_points_of_a_raster_are_proved() {
@@ -55,13 +67,21 @@ fn all_points_of_a_raster_are_proved() {
     assert_eq!(proved, basin_raster(grid, |_| Continue(())).unwrap());
 }
 
+fn cells(grid: Grid, strips: usize) -> ProvedCells {
+    let mut cells = ProvedCells::new(grid, strips).unwrap();
+    let all = proved_strips(&grid, strips, 0..grid.columns, |_| Continue(())).unwrap();
+    for column in all.chunks(strips) {
+        cells.add_column(column).unwrap();
+    }
+    cells
+}
+
 /// Every point of a coloured cell has its fate, and the areas of the basins are bounded from both sides.
 #[test]
 fn cells_hold_for_all_their_points() {
     let (x, y) = (Interval::new(0.3, 0.31).unwrap(), Interval::new(8.0, 12.0).unwrap());
     let grid = Grid { x, y, columns: 4, rows: 64 };
-    let coarse = ProvedCells::new(grid, 2, |_| Continue(())).unwrap();
-    let finer = ProvedCells::new(grid, 8, |_| Continue(())).unwrap();
+    let (coarse, finer) = (cells(grid, 2), cells(grid, 8));
     // More strips leave less open.
     assert!(
         finer.open_area() < 0.7 * coarse.open_area(),
@@ -74,7 +94,7 @@ fn cells_hold_for_all_their_points() {
     let mut basins = 0;
     for row in 0..320 {
         for column in 0..12 {
-            if let Cell::Basin(label) = finer.cells[(row / 5) * 4 + column / 3] {
+            if let Cell::Basin(label) = finer.cells()[(row / 5) * 4 + column / 3] {
                 assert_eq!(image.at(column, row), Some(label), "{column} {row}");
                 basins += 1;
             }
@@ -82,7 +102,7 @@ fn cells_hold_for_all_their_points() {
     }
     assert!(basins > 2000, "{basins}");
     // Areas, against the fractions of the points, of which 3840 are no worse than a hundredth here.
-    for &(label, share) in &finer.areas {
+    for (label, share) in finer.areas() {
         let found = image.labels.iter().filter(|&&own| own == label).count() as f64 / 3840.0;
         assert!(share.low - 0.01 < found && found < share.high + 0.01, "{label} {share:?} {found}");
     }
@@ -101,6 +121,57 @@ fn fractions_lie_between_their_bounds() {
     assert!(of(2).low > 0.0348 && of(2).high < 0.0350, "{:?}", of(2));
     // Below the first crisis nothing decays or is grounded.
     assert!(of(0).low == 0.0 && of(0).high < 1e-4);
+}
+
+/// Bounds to different widths, from other intervals and gaps, hold the same fractions, and so do the fates of equally spaced speeds; also where
+/// hops have several sudden lift-offs, and where F is not continuous.
+#[test]
+fn bounds_of_fractions_agree_with_each_other_and_with_fates() {
+    for (ratio, widths) in [(0.1, [1e-3, 1e-7]), (0.5, [1e-2, 1e-5]), (1.0, [1e-2, 1e-4])] {
+        let found = widths.map(|width| ProvedFractions::new(ratio, width).unwrap());
+        let fates = Fates::new(MassRatio::new(ratio).unwrap()).unwrap();
+        let window = first_humps(5);
+        let fate = |k: u32| {
+            let place = (f64::from(k) + 0.5) / 20_000.0;
+            fates.fate(window.left + window.length() * place).unwrap().label()
+        };
+        let labels: Vec<_> = (0..20_000).map(fate).collect();
+        for (coarse, fine) in found[0].fractions.iter().zip(&found[1].fractions) {
+            assert_eq!(coarse.label, fine.label);
+            assert!(coarse.uniform.intersection(&fine.uniform).is_some(), "{coarse:?} {fine:?}");
+            assert!(coarse.by_humps.intersection(&fine.by_humps).is_some(), "{coarse:?} {fine:?}");
+            let count = labels.iter().filter(|&&label| label == fine.label).count();
+            let share = count as f64 / labels.len() as f64;
+            assert!((share - fine.uniform.middle()).abs() < 5e-3, "{ratio}: {share} {fine:?}");
+        }
+        assert!(found.iter().zip(widths).all(|(found, width)| found.width < width), "{ratio}");
+    }
+}
+
+/// Of each gap, basins have the length that is proved: the fates of its speeds tell it.
+#[test]
+fn gaps_have_the_lengths_that_are_proved() {
+    const SPEEDS: u32 = 400;
+    for ratio in [0.1, 0.5, 1.5] {
+        let mut gaps = ProvedFractions::new(ratio, 1e-2).unwrap().gaps;
+        gaps.sort_by(|a, b| b.speeds.length().total_cmp(&a.speeds.length()));
+        let fates = Fates::new(MassRatio::new(ratio).unwrap()).unwrap();
+        let (mut proved, mut whole) = (0.0, 0.0);
+        for gap in &gaps[..100] {
+            let place = |k: u32| (f64::from(k) + 0.5) / f64::from(SPEEDS);
+            let speed = |k: u32| gap.speeds.left + gap.speeds.length() * place(k);
+            let labels: Vec<_> =
+                (0..SPEEDS).map(|k| fates.fate(speed(k)).unwrap().label()).collect();
+            for &(label, least) in &gap.at_least {
+                let count = labels.iter().filter(|&&own| own == label).count();
+                let share = count as f64 / f64::from(SPEEDS);
+                assert!(least / gap.speeds.length() <= share + 0.03, "{ratio}: {gap:?} {share}");
+                proved += least;
+            }
+            whole += gap.speeds.length();
+        }
+        assert!(proved > 0.8 * whole, "{ratio}: {proved} of {whole}");
+    }
 }
 
 #[test]

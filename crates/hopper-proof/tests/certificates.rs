@@ -4,8 +4,8 @@
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{HopperFate, SpeedImage, SpeedImages, basin_raster, first_humps};
 use hopper_proof::{
-    Evidence, ProvedCells, ProvedFractions, ProvedImages, Strip, cells_theorem, crises,
-    everything_hops, one_sided, points_theorem, proved_points, rising, trap_edges,
+    Error, Evidence, ProvedCells, ProvedFractions, ProvedImages, Strip, cells_theorem, crises,
+    everything_hops, one_sided, points_theorem, proved_points, proved_strips, rising, trap_edges,
 };
 use std::ops::ControlFlow::Continue;
 
@@ -62,6 +62,10 @@ fn a_swapped_label_and_a_missing_point_are_not_proved() {
     assert!(theorem.is_proved(), "{theorem:#?}");
     // The grid, the speeds, and one line a column.
     assert_eq!(theorem.evidence.len(), 2 + grid.columns);
+    // The labels of fewer points.
+    let mut fewer = computed.clone();
+    fewer.labels.truncate(7);
+    assert!(!points_theorem("points", &proved, &fewer).unwrap().is_proved());
     for label in [HopperFate::label_of_fixed_point(3), HopperFate::UNDECIDED_PRECISION] {
         let mut false_one = proved.clone();
         assert_ne!(false_one.labels[7], label);
@@ -75,16 +79,21 @@ fn a_swapped_label_and_a_missing_point_are_not_proved() {
 fn strips_hold_the_cells() {
     let x = Interval::new(0.3, 0.301).unwrap();
     let grid = Grid { x, y: first_humps(2), columns: 2, rows: 50 };
-    let found = ProvedCells::new(grid, 3, |_| Continue(())).unwrap();
-    let evidence = cells_theorem("cells", found, 0.5).unwrap().evidence;
-    let strips = evidence.iter().filter_map(|evidence| match evidence {
-        Evidence::Basins { mass_ratios, intervals } => Some((mass_ratios, intervals)),
-        _ => None,
-    });
-    let strips: Vec<_> = strips.collect();
-    assert_eq!(strips.len(), 6);
-    assert!(strips.windows(2).all(|pair| pair[0].0.right == pair[1].0.left));
+    let strips = proved_strips(&grid, 3, 0..2, |_| Continue(())).unwrap();
+    let mut found = ProvedCells::new(grid, 3).unwrap();
+    let wrong = found.add_column(&strips[1..4]);
+    assert!(matches!(wrong, Err(Error::Strips { column: 0, found: 3, needed: 3 })), "{wrong:?}");
+    found.add_column(&strips[..3]).unwrap();
+    let half = cells_theorem("cells", &found, 0.5);
+    assert!(matches!(half, Err(Error::Columns { wanted: 1, all: 2 })), "{half:?}");
+    found.add_column(&strips[3..]).unwrap();
+    assert!(matches!(found.add_column(&strips[3..]), Err(Error::Columns { wanted: 3, all: 2 })));
+    let evidence = cells_theorem("cells", &found, 0.5).unwrap().evidence;
+    assert!(matches!(evidence[2], Evidence::Strips(6)), "{:?}", evidence[2]);
     let Evidence::Cells { edges, of_one_basin } = &evidence[1] else { panic!("{:?}", evidence[1]) };
+    let strips: Vec<_> =
+        strips.into_iter().map(|(own, line)| (own, line.intervals().to_vec())).collect();
+    assert!(strips.windows(2).all(|pair| pair[0].0.right == pair[1].0.left));
     let label = |intervals: &[(Interval, _)], low: f64, high: f64| {
         let own = intervals.iter().find(|(own, _)| own.left <= low && high <= own.right);
         own.map(|(_, label)| *label)

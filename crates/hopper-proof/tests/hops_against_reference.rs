@@ -15,11 +15,6 @@ const FILES: [&str; 4] = [
 /// The largest speed of the test. The enclosures reach further; rows beyond it have no fixed point with a label.
 const LARGEST_SPEED: f64 = 1e5;
 
-/// The image of a part may reach beyond that of the whole: by the rounding, relative to 1 + α′, and by a part of the width of the image, since
-/// mean value forms from other points are other bounds. In 300 000 boxes one image did so by more than the rounding, by 0.006 of the width.
-const ROUNDING: f64 = 1e-12;
-const OTHER_FORM: f64 = 0.05;
-
 #[test]
 fn every_decided_image_holds_the_reference() {
     let (mut decided, mut open) = (0, 0);
@@ -58,32 +53,90 @@ fn boxes() -> u32 {
 /// Boxes of one strip. The turns of a strip are found once.
 const BOXES_OF_A_STRIP: u32 = 20;
 
+/// One strip of so many is as wide as a tenth of its mass ratio. The others are narrower than their intervals of speeds.
+const WIDE: u32 = 10;
+
+/// The strip of some boxes, and the width of their intervals of speeds.
+fn strip_of_boxes(number: u32) -> (Strip, f64) {
+    let ratio = 0.02 + 2.5 * part(number, 0.618_033_988_749_895).powi(2);
+    let width = 10f64.powi(-1 - (number % 9) as i32);
+    let relative = if number.is_multiple_of(WIDE) { 0.1 } else { 0.01 * width };
+    (Strip::between(ratio, ratio * (1.0 + relative)).unwrap(), width)
+}
+
+fn part(k: u32, step: f64) -> f64 {
+    (f64::from(k) * step).fract()
+}
+
+fn end(images: &ProvedImages, speed: f64) -> ImagedSpeed {
+    ImagedSpeed { speed, reached: images.of_speed(speed) }
+}
+
+/// How far the image of one speed, over a strip, may reach beyond the images at the mass ratios of the strip, downwards and upwards.
+fn excess(images: &ProvedImages, speed: f64) -> [f64; 2] {
+    let SpeedImage::Within(low, high) = images.of_speed(speed) else { return [f64::INFINITY; 2] };
+    let ratios = images.strip().mass_ratios;
+    [ratios.low, ratios.high].iter().fold([f64::INFINITY; 2], |[down, up], &ratio| {
+        let alone = ProvedImages::new(Strip::at(ratio).unwrap(), 40.0).unwrap();
+        match alone.of_speed(speed) {
+            SpeedImage::Within(from, to) => [down.min(to - low), up.min(high - from)],
+            _ => [down, up],
+        }
+    })
+}
+
+/// Every image of the part of an interval is one of the whole.
+fn is_inside(part: SpeedImage, whole: SpeedImage) -> bool {
+    match (part, whole) {
+        (SpeedImage::Within(from, to), SpeedImage::Within(low, high)) => low <= from && to <= high,
+        _ => part == whole || part == SpeedImage::Unknown,
+    }
+}
+
+/// The image of the part between two speeds reaches beyond that of the whole by no more than the images of these speeds have in excess.
+///
+/// The image of an interval is bounded by the images of its ends, and these are not exact: those of single mass ratios have rounding errors,
+/// and those of strips a bound on the change with κ. Both differ from speed to speed, so that the ends of a part may have more of it.
+fn is_inside_but_for_ends(
+    images: &ProvedImages,
+    ends: [f64; 2],
+    part: SpeedImage,
+    whole: SpeedImage,
+) -> bool {
+    let (SpeedImage::Within(from, to), SpeedImage::Within(low, high)) = (part, whole) else {
+        return false;
+    };
+    let [a, b] = ends.map(|speed| excess(images, speed));
+    low - from <= a[0].max(b[0]) && to - high <= a[1].max(b[1])
+}
+
 /// The images of single speeds of an interval, at single mass ratios of a strip, lie in the image of all; and so does the image of a part of
 /// the interval.
 #[test]
 fn images_of_intervals_hold_those_of_their_speeds() {
-    let part = |k: u32, step: f64| (f64::from(k) * step).fract();
-    let (mut known, mut count) = (0, 0);
+    let (mut known, mut beyond, mut count) = (0, 0, 0);
     for strip_number in 1..=boxes().div_ceil(BOXES_OF_A_STRIP) {
-        let ratio = 0.02 + 2.5 * part(strip_number, 0.618_033_988_749_895).powi(2);
-        let width = 10f64.powi(-1 - (strip_number % 9) as i32);
-        let strip = Strip::between(ratio, ratio * (1.0 + 0.01 * width)).unwrap();
+        let (strip, width) = strip_of_boxes(strip_number);
         let images = ProvedImages::new(strip, 40.0).unwrap();
-        let end = |speed: f64| ImagedSpeed { speed, reached: images.of_speed(speed) };
+        let between = |a, b| images.of_all_between(&end(&images, a), &end(&images, b));
         for j in 0..BOXES_OF_A_STRIP {
             let k = strip_number.wrapping_mul(BOXES_OF_A_STRIP).wrapping_add(j);
             count += 1;
             let low = 1.0 + 30.0 * part(k, 0.754_877_666_246_693);
-            let all = images.of_all_between(&end(low), &end(low + width));
-            known += u32::from(all != SpeedImage::Unknown);
+            let all = between(low, low + width);
+            if all == SpeedImage::Unknown {
+                continue;
+            }
+            known += 1;
             let place = |step: f64| low + width * part(k, step);
             let alpha = place(0.569_840_290_998_053);
             let mass = strip.mass_ratios.low
                 + strip.mass_ratios.width() * 0.999 * part(k, 0.438_579_021_1);
             let image = map(mass).image(alpha).unwrap();
             match all {
-                SpeedImage::Unknown => continue,
-                SpeedImage::Grounded => assert_eq!(image, None, "M = {mass}, α = {alpha}"),
+                SpeedImage::Unknown | SpeedImage::Grounded => {
+                    assert_eq!(image, None, "M = {mass}, α = {alpha}");
+                }
                 SpeedImage::Within(low, high) => {
                     // The library's own image has an error of some ulps, more where F is small.
                     let image = image.unwrap_or(0.0);
@@ -94,33 +147,29 @@ fn images_of_intervals_hold_those_of_their_speeds() {
                     );
                 }
             }
-            // Isotonic: a part has no image that the whole does not have, up to the rounding of another form.
             let other = place(0.324_717_957_244_746);
-            let inner = images.of_all_between(&end(alpha.min(other)), &end(alpha.max(other)));
-            let holds = match (all, inner) {
-                (SpeedImage::Within(low, high), SpeedImage::Within(from, to)) => {
-                    let error = ROUNDING * (1.0 + high) + OTHER_FORM * (high - low);
-                    low - error <= from && to <= high + error
-                }
-                (all, inner) => all == inner || inner == SpeedImage::Unknown,
-            };
-            assert!(holds, "M = {mass}, [{alpha}, {other}]: {inner:?} {all:?}");
+            let ends = [alpha.min(other), alpha.max(other)];
+            let inner = between(ends[0], ends[1]);
+            if !is_inside(inner, all) {
+                beyond += 1;
+                let holds = is_inside_but_for_ends(&images, ends, inner, all);
+                assert!(holds, "M of {strip:?}, α of {ends:?}: {inner:?} {all:?}");
+            }
         }
     }
+    assert!(beyond <= 1 + count / 10_000, "{beyond} parts reach beyond the whole");
     assert!(3 * known > 2 * count, "{known} of {count}");
 }
 
 /// An image of a narrow interval is at most some parts wider than the images of its ends: the median of the ratio is below 2.
 #[test]
 fn narrow_intervals_have_sharp_images() {
-    let part = |k: u32, step: f64| (f64::from(k) * step).fract();
     let mut ratios = Vec::new();
     for k in 1..=2000u32 {
         let ratio = 0.02 + 0.98 * part(k, 0.618_033_988_749_895);
         let images = ProvedImages::new(Strip::at(ratio).unwrap(), 40.0).unwrap();
         let low = 2.0 + 20.0 * part(k, 0.754_877_666_246_693);
-        let end = |speed: f64| ImagedSpeed { speed, reached: images.of_speed(speed) };
-        let (a, b) = (end(low), end(low + 1e-6));
+        let (a, b) = (end(&images, low), end(&images, low + 1e-6));
         if let (SpeedImage::Within(p, q), SpeedImage::Within(r, s), SpeedImage::Within(from, to)) =
             (a.reached, b.reached, images.of_all_between(&a, &b))
         {

@@ -6,8 +6,8 @@ use crate::rounding::{down, up};
 /// An interval that holds a number, or all values of a function, for certain.
 ///
 /// The constructors [`Enclosure::between`] and [`Enclosure::point`] refuse what is no interval. The fields can be written directly by
-/// callers who know their ends. If an end is NaN, results of operations are unbounded, and no test such as [`Enclosure::is_positive`] holds:
-/// a wrong input never becomes a certain statement.
+/// callers who know their ends. An end that is NaN is no bound: results of operations are without a bound on its side, and neither
+/// [`Enclosure::sign`] nor another test tells anything of such an interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Enclosure {
     /// Lower bound.
@@ -73,13 +73,13 @@ impl Enclosure {
     /// All values are above zero.
     #[inline]
     pub fn is_positive(&self) -> bool {
-        self.low > 0.0
+        self.low > 0.0 && self.low <= self.high
     }
 
     /// All values are below zero.
     #[inline]
     pub fn is_negative(&self) -> bool {
-        self.high < 0.0
+        self.high < 0.0 && self.low <= self.high
     }
 
     /// The common sign of all values, ±1; `None` if the interval holds zero.
@@ -93,10 +93,11 @@ impl Enclosure {
         }
     }
 
-    /// The largest absolute value.
+    /// The largest absolute value; ∞ without a bound on it.
     #[inline]
     pub fn magnitude(&self) -> f64 {
-        self.low.abs().max(self.high.abs())
+        // A maximum of `f64` passes over NaN.
+        if self.low <= self.high { self.low.abs().max(self.high.abs()) } else { f64::INFINITY }
     }
 
     /// An upper bound of the distance between two values.
@@ -114,7 +115,17 @@ impl Enclosure {
     /// The smallest interval that contains both.
     #[inline]
     pub fn hull(&self, other: &Self) -> Self {
-        Enclosure { low: self.low.min(other.low), high: self.high.max(other.high) }
+        // Minima and maxima of `f64` pass over NaN.
+        let least = |a: f64, b: f64| {
+            if a <= b {
+                a
+            } else if b < a {
+                b
+            } else {
+                f64::NEG_INFINITY
+            }
+        };
+        Enclosure { low: least(self.low, other.low), high: -least(-self.high, -other.high) }
     }
 
     /// The numbers in both; `None` if there are none.

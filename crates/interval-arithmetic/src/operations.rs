@@ -100,9 +100,9 @@ impl Enclosure {
     /// The absolute values.
     #[inline]
     pub fn abs(self) -> Self {
-        if self.low >= 0.0 {
+        if self.low >= 0.0 && self.low <= self.high {
             self
-        } else if self.high <= 0.0 {
+        } else if self.high <= 0.0 && self.low <= self.high {
             -self
         } else {
             Enclosure { low: 0.0, high: self.magnitude() }

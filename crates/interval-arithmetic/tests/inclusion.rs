@@ -97,6 +97,16 @@ fn no_interval_says_anything_certain() {
     for found in [wrong + one, wrong * one, one / wrong, one - wrong, wrong * wrong] {
         assert_eq!(found.sign(), None, "{found:?}");
     }
+    for (low, high) in [(f64::NAN, 1.0), (f64::NAN, -1.0), (1.0, f64::NAN), (f64::NAN, f64::NAN)] {
+        let wrong = Enclosure::new(low, high);
+        assert!(!wrong.is_positive() && !wrong.is_negative() && !wrong.contains(0.5), "{wrong:?}");
+        assert_eq!(wrong.magnitude(), f64::INFINITY);
+        assert_eq!((wrong.abs().low, wrong.squared().high), (0.0, f64::INFINITY), "{wrong:?}");
+        for all in [wrong.hull(&one), one.hull(&wrong)] {
+            assert!(!low.is_nan() || all.low == f64::NEG_INFINITY, "{all:?}");
+            assert!(!high.is_nan() || all.high == f64::INFINITY, "{all:?}");
+        }
+    }
     assert_eq!(one / Enclosure::new(-1.0, 1.0), Enclosure::WHOLE);
     assert_eq!(one / Enclosure::ZERO, Enclosure::WHOLE);
     assert_eq!(wrong.sqrt(), None);

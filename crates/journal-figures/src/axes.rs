@@ -98,6 +98,17 @@ impl Frame {
         svg.path(Path::polyline(points.iter().map(|&point| self.at(point))), pen);
     }
 
+    /// Vertical bars at x from low to high, each given as (x, low, high). Parts outside the frame are cut off.
+    pub fn bars(&self, svg: &mut Svg, bars: impl IntoIterator<Item = (f64, f64, f64)>, pen: Pen) {
+        self.clipped(svg, |svg| {
+            for (x, low, high) in bars {
+                // A logarithmic axis has no place for 0.
+                let ends = [low.max(self.y.0), high.max(self.y.0)];
+                svg.line(self.at((x, ends[0])), self.at((x, ends[1])), pen);
+            }
+        });
+    }
+
     /// The box, the ticks with their labels, and the names of the axes.
     ///
     /// With an empty `y_label` no room is left for it: two frames may then share one axis.

@@ -11,29 +11,27 @@ pub struct DataFile {
     pub bytes: Vec<u8>,
 }
 
-/// A CSV file of numbers; `None` becomes an empty field.
+/// A CSV file of rows of `f64`, or of `Option<f64>`: `None` becomes an empty field.
 ///
 /// Each number has the fewest digits that identify its `f64`.
-pub fn csv_file(
+pub fn csv_file<Row: IntoIterator<Item: Into<Option<f64>>>>(
     name: &str,
-    header: &[&str],
-    rows: impl IntoIterator<Item = Vec<Option<f64>>>,
+    header: &[impl AsRef<str>],
+    rows: impl IntoIterator<Item = Row>,
 ) -> Result<DataFile, Error> {
-    let fields = |row: Vec<Option<f64>>| {
-        row.iter().map(|value| value.map_or(String::new(), |v| format!("{v:?}"))).collect()
-    };
-    csv_text(name, header, rows.into_iter().map(fields))
+    let field = |value: Row::Item| value.into().map_or(String::new(), |v| format!("{v:?}"));
+    csv_text(name, header, rows.into_iter().map(|row| row.into_iter().map(field).collect()))
 }
 
 /// A CSV file of texts.
 pub fn csv_text(
     name: &str,
-    header: &[&str],
+    header: &[impl AsRef<str>],
     rows: impl IntoIterator<Item = Vec<String>>,
 ) -> Result<DataFile, Error> {
     let fail = |reason: String| Error::Render { what: name.to_owned(), reason };
     let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(header).map_err(|e| fail(e.to_string()))?;
+    writer.write_record(header.iter().map(AsRef::as_ref)).map_err(|e| fail(e.to_string()))?;
     for row in rows {
         writer.write_record(row).map_err(|e| fail(e.to_string()))?;
     }

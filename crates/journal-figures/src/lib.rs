@@ -8,6 +8,7 @@
 //! | [`Frame`] | a rectangle of the drawing that shows a window of the plane, with axes |
 //! | [`ticks`], [`decades`] | round tick positions with their labels |
 //! | [`Marker`] | symbols that differ by shape as well as by colour |
+//! | [`Svg::line_key`], [`Svg::marker_key`] | a sample of a line or a symbol, with its name |
 //! | [`smooth`], [`graph_pieces`] | curves and graphs of functions that do not exist everywhere |
 //! | [`palette`] | colours for categories |
 //! | [`html`] | the markup of labels as HTML |
@@ -47,6 +48,7 @@ mod data;
 mod document;
 mod error;
 mod font;
+mod key;
 pub mod label;
 mod marker;
 pub mod palette;

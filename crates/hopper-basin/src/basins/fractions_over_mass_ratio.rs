@@ -148,7 +148,9 @@ fn by_points(
 /// [`grounding`], and their inverses.
 ///
 /// Above a crisis the fraction that falls through grows like a square root (docs/theory.md, Theorems 87 and 88), so that its slope is
-/// infinite there. Other kinks belong to single critical orbits, and are not listed.
+/// infinite there. Other kinks belong to single critical orbits, and are not listed: [`minima_on_fixed_points`] finds them in a short range.
+///
+/// [`minima_on_fixed_points`]: crate::minima_on_fixed_points
 ///
 /// # Errors
 /// As [`crisis`].

@@ -18,6 +18,7 @@ pub(crate) mod fractions_over_mass_ratio;
 pub(crate) mod hop_counts;
 pub(crate) mod intervals;
 pub(crate) mod levels;
+pub(crate) mod minimum_on_fixed_point;
 pub(crate) mod rasters;
 pub(crate) mod tipping;
 pub(crate) mod window;

@@ -257,6 +257,12 @@ impl<I: SpeedImages> LapsSweep<I> {
             }
             let middle = self.end(middle);
             self.budget -= 1;
+            let undecided = |end: &ImagedSpeed| end.reached == SpeedImage::Unknown;
+            if [a, middle, b].iter().all(undecided) {
+                // Hops that are open at some mass ratio of a strip lie in a band. It has ends that are worth finding; inside, bisection finds
+                // nothing, and would take all speeds from the rest of the pixel.
+                return parts.extend([Part::Open(a, middle), Part::Open(middle, b)]);
+            }
             self.split((a, middle), finest, parts);
             return self.split((middle, b), finest, parts);
         }

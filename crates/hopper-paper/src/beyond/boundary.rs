@@ -1,7 +1,7 @@
 //! The boundary of the basins: a countable set of box dimension one quarter.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{estimate, fates, hump, label};
+use super::humps_of_window::{estimate, fates, hump, label, three};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
@@ -64,10 +64,8 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
         let part = basins.within(hump(n)?)?;
         let points = part.boundary(RESOLUTION);
         let left = part.window().left;
-        let count = |size: f64| Ok((size, occupied_boxes(&points, left, size)? as f64));
-        let counts: Vec<(f64, f64)> = (0..=18)
-            .map(|k| count(pxfm::f_exp10(-10.0 + 0.5 * f64::from(k))))
-            .collect::<Result<_, Error>>()?;
+        let sizes = (0..=18).map(|k| pxfm::f_exp10(-10.0 + 0.5 * f64::from(k)));
+        let counts = box_counts(&points, left, sizes, 0.0)?;
         let law = power_law(&[&counts])?;
         // Counts are half a decade apart. The mean of two local slopes is the slope over a decade.
         for (k, pair) in law.local.chunks(2).enumerate() {
@@ -75,12 +73,7 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
             let size = pxfm::f_exp10(-9.5 + k as f64);
             let at = frame.at((size, (-0.5 * (a + b)).clamp(0.0, 0.6)));
             svg.marker(at, marker, 7.0, color);
-            data.push(vec![
-                Some(n as f64),
-                Some(size),
-                Some(counts[2 * k + 1].1),
-                Some(-0.5 * (a + b)),
-            ]);
+            data.push([n as f64, size, counts[2 * k + 1].1, -0.5 * (a + b)]);
         }
         let slope = |k: usize| format!("{:.3}", -0.5 * (law.local[k] + law.local[k + 1]));
         let boxes = |k: usize| format!("{}", counts[k].1);
@@ -95,9 +88,8 @@ pub(super) fn boundary(_: &Job) -> Result<Finding, Error> {
             slope(0),
             fit(&power_law(&at_random_offsets(&points, left, &counts)?)?),
         ]);
-        let y = 50.0 + 17.0 * (n as f64 - 1.0);
-        svg.marker((frame.left + 16.0, y), marker, 7.0, color);
-        svg.text(frame.left + 27.0, y + 4.0, Anchor::Start, 11.5, &format!("all of hump {n}"));
+        let key = (frame.left + 16.0, 50.0 + 17.0 * (n as f64 - 1.0));
+        svg.marker_key(key, marker, color, &format!("all of hump {n}"));
     }
     let generations = generations()?;
     single(&mut svg, &frame, &generations)?;
@@ -147,14 +139,19 @@ fn at_random_offsets(
     counts: &[(f64, f64)],
 ) -> Result<Vec<Vec<(f64, f64)>>, Error> {
     let random = SplitMix64::from_seed(1);
-    let once = |offset: u64| {
-        let part = random.uniform(offset);
-        let count = |&(size, _): &(f64, f64)| {
-            Ok((size, occupied_boxes(points, left - part * size, size)? as f64))
-        };
-        counts.iter().map(count).collect()
-    };
-    (0..OFFSETS).map(once).collect()
+    let sizes = || counts.iter().map(|&(size, _)| size);
+    (0..OFFSETS).map(|k| box_counts(points, left, sizes(), random.uniform(k))).collect()
+}
+
+/// Sizes of boxes, with the number of boxes that hold a point. Boxes begin a part of their size left of `left`.
+fn box_counts(
+    points: &[f64],
+    left: f64,
+    sizes: impl Iterator<Item = f64>,
+    part: f64,
+) -> Result<Vec<(f64, f64)>, Error> {
+    let count = |size: f64| Ok((size, occupied_boxes(points, left - part * size, size)? as f64));
+    sizes.map(count).collect()
 }
 
 fn fit(law: &PowerLaw) -> String {
@@ -196,23 +193,17 @@ fn generations() -> Result<Vec<f64>, Error> {
 
 /// Local slopes of the box count of one accumulation.
 fn single(svg: &mut Svg, frame: &Frame, generations: &[f64]) -> Result<(), Error> {
-    let count = |size: f64| Ok((size, occupied_boxes(generations, 0.0, size)? as f64));
-    let counts: Vec<(f64, f64)> = (0..=14)
-        .map(|k| count(pxfm::f_exp10(-16.0 + f64::from(k))))
-        .collect::<Result<_, Error>>()?;
+    let sizes = (0..=14).map(|k| pxfm::f_exp10(-16.0 + f64::from(k)));
+    let counts = box_counts(generations, 0.0, sizes, 0.0)?;
     let law = power_law(&[counts])?;
-    let slopes: Vec<(f64, f64)> = law
-        .local
-        .iter()
-        .enumerate()
-        .map(|(k, slope)| (pxfm::f_exp10(-15.5 + k as f64), -slope))
-        .collect();
+    let middle = |(k, slope): (usize, &f64)| (pxfm::f_exp10(-15.5 + k as f64), -slope);
+    let slopes: Vec<(f64, f64)> = law.local.iter().enumerate().map(middle).collect();
     frame.clipped(svg, |svg| frame.polyline(svg, &slopes, Pen::solid("#888", 0.9)));
     for &slope in &slopes {
         svg.marker(frame.at(slope), Marker::Ring, 7.0, "#444444");
     }
-    svg.marker((frame.left + 16.0, 101.0), Marker::Ring, 7.0, "#444444");
-    svg.text(frame.left + 27.0, 105.0, Anchor::Start, 11.5, "one accumulation, at $α$^{∗}_{2}");
+    let key = (frame.left + 16.0, 101.0);
+    svg.marker_key(key, Marker::Ring, "#444444", "one accumulation, at $α$^{∗}_{2}");
     Ok(())
 }
 
@@ -247,7 +238,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         let count = 50_000 << k.min(4);
         let fraction =
             uncertain_fraction(window, epsilon, count, 7 + k as u64, |x| label(&fates, x))?;
-        Ok(vec![epsilon, fraction.value, fraction.lower, fraction.upper])
+        Ok([&[epsilon], &three(fraction.into())[..]].concat())
     })?;
     let sampled: Vec<(f64, FractionRange)> =
         rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
@@ -269,26 +260,16 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
         frame.polyline(svg, &guide, Pen::dashed("#555", 1.0, "5 3"));
         frame.curve(svg, &exact, Pen::solid("#0072b2", 1.7));
         for (epsilon, fraction) in &sampled {
-            let (low, high) = (fraction.lower.max(frame.y.0), fraction.upper);
-            svg.line(
-                frame.at((*epsilon, low)),
-                frame.at((*epsilon, high)),
-                Pen::solid("#000", 1.0),
-            );
             svg.marker(frame.at((*epsilon, fraction.value)), Marker::Disc, 6.0, "#000000");
         }
     });
+    let bars = sampled.iter().map(|(epsilon, part)| (*epsilon, part.lower, part.upper));
+    frame.bars(&mut svg, bars, Pen::solid("#000", 1.0));
     svg.text(frame.at((1e-7, 1.0)).0, frame.at((1.0, 9e-7)).1, Anchor::Start, 12.0, "slope 3/4");
-    svg.line((90.0, 42.0), (118.0, 42.0), Pen::solid("#0072b2", 1.7));
-    svg.text(124.0, 46.0, Anchor::Start, 11.5, "within $ε$ of the boundary, from the intervals");
-    svg.marker((104.0, 60.0), Marker::Disc, 6.0, "#000000");
-    svg.text(
-        124.0,
-        64.0,
-        Anchor::Start,
-        11.5,
-        "fate changes with ±$ε$, pairs of random starts, 95 %",
-    );
+    let near = "within $ε$ of the boundary, from the intervals";
+    svg.line_key((104.0, 42.0), Pen::solid("#0072b2", 1.7), near);
+    let pairs = "fate changes with ±$ε$, pairs of random starts, 95 %";
+    svg.marker_key((104.0, 60.0), Marker::Disc, "#000000", pairs);
     frame.axes(
         &mut svg,
         &decades(frame.x, 2),
@@ -313,7 +294,7 @@ pub(super) fn uncertainty(job: &Job) -> Result<Finding, Error> {
             slope,
         ]);
     }
-    let data = exact.iter().map(|&(epsilon, fraction)| vec![Some(epsilon), Some(fraction)]);
+    let data = exact.iter().map(|&(epsilon, fraction)| [epsilon, fraction]);
     Ok(Finding {
         figure: Figure {
             name: "beyond_uncertainty",

@@ -62,9 +62,7 @@ pub(super) fn circle(_: &Job) -> Result<Finding, Error> {
                 }
             });
             let label = f64::from(own.code());
-            let row =
-                |&(m, share): &(f64, f64)| vec![Some(n as f64), Some(m), Some(label), Some(share)];
-            data.extend(points.iter().map(row));
+            data.extend(points.iter().map(|&(m, share)| [n as f64, m, label, share]));
         }
         let label = if at == 0 { "share $p$_{n,k}" } else { "" };
         let x_label = "mass ratio $M$";
@@ -204,9 +202,8 @@ pub(super) fn openings(job: &Job) -> Result<Finding, Error> {
             &[(1e-9, constant), (0.1, constant)],
             Pen::dashed(color, 1.0, "5 3"),
         );
-        let y = 50.0 + 17.0 * at as f64;
-        svg.marker((left.left + 14.0, y), marker, 6.5, color);
-        svg.text(left.left + 25.0, y + 4.0, Anchor::Start, 11.0, opening.text);
+        let key = (left.left + 14.0, 50.0 + 17.0 * at as f64);
+        svg.marker_key(key, marker, color, opening.text);
         table.row([
             format!("{}", opening.n),
             format!("{:.10}", opening.from),
@@ -214,12 +211,9 @@ pub(super) fn openings(job: &Job) -> Result<Finding, Error> {
             format!("{:.6e}", points[8].1),
             format!("{constant:.4}"),
         ]);
-        let n = Some(opening.n as f64);
-        data.extend(
-            rows.iter().enumerate().map(|(k, row)| {
-                vec![n, Some(distance(k)), Some(row[0]), Some(row[1]), Some(row[2])]
-            }),
-        );
+        let row =
+            |(k, row): (usize, &Vec<f64>)| [&[opening.n as f64, distance(k)], &row[..]].concat();
+        data.extend(rows.iter().enumerate().map(row));
     }
     let x_label = "$M$ − $M$_{0}";
     left.axes(&mut svg, &decades(left.x, 2), &decades(left.y, 1), x_label, "share");

@@ -40,7 +40,6 @@ pub(super) fn count(_: &Job) -> Result<Finding, Error> {
         let number = count.longer_than(-LN_10 * decades);
         number.ok_or_else(|| Error::CheckFailed(format!("no count at 10^-{decades}")))
     };
-    let mut data = Vec::new();
     let mut rows = vec![Vec::new(); DECADES + 1];
     for (count, (marker, color)) in counts.iter().zip(LOOKS) {
         for (k, row) in rows.iter_mut().enumerate() {
@@ -68,11 +67,6 @@ pub(super) fn count(_: &Job) -> Result<Finding, Error> {
         });
     }
     for (k, row) in rows.iter().enumerate() {
-        data.push(
-            std::iter::once(Some(k as f64))
-                .chain(row.iter().flat_map(|&(number, scaled)| [Some(number), Some(scaled)]))
-                .collect(),
-        );
         if [2, 4, 6, 8, 10, 20, 40, 60, 80, 100].contains(&k) {
             let cells = row.iter().flat_map(|(number, scaled)| {
                 let digits =
@@ -84,9 +78,7 @@ pub(super) fn count(_: &Job) -> Result<Finding, Error> {
     }
     let names = ["left of $α$^{∗}_{2}: $ε$^{−1/4}", "left of $α$^{∗}_{3}: $ε$^{−1/4} ln 1/$ε$"];
     for (at, (name, (marker, color))) in names.into_iter().zip(LOOKS).enumerate() {
-        let y = 52.0 + 18.0 * at as f64;
-        svg.marker((left.left + 16.0, y), marker, 6.5, color);
-        svg.text(left.left + 28.0, y + 4.0, Anchor::Start, 12.0, name);
+        svg.marker_key((left.left + 16.0, 52.0 + 18.0 * at as f64), marker, color, name);
     }
     let powers = |frame: (f64, f64), sign: &str| -> Vec<(f64, String)> {
         let label = |(value, _): (f64, String)| {
@@ -97,6 +89,11 @@ pub(super) fn count(_: &Job) -> Result<Finding, Error> {
     };
     left.axes(&mut svg, &powers(x, "−"), &powers(left.y, ""), "scale $ε$", "number");
     right.axes(&mut svg, &powers(x, "−"), &ticks(right.y, 6), "scale $ε$", "number × $ε$^{1/4}");
+    let data = rows.iter().enumerate().map(|(k, row)| {
+        std::iter::once(k as f64).chain(row.iter().flat_map(|&(number, scaled)| [number, scaled]))
+    });
+    let header = ["decades", "gaps_2", "scaled_2", "gaps_3", "scaled_3"];
+    let data = csv_file("count.csv", &header, data)?;
     let [two, three] = [0, 1].map(|at| counts.get(at).map_or(0.0, GapCount::constant));
     let deep =
         |decades: f64| found(&counts[1], decades).map(|n| n * pxfm::f_exp10(-0.25 * decades));
@@ -119,11 +116,7 @@ pub(super) fn count(_: &Job) -> Result<Finding, Error> {
                 0.75 * three
             ),
             svg,
-            data: vec![csv_file(
-                "count.csv",
-                &["decades", "gaps_2", "scaled_2", "gaps_3", "scaled_3"],
-                data,
-            )?],
+            data: vec![data],
         },
         table,
     })

@@ -74,9 +74,9 @@ pub(super) fn nested_basins(_: &Job) -> Result<Finding, Error> {
     let n_ticks: Vec<_> = (1..=LAST).map(|n| (n as f64, format!("{n}"))).collect();
     frame.axes(&mut svg, &n_ticks, &decades(frame.y, 1), "hump $n$", "fraction of hump $n$");
     let data = fractions.iter().zip(1u64..).flat_map(|(row, n)| {
-        row.iter().zip(1u64..).map(move |(fraction, m)| {
-            vec![Some(n as f64), Some(m as f64), Some(fraction.0), Some(fraction.1)]
-        })
+        row.iter()
+            .zip(1u64..)
+            .map(move |(fraction, m)| [n as f64, m as f64, fraction.0, fraction.1])
     });
     Ok(Finding {
         figure: Figure {

@@ -1,8 +1,9 @@
-//! Starts on the humps of the paper's window, their fates, and fractions as text.
+//! Starts on the humps of the paper's window, their fates, and fractions as numbers, as text and as curves.
 
 use crate::error::Error;
 use basin_of_attraction::{FractionRange, Interval, Label};
 use hopper_basin::{Fates, HopperFate};
+use journal_figures::{Frame, Pen, Svg};
 use passive_hopper::{MassRatio, alpha_star};
 
 /// The first and the last fixed point of the paper's window, [`hopper_basin::first_humps`]`(5)`.
@@ -35,9 +36,39 @@ pub(super) fn by_humps(place: f64) -> f64 {
     left + (right - left) * (place - whole as f64)
 }
 
-/// The estimate in three numbers of a scan: value, lower and upper end.
+/// A fraction as three numbers of a scan: value, lower and upper end.
+pub(super) fn three(FractionRange { value, lower, upper }: FractionRange) -> [f64; 3] {
+    [value, lower, upper]
+}
+
+/// The fraction in three numbers of a scan.
 pub(super) fn estimate(three: &[f64]) -> FractionRange {
     FractionRange { value: three[0], lower: three[1], upper: three[2] }
+}
+
+/// The header of a table of fractions over some quantity: each has its value, its lower and its upper end.
+pub(super) fn fraction_header(over: &str, names: &[&str]) -> Vec<String> {
+    let three = |name: &&str| ["", "_lower", "_upper"].map(|end| format!("{name}{end}"));
+    std::iter::once(over.to_owned()).chain(names.iter().flat_map(three)).collect()
+}
+
+/// A row of such a table.
+pub(super) fn fraction_row(over: f64, row: &[f64]) -> impl Iterator<Item = f64> {
+    std::iter::once(over).chain(row.iter().copied())
+}
+
+/// A curve of fractions with their bars. A fraction of 0 has no place on a logarithmic axis: the curve leaves it out.
+pub(super) fn fraction_curve(
+    svg: &mut Svg,
+    frame: &Frame,
+    found: &[(f64, FractionRange)],
+    pen: Pen,
+) {
+    let seen = found.iter().filter(|(_, fraction)| fraction.value > 0.0);
+    let line: Vec<_> = seen.map(|(x, fraction)| (*x, fraction.value)).collect();
+    frame.clipped(svg, |svg| frame.polyline(svg, &line, pen));
+    let bars = found.iter().map(|(x, fraction)| (*x, fraction.lower, fraction.upper));
+    frame.bars(svg, bars, Pen::solid(pen.color, 0.8));
 }
 
 /// A fraction with the half width of its interval, in per cent. Small intervals get two digits more.

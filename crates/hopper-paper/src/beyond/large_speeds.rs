@@ -1,14 +1,16 @@
 //! Final-state uncertainty at large speeds, and whether the basins are riddled.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{estimate, fates, hump, is_incessant, label, percent};
+use super::humps_of_window::{
+    estimate, fates, fraction_curve, hump, is_incessant, label, percent, three,
+};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{FractionRange, Label, random_fractions, uncertain_fraction};
 use hopper_basin::HopperFate;
 use hopper_figures::fate_colors;
-use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades};
+use journal_figures::{Frame, Marker, Pen, Svg, csv_file, decades};
 
 /// The mass ratio of the paper's small measure.
 const M: f64 = 0.2;
@@ -35,7 +37,7 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         let at = |x: f64| if x > 0.0 { label(&fates, x) } else { Label::from(0) };
         let epsilon = pxfm::f_exp10(-(decade as f64));
         let fraction = uncertain_fraction(hump(n)?, epsilon, starts(n), n, at)?;
-        Ok(vec![epsilon, fraction.value, fraction.lower, fraction.upper])
+        Ok([&[epsilon], &three(fraction.into())[..]].concat())
     })?;
     let mut svg = Svg::new(640.0, 430.0);
     let frame = Frame::linear(70.0, 20.0, 440.0, 350.0, (1e-9, 1e-1), (1e-5, 1.0)).log_x().log_y();
@@ -54,33 +56,18 @@ pub(super) fn large_speeds(job: &Job) -> Result<Finding, Error> {
         let rows = &scan[k * DECADES..(k + 1) * DECADES];
         let points: Vec<(f64, FractionRange)> =
             rows.iter().map(|row| (row[0], estimate(&row[1..]))).collect();
-        data.extend(rows.iter().map(|row| {
-            std::iter::once(Some(n as f64)).chain(row.iter().copied().map(Some)).collect()
-        }));
+        data.extend(rows.iter().map(|row| [&[n as f64], &row[..]].concat()));
         let color = fate_colors::css(HopperFate::label_of_fixed_point(k as u64 + 1));
-        let seen: Vec<_> = points
-            .iter()
-            .filter(|(_, fraction)| fraction.value > 0.0)
-            .map(|(epsilon, fraction)| (*epsilon, fraction.value))
-            .collect();
-        frame.clipped(&mut svg, |svg| frame.polyline(svg, &seen, Pen::solid(color, 1.2)));
-        for (epsilon, fraction) in &points {
-            let (low, high) = (fraction.lower.max(frame.y.0), fraction.upper.max(frame.y.0));
-            svg.line(frame.at((*epsilon, low)), frame.at((*epsilon, high)), Pen::solid(color, 0.8));
+        fraction_curve(&mut svg, &frame, &points, Pen::solid(color, 1.2));
+        for (epsilon, fraction) in points.iter().filter(|(_, fraction)| fraction.value > 0.0) {
+            svg.marker(frame.at((*epsilon, fraction.value)), LOOKS[k], 6.5, color);
         }
-        for &point in &seen {
-            svg.marker(frame.at(point), LOOKS[k], 6.5, color);
-        }
-        let y = 250.0 + 17.0 * k as f64;
-        svg.marker((430.0, y), LOOKS[k], 6.5, color);
-        svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("$n$ = {n}"));
+        let key = (430.0, 250.0 + 17.0 * k as f64);
+        svg.marker_key(key, LOOKS[k], color, &format!("$n$ = {n}"));
         let incessant = random_fractions(window, starts(n), n, |x| {
             Label::from(is_incessant(label(&fates, x)))
         })?;
-        let cell = |decade: usize| {
-            let fraction = points[decade - 1].1;
-            format!("{:.2} ± {:.2} %", 100.0 * fraction.value, 100.0 * fraction.half_width())
-        };
+        let cell = |decade: usize| percent(&points[decade - 1].1);
         table.row([
             format!("{n}"),
             format!("{:.1}", window.left),

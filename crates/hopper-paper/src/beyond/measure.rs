@@ -2,17 +2,20 @@
 
 use super::finding::{Finding, Table};
 use super::humps_of_window::{
-    FROM, TO, bounds, by_humps, estimate, fates, geometric, is_incessant, label, percent,
+    FROM, TO, bounds, by_humps, estimate, fates, fraction_curve, fraction_header, fraction_row,
+    geometric, is_incessant, label, percent, three,
 };
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    CurveLimits, FractionRange, Fractions, FractionsAlong, Interval, Label,
-    equally_spaced_fractions, low_discrepancy_fractions, random_fractions,
+    CurveLimits, FractionRange, Fractions, Interval, Label, UnresolvedStep,
+    equally_spaced_fractions, low_discrepancy_fractions, random_fractions, stratified_fractions,
+    stratified_points,
 };
 use hopper_basin::{
-    FractionLimits, HopperFate, crisis, fractions_over_mass_ratio, hump_fractions, known_kinks,
+    FractionLimits, HopperFate, MinimumOnFixedPoint, crisis, fractions_over_mass_ratio,
+    hump_fractions, known_kinks, minima_on_fixed_points,
 };
 use hopper_figures::fate_colors;
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, decades};
@@ -58,11 +61,7 @@ fn window() -> Result<Interval, Error> {
 
 /// The fractions as numbers, and back.
 fn numbers(fractions: &Fractions) -> Vec<f64> {
-    let three = |label: Label| {
-        let FractionRange { value, lower, upper } = fractions.of(label);
-        [value, lower, upper]
-    };
-    LABELS.into_iter().flat_map(three).collect()
+    LABELS.into_iter().flat_map(|label| three(fractions.of(label))).collect()
 }
 
 fn from_numbers(row: &[f64]) -> Fractions {
@@ -95,10 +94,15 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
         let aside = if anchor == Anchor::End { -4.0 } else { 4.0 };
         svg.text(x + aside, bottom - 8.0, anchor, 11.0, text);
     }
+    let mut curve = |label: Label, pen: Pen| {
+        let found: Vec<_> =
+            all.of(label).filter(|(_, fraction)| fraction.value > frame.y.0).collect();
+        fraction_curve(&mut svg, &frame, &found, pen);
+    };
     for label in (FROM..TO).rev().map(HopperFate::label_of_fixed_point) {
-        curve(&mut svg, &frame, &all, label, fate_colors::css(label), 1.1);
+        curve(label, Pen::solid(fate_colors::css(label), 1.1));
     }
-    curve(&mut svg, &frame, &all, ALL, "#000000", 1.8);
+    curve(ALL, Pen::solid("#000000", 1.8));
     frame.axes(
         &mut svg,
         &ratio_ticks(),
@@ -107,23 +111,25 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
         "fraction of the window",
     );
     legend(&mut svg);
-    let rows = all
-        .points()
-        .iter()
-        .map(|(m, fractions)| std::iter::once(*m).chain(numbers(fractions)).map(Some).collect());
     let names = ["1", "2", "3", "4", "5", "all", "decaying", "grounded"];
-    let header: Vec<String> = std::iter::once("mass_ratio".to_owned())
-        .chain(names.iter().flat_map(|n| ["", "_lower", "_upper"].map(|end| format!("{n}{end}"))))
-        .collect();
-    let header: Vec<&str> = header.iter().map(String::as_str).collect();
-    let data = csv_file("measure.csv", &header, rows)?;
-    let steep = all.jumps().map(|step| {
-        let row =
-            [step.from, step.to, step.label.code().into(), step.before.value, step.after.value];
-        row.map(Some).to_vec()
+    let rows: Vec<(f64, Vec<f64>)> =
+        all.points().iter().map(|(m, fractions)| (*m, numbers(fractions))).collect();
+    let rows = rows.iter().map(|(m, row)| fraction_row(*m, row));
+    let data = csv_file("measure.csv", &fraction_header("mass_ratio", &names), rows)?;
+    let falls = all.jumps().map(fall).collect::<Result<Vec<_>, Error>>()?;
+    let steep = all.jumps().zip(&falls).map(|(step, fall)| {
+        let label = f64::from(step.label.code());
+        let known = [step.from, step.to, label, step.before.value, step.after.value].map(Some);
+        let fall = fall.map(|fall| {
+            [fall.mass_ratio, fall.hump as f64, f64::from(fall.hops), fall.fixed_point as f64]
+        });
+        known.into_iter().chain(fall.map_or([None; 4], |fall| fall.map(Some)))
     });
-    let steep = csv_file("measure_jumps.csv", &["from", "to", "label", "before", "after"], steep)?;
-    let places: Vec<String> = all.jumps().map(|step| format!("{:.4}", step.from)).collect();
+    let header =
+        ["from", "to", "label", "before", "after", "mass_ratio", "hump", "hops", "fixed_point"];
+    let steep = csv_file("measure_jumps.csv", &header, steep)?;
+    let causes: Vec<String> =
+        all.jumps().zip(&falls).map(|(step, fall)| cause(step, fall)).collect();
     Ok(Finding {
         figure: Figure {
             name: "beyond_measure",
@@ -136,8 +142,8 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                  where the branches of the map are proved ($M$ ≤ 0.83 and more) by intervals down to 10^{{−7}}, with bounds up \
                  to rounding; beyond, by one random point in each of {} equal parts, with 95 % intervals. {} mass ratios: \
                  steps are halved until neighbours differ by at most 30 % or 0.005. {} steps remain larger, {} of them of \
-                 2·10^{{−4}} of $M$ at most, at $M$ = {}: a fraction jumps there, or rises from zero with a vertical tangent, as behind \
-                 a crisis or an onset of grounding. Ticks at the top: the crises of \
+                 2·10^{{−4}} of $M$ at most. There a fraction rises with a vertical tangent, since an orbit from a minimum of the map falls \
+                 onto a fixed point: {}. Ticks at the top: the crises of \
                  the humps 1 to 5, the onsets of grounding, and their inverses. The collapse is the crisis of hump 1 at $M$_{{c}}(1) = {touch:.5}: \
                  there it falls through its fixed point. Between it and its inverse the measure falls and \
                  rises by a factor of 300, with spikes where whole parts of a hump fall into the trap of \
@@ -147,8 +153,8 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
                 FractionLimits::default().points,
                 all.points().len(),
                 all.unresolved().len(),
-                places.len(),
-                places.join(", "),
+                causes.len(),
+                causes.join("; "),
             ),
             svg,
             data: vec![data, steep],
@@ -157,24 +163,26 @@ pub(super) fn measure(job: &Job) -> Result<Finding, Error> {
     })
 }
 
-fn curve(
-    svg: &mut Svg,
-    frame: &Frame,
-    all: &FractionsAlong,
-    label: Label,
-    color: &'static str,
-    width: f64,
-) {
-    let found: Vec<(f64, FractionRange)> =
-        all.of(label).filter(|(_, fraction)| fraction.value > frame.y.0).collect();
-    frame.clipped(svg, |svg| {
-        let line: Vec<_> = found.iter().map(|(m, fraction)| (*m, fraction.value)).collect();
-        frame.polyline(svg, &line, Pen::solid(color, width));
-        for (m, fraction) in &found {
-            let ends = [fraction.lower.max(frame.y.0), fraction.upper].map(|y| frame.at((*m, y)));
-            svg.line(ends[0], ends[1], Pen::solid(color, 0.8));
+/// Hops within which an orbit from a minimum of the map is followed.
+const HOPS: u8 = 6;
+
+/// The first fall of a minimum onto a fixed point in a step or one of its neighbours. The square root may begin beside the step in which it
+/// changes too much.
+fn fall(step: &UnresolvedStep) -> Result<Option<MinimumOnFixedPoint>, Error> {
+    let width = step.to - step.from;
+    let around = Interval::new(step.from - width, step.to + width)?;
+    Ok(minima_on_fixed_points(around, TO - 1, HOPS)?.first().copied())
+}
+
+fn cause(step: &UnresolvedStep, fall: &Option<MinimumOnFixedPoint>) -> String {
+    match fall {
+        Some(MinimumOnFixedPoint { mass_ratio, hump, hops, fixed_point }) => {
+            format!(
+                "$M$ = {mass_ratio:.5}, from hump {hump} to $α$^{{∗}}_{{{fixed_point}}} in {hops}"
+            )
         }
-    });
+        None => format!("$M$ = {:.5}, none found in {HOPS} hops", step.from),
+    }
 }
 
 /// Ticks 0.02, 0.05, 0.1, …, 50 of an axis of mass ratios.
@@ -186,14 +194,10 @@ pub(super) fn ratio_ticks() -> Vec<(f64, String)> {
 }
 
 fn legend(svg: &mut Svg) {
-    let mut x = 78.0;
-    svg.line((x, 465.0), (x + 20.0, 465.0), Pen::solid("#000000", 2.0));
-    svg.text(x + 25.0, 469.0, Anchor::Start, 11.5, "all together");
-    x += 110.0;
-    for n in (FROM..TO).map(HopperFate::label_of_fixed_point) {
-        svg.line((x, 465.0), (x + 20.0, 465.0), Pen::solid(fate_colors::css(n), 1.4));
-        svg.text(x + 25.0, 469.0, Anchor::Start, 11.5, &fate_colors::name(n));
-        x += 82.0;
+    svg.line_key((92.0, 465.0), Pen::solid("#000000", 2.0), "all together");
+    for (n, label) in (FROM..TO).map(HopperFate::label_of_fixed_point).enumerate() {
+        let at = (202.0 + 88.0 * n as f64, 465.0);
+        svg.line_key(at, Pen::solid(fate_colors::css(label), 1.4), &fate_colors::name(label));
     }
 }
 
@@ -226,58 +230,41 @@ fn three_ways() -> Result<Table, Error> {
     Ok(table)
 }
 
-/// M, the fraction of incessant starts at M and at 1/M, and the fraction of starts whose fates differ.
-type AsymmetryRow = (f64, f64, f64, f64);
-
 /// The basins at M compared with those at 1/M.
 pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
     let ratios = geometric(RATIOS.0, 1.0, 61);
+    let places = stratified_points(window()?, POINTS, SEED)?;
+    let speeds: Vec<f64> = places.into_iter().map(by_humps).collect();
     let scan = job.scan("asymmetry", ratios.len(), |k| {
-        let (light, heavy) = (fates(ratios[k])?, fates(1.0 / ratios[k])?);
-        let compare = |place: f64| {
-            let alpha = by_humps(place);
-            let (one, two) = (label(&light, alpha), label(&heavy, alpha));
-            Label::from(
-                u8::from(is_incessant(one))
-                    + 2 * u8::from(is_incessant(two))
-                    + 4 * u8::from(one != two),
-            )
+        let light = fates(ratios[k])?.labels(&speeds)?;
+        let heavy = fates(1.0 / ratios[k])?.labels(&speeds)?;
+        let fraction = |is: fn(Label, Label) -> bool| {
+            let starts = light.iter().zip(&heavy).map(|(&one, &two)| Label::from(is(one, two)));
+            let found = stratified_fractions(&starts.collect::<Vec<_>>())?;
+            Ok(found.get(&Label::from(true)).map_or([0.0; 3], |&part| three(part.into())))
         };
-        let counts = low_discrepancy_fractions(window()?, POINTS, SEED, compare)?;
-        let sum = |bit: u16| -> f64 {
-            counts
-                .iter()
-                .filter(|(k, _)| k.code() & bit != 0)
-                .map(|(_, fraction)| fraction.value)
-                .sum()
-        };
-        // The bit belongs to several counted kinds. The sum of their half widths bounds the half width of the sum.
-        let width = |bit: u16| -> f64 {
-            counts
-                .iter()
-                .filter(|(k, _)| k.code() & bit != 0)
-                .map(|(_, fraction)| fraction.half_width())
-                .sum()
-        };
-        Ok([1, 2, 4].into_iter().flat_map(|bit| [sum(bit) + 0.0, width(bit) + 0.0]).collect())
+        let found: Result<Vec<_>, Error> = [
+            fraction(|light, _| is_incessant(light)),
+            fraction(|_, heavy| is_incessant(heavy)),
+            fraction(|light, heavy| light != heavy),
+        ]
+        .into_iter()
+        .collect();
+        Ok(found?.concat())
     })?;
-    let rows: Vec<AsymmetryRow> =
-        ratios.iter().zip(&scan).map(|(&m, row)| (m, row[0], row[2], row[4])).collect();
     let mut svg = Svg::new(640.0, 430.0);
     let frame =
         Frame::linear(70.0, 20.0, 540.0, 350.0, (RATIOS.0, 1.0), (1e-3, 1.5)).log_x().log_y();
-    type AsymmetryCurve = fn(&AsymmetryRow) -> f64;
-    let curves: [(AsymmetryCurve, Pen, &str); 3] = [
-        (|row| row.1, Pen::solid("#0072b2", 1.8), "incessant at $M$"),
-        (|row| row.2, Pen::dashed("#d55e00", 1.8, "7 3"), "incessant at 1/$M$"),
-        (|row| row.3, Pen::dashed("#444444", 1.4, "1.6 2.6"), "fate at $M$ and at 1/$M$ differ"),
+    let curves = [
+        (Pen::solid("#0072b2", 1.8), "incessant at $M$"),
+        (Pen::dashed("#d55e00", 1.8, "7 3"), "incessant at 1/$M$"),
+        (Pen::dashed("#444444", 1.4, "1.6 2.6"), "fate at $M$ and at 1/$M$ differ"),
     ];
-    for (k, (column, pen, name)) in curves.into_iter().enumerate() {
-        let points: Vec<_> = rows.iter().map(|row| (row.0, column(row).max(frame.y.0))).collect();
+    for (k, (pen, name)) in curves.into_iter().enumerate() {
+        let points: Vec<_> =
+            ratios.iter().zip(&scan).map(|(&m, row)| (m, row[3 * k].max(frame.y.0))).collect();
         frame.clipped(&mut svg, |svg| frame.polyline(svg, &points, pen));
-        let y = 310.0 + 18.0 * k as f64;
-        svg.line((95.0, y), (125.0, y), pen);
-        svg.text(131.0, y + 4.0, Anchor::Start, 11.5, name);
+        svg.line_key((110.0, 310.0 + 18.0 * k as f64), pen, name);
     }
     let ticks: Vec<_> = ratio_ticks().into_iter().filter(|(m, _)| *m <= 1.0).collect();
     frame.axes(
@@ -289,13 +276,13 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
     );
     let mut table = Table::new(&["$M$", "incessant at $M$", "at 1/$M$", "fates differ"]);
     for (m, row) in ratios.iter().zip(&scan).step_by(6) {
-        let cell = |k: usize| format!("{:.3} ± {:.3} %", 100.0 * row[k], 100.0 * row[k + 1]);
-        table.row([format!("{m:.4}"), cell(0), cell(2), cell(4)]);
+        let cells = row.chunks(3).map(|three| percent(&estimate(three)));
+        table.row([format!("{m:.4}")].into_iter().chain(cells));
     }
-    let data = ratios
-        .iter()
-        .zip(&scan)
-        .map(|(&m, row)| std::iter::once(m).chain(row.iter().copied()).map(Some).collect());
+    let header =
+        fraction_header("mass_ratio", &["incessant", "incessant_at_inverse", "fates_differ"]);
+    let rows = ratios.iter().zip(&scan).map(|(&m, row)| fraction_row(m, row));
+    let data = csv_file("asymmetry.csv", &header, rows)?;
     Ok(Finding {
         figure: Figure {
             name: "beyond_asymmetry",
@@ -309,19 +296,7 @@ pub(super) fn asymmetry(job: &Job) -> Result<Finding, Error> {
                     half of all starts have another fate: mostly it is decaying against grounded."
                 .into(),
             svg,
-            data: vec![csv_file(
-                "asymmetry.csv",
-                &[
-                    "mass_ratio",
-                    "incessant",
-                    "incessant_half_width",
-                    "incessant_at_inverse",
-                    "incessant_at_inverse_half_width",
-                    "fates_differ",
-                    "fates_differ_half_width",
-                ],
-                data,
-            )?],
+            data: vec![data],
         },
         table,
     })

@@ -63,15 +63,14 @@ pub(super) fn needles(job: &Job) -> Result<Finding, Error> {
             let found = &brackets[(n as usize - 1) * WIDTHS.len() + k];
             let (below, above) = (found[0], found[1]);
             points.push((width, 0.5 * (below + above)));
-            data.push(vec![Some(n as f64), Some(width), Some(below), Some(above)]);
+            data.push([n as f64, width, below, above]);
         }
         frame.polyline(&mut svg, &points, Pen::solid(color, 1.4));
         for &point in &points {
             svg.marker(frame.at(point), LOOKS[n as usize - 1], 7.0, color);
         }
-        let y = 44.0 + 17.0 * n as f64;
-        svg.marker((430.0, y), LOOKS[n as usize - 1], 7.0, color);
-        svg.text(442.0, y + 4.0, Anchor::Start, 11.5, &format!("hump {n}"));
+        let key = (430.0, 44.0 + 17.0 * n as f64);
+        svg.marker_key(key, LOOKS[n as usize - 1], color, &format!("hump {n}"));
     }
     svg.line((420.0, 112.0), (436.0, 112.0), Pen::dashed("#444", 0.9, "4 3"));
     svg.text(442.0, 116.0, Anchor::Start, 11.5, "1/$M$_{c}($n$): the contact part");

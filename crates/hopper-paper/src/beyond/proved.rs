@@ -4,7 +4,7 @@ use super::finding::{Finding, Table};
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use crate::proved_figure::{draw_cells, fig_6, proved_cells};
+use crate::proved_figure::{StoredStrips, fig_6};
 use basin_of_attraction::{Grid, Interval};
 use hopper_figures::fate_colors;
 use journal_figures::csv_file;
@@ -18,15 +18,14 @@ pub(super) fn proved_basins(job: &Job) -> Result<Finding, Error> {
     let ((light, heavy), (bottom, top)) = window;
     let (x, y) = (Interval::new(light, heavy)?, Interval::new(bottom, top)?);
     let grid = Grid { x, y, columns: SIDE, rows: SIDE };
-    let found = proved_cells("proved", grid, 1, job)?;
+    let (found, svg) = StoredStrips::new("proved", grid, 1, job).cells("beyond_proved", window)?;
+    let areas = found.areas();
     let mut table = Table::new(&["basin", "area at least", "area at most"]);
-    for (label, share) in &found.areas {
+    for (label, share) in &areas {
         let percent = |share: f64| format!("{:.3} %", 100.0 * share);
         table.row([fate_colors::name(*label), percent(share.low), percent(share.high)]);
     }
-    let rows = found.areas.iter().map(|(label, share)| {
-        vec![Some(f64::from(label.code())), Some(share.low), Some(share.high)]
-    });
+    let rows = areas.iter().map(|(label, share)| [f64::from(label.code()), share.low, share.high]);
     let data = vec![csv_file("proved.csv", &["label", "area_lower", "area_upper"], rows)?];
     Ok(Finding {
         figure: Figure {
@@ -40,7 +39,7 @@ pub(super) fn proved_basins(job: &Job) -> Result<Finding, Error> {
                  boundaries that move with $M$ within a cell.",
                 100.0 * found.open_area()
             ),
-            svg: draw_cells("beyond_proved", window, &found)?,
+            svg,
             data,
         },
         table,

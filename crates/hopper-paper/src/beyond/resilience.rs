@@ -69,13 +69,9 @@ pub(super) fn resilience(_: &Job) -> Result<Finding, Error> {
                 let line: Vec<_> = points.iter().map(|(d, part)| (*d, part.middle())).collect();
                 frame.polyline(svg, &line, pen);
             });
-            let y = 228.0 + 18.0 * at as f64;
-            svg.line((left + 200.0, y), (left + 232.0, y), pen);
-            svg.text(left + 238.0, y + 4.0, Anchor::Start, 11.5, &format!("$M$ = {m}"));
+            svg.line_key((left + 216.0, 228.0 + 18.0 * at as f64), pen, &format!("$M$ = {m}"));
             let number = f64::from(label.code());
-            data.extend(points.iter().map(|(d, part)| {
-                [*m, number, *d, part.lower, part.upper].into_iter().map(Some).collect()
-            }));
+            data.extend(points.iter().map(|(d, part)| [*m, number, *d, part.lower, part.upper]));
             let (safest, largest) = found.largest().unwrap_or((f64::NAN, within(0.0)));
             // An ulp above the fixed point the state is in its trap.
             let star = alpha_star(n).next_up();

@@ -1,29 +1,36 @@
 //! Tipping: the fate of a hopper whose mass ratio changes, at once or slowly.
 
 use super::finding::{Finding, Table};
-use super::humps_of_window::{FROM, TO, estimate, fates, is_incessant, percent};
+use super::humps_of_window::{
+    FROM, TO, bounds, estimate, fates, fraction_curve, fraction_header, fraction_row, is_incessant,
+    three,
+};
 use super::measure::ratio_ticks;
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{
-    CurveLimits, FractionRange, Fractions, Interval, IntervalBasins, Label, Matching, Refinement,
-    SplitMix64, Tipping, TippingCounts, fractions_along,
+    CurveLimits, FractionRange, Fractions, FractionsAlong, Interval, IntervalBasins, Label,
+    Matching, Refinement, Tipping, fractions_along,
 };
-use hopper_basin::{
-    BranchGround, Fates, HopperFate, first_humps, hopper_basins, known_kinks, tipping_along_drift,
-};
+use hopper_basin::{HopperFate, first_humps, known_kinks, tipping_along_drift};
 use hopper_figures::fate_colors;
+use hopper_proof::basins_at_every_mass_ratio;
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::MassRatio;
-use std::collections::BTreeMap;
 
-/// Mass ratios before: up to the largest at which the branches up to α*_6 are proved.
-const RATIOS: (f64, f64) = (0.05, 0.8);
+/// Mass ratios before the change.
+const RATIOS: (f64, f64) = (0.05, 1.0);
+
+/// The mass ratios after the change, with pen and name: one of the paper, and equal masses.
+const AFTER: [(f64, Pen, &str); 2] = [
+    (0.2, Pen::solid("#0072b2", 1.7), "to 0.2"),
+    (1.0, Pen::dashed("#d55e00", 1.7, "7 3"), "to 1"),
+];
 
 /// Neighbours of these mass ratios differ by 25 % at most, and the first steps are 3.5 % of M. Half of that takes twice as long.
 const CURVE: CurveLimits = CurveLimits {
-    first_steps: 80,
+    first_steps: 86,
     difference: 0.01,
     relative: 0.25,
     shortest: 1e-3,
@@ -31,112 +38,89 @@ const CURVE: CurveLimits = CurveLimits {
     matching: Matching::ByLabel,
 };
 
-/// Random speeds of a probability: 95 % intervals of ± 0.01 and less where a tenth of them is in the basin.
-const SPEEDS: usize = 40_000;
-const SEED: u64 = 11;
-
-/// Shortest interval of the basins. What is undecided opens the bounds by some 10⁻⁵.
+/// When the search for intervals stops: at this undecided length below M = 0.83, above it at this number of intervals.
 const REFINEMENT: Refinement =
-    Refinement { shortest: 1e-8, undecided: 1e-6, levels: 1_000_000, intervals: 1_000_000 };
+    Refinement { shortest: 1e-8, undecided: 1e-5, levels: 1_000_000, intervals: 200_000 };
 
 /// The drift from the first to the second of these mass ratios, both of the paper, takes 1 to 2⁹ hops.
 const DRIFT: (f64, f64) = (0.1, 0.2);
 const DOUBLINGS: usize = 9;
-/// Speeds of a drift. All hops of all drifts take some seconds.
+/// Random speeds of a drift. All hops of all drifts take some seconds.
 const DRIFTING: usize = 20_000;
+const SEED: u64 = 11;
 
-/// Marker and name of the curves of the drift.
+/// The basins that are followed along the drift, with their markers.
 const LOOKS: [(u64, Marker); 3] = [(1, Marker::Disc), (2, Marker::Square), (3, Marker::Triangle)];
 
 fn together(label: Label) -> Label {
     if is_incessant(label) { HopperFate::INCESSANT } else { label }
 }
 
-fn proved(tipping: &Tipping, from: Label, to: Label) -> Result<FractionRange, Error> {
+/// The probability that a speed of the basin `from` comes into the basin `to`, between bounds.
+fn probability(tipping: &Tipping, from: Label, to: Label) -> Result<FractionRange, Error> {
     let known = tipping.probability(from, to);
     known
         .map(|p| FractionRange { value: p.middle(), lower: p.lower, upper: p.upper })
         .ok_or_else(|| Error::CheckFailed(format!("no speed is known to go to {from}")))
 }
 
-fn counted(found: &TippingCounts, from: Label, to: Label) -> Result<FractionRange, Error> {
-    let known = found.probability(from, to)?;
-    known.map(Into::into).ok_or_else(|| Error::CheckFailed(format!("no speed goes to {from}")))
+fn interval_basins(mass_ratio: f64) -> Result<IntervalBasins, Error> {
+    let fates = fates(mass_ratio)?;
+    Ok(basins_at_every_mass_ratio(&fates, FROM, TO, 400, REFINEMENT)?.basins)
 }
 
-/// The basins at M, of which the branches of the map must be proved.
-fn proved_basins(fates: &Fates) -> Result<IntervalBasins, Error> {
-    let found = hopper_basins(fates, FROM, TO, 400, REFINEMENT)?;
-    let m = fates.map().mass_ratio().value();
-    match found.ground {
-        BranchGround::Proved => Ok(found.basins),
-        _ => Err(Error::CheckFailed(format!("the branches at M = {m} are not proved"))),
-    }
-}
-
-fn three(p: FractionRange) -> [f64; 3] {
-    [p.value, p.lower, p.upper]
-}
-
-/// Tipping from each M to 0.2 and to 1, and along a drift from 0.1 to 0.2.
-pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
+/// The probabilities that incessant hopping survives the change from each M to each of [`AFTER`], which has labels 0, 1.
+fn sudden_changes(job: &Job) -> Result<FractionsAlong, Error> {
     let all = HopperFate::INCESSANT;
-    let (slow, heavy) = (fates(DRIFT.1)?, fates(1.0)?);
-    let window = first_humps(TO - FROM);
-    // What is common to all mass ratios before.
-    let slow_basins = proved_basins(&slow)?;
-    let random = SplitMix64::from_seed(SEED);
-    let speed = |k: usize| window.left + window.length() * random.uniform(k as u64);
-    let speeds: Vec<f64> = (0..SPEEDS).map(speed).collect();
-    let at_one = heavy.labels(&speeds)?;
+    let after: Vec<IntervalBasins> =
+        AFTER.iter().map(|(m, ..)| interval_basins(*m)).collect::<Result<_, Error>>()?;
     let mut rows = job.rows("tipping")?;
-    let mut sudden: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
     let at = |logarithm: f64| {
-        let m = pxfm::f_exp(logarithm);
         let row = rows.next(|| {
-            let before = fates(m)?;
-            let to_slow = proved_basins(&before)?.tipping_to(&slow_basins)?.relabelled(together);
-            let pairs = before.labels(&speeds)?.into_iter().zip(at_one.iter().copied());
-            let to_one = TippingCounts::new(pairs)?.relabelled(together);
-            Ok([three(proved(&to_slow, all, all)?), three(counted(&to_one, all, all)?)].concat())
+            let before = interval_basins(pxfm::f_exp(logarithm))?;
+            let survives = |after: &IntervalBasins| {
+                let tipping = before.tipping_to(after)?.relabelled(together);
+                probability(&tipping, all, all).map(three)
+            };
+            Ok(after.iter().map(survives).collect::<Result<Vec<_>, Error>>()?.concat())
         })?;
-        let found = [(all, estimate(&row[..3]))].into();
-        sudden.insert(m.to_bits(), row);
+        let found = (0u8..).map(Label::from).zip(row.chunks(3).map(estimate)).collect();
         Ok::<_, Error>(Fractions { found, ..Fractions::default() })
     };
     let range = Interval::new(pxfm::f_log(RATIOS.0), pxfm::f_log(RATIOS.1))?;
     let kinks: Vec<f64> =
-        known_kinks(FROM, TO)?.into_iter().chain([DRIFT.1]).map(pxfm::f_log).collect();
-    fractions_along(range, &kinks, CURVE, at)?;
-    // The bits of positive numbers are in their order.
-    let (ratios, sudden): (Vec<f64>, Vec<Vec<f64>>) =
-        sudden.into_iter().map(|(bits, row)| (f64::from_bits(bits), row)).unzip();
-    let drifts = job.scan("drifts", DOUBLINGS + 1, |k| {
+        known_kinks(FROM, TO)?.into_iter().chain([AFTER[0].0]).map(pxfm::f_log).collect();
+    Ok(fractions_along(range, &kinks, CURVE, at)?.with_parameters(pxfm::f_exp))
+}
+
+/// For drifts of 1, 2, 4, … hops: the probabilities that a speed stays in each basin of [`LOOKS`].
+fn drifts(job: &Job) -> Result<Vec<Vec<f64>>, Error> {
+    let (before, after) = (fates(DRIFT.0)?, fates(DRIFT.1)?);
+    job.scan("drifts", DOUBLINGS + 1, |k| {
         let hops = 1usize << k;
-        let at = |hop: usize| {
-            MassRatio::new(DRIFT.0 + (DRIFT.1 - DRIFT.0) * ((hop + 1) as f64 / hops as f64))
-        };
+        let part = |hop: usize| (hop + 1) as f64 / hops as f64;
+        let at = |hop: usize| MassRatio::new(DRIFT.0 + (DRIFT.1 - DRIFT.0) * part(hop));
         let drift = (0..hops).map(at).collect::<Result<Vec<_>, _>>()?;
-        let found = tipping_along_drift(&fates(DRIFT.0)?, &drift, &slow, window, DRIFTING, SEED)?;
+        let window = first_humps(TO - FROM);
+        let found = tipping_along_drift(&before, &drift, &after, window, DRIFTING, SEED)?;
         let stays = |(n, _): &(u64, Marker)| {
             let label = HopperFate::label_of_fixed_point(*n);
-            counted(&found, label, label).map(three)
+            let none = || Error::CheckFailed(format!("no speed goes to {label}"));
+            Ok(three(found.probability(label, label)?.ok_or_else(none)?.into()))
         };
-        Ok(LOOKS.iter().map(stays).collect::<Result<Vec<_>, _>>()?.concat())
-    })?;
+        Ok(LOOKS.iter().map(stays).collect::<Result<Vec<_>, Error>>()?.concat())
+    })
+}
+
+/// Tipping from each M to 0.2 and to 1, and along a drift from 0.1 to 0.2.
+pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
+    let (sudden, drifts) = (sudden_changes(job)?, drifts(job)?);
     let mut svg = Svg::new(860.0, 420.0);
-    let left =
-        Frame::linear(70.0, 34.0, 350.0, 310.0, (RATIOS.0, RATIOS.1), (5e-4, 1.3)).log_x().log_y();
+    let left = Frame::linear(70.0, 34.0, 350.0, 310.0, RATIOS, (1e-3, 1.3)).log_x().log_y();
     svg.text(left.left, 22.0, Anchor::Start, 13.0, "(a)  stays incessant, $M$ changes at once");
-    let pens = [Pen::solid("#0072b2", 1.7), Pen::dashed("#d55e00", 1.7, "7 3")];
-    for (at, (pen, name)) in
-        pens.into_iter().zip(["to 0.2, by intervals", "to 1, by points (95 %)"]).enumerate()
-    {
-        let of = |row: &Vec<f64>| estimate(&row[3 * at..3 * at + 3]);
-        bars(&mut svg, &left, &ratios, &sudden.iter().map(of).collect::<Vec<_>>(), pen);
-        let y = 312.0 + 17.0 * at as f64;
-        svg.line((84.0, y), (114.0, y), pen);
-        svg.text(120.0, y + 4.0, Anchor::Start, 11.5, name);
+    for (at, (_, pen, name)) in (0u8..).zip(AFTER) {
+        fraction_curve(&mut svg, &left, &sudden.of(at.into()).collect::<Vec<_>>(), pen);
+        svg.line_key((99.0, 312.0 + 17.0 * f64::from(at)), pen, name);
     }
     let few: Vec<_> =
         ratio_ticks().into_iter().filter(|(m, _)| (RATIOS.0..=RATIOS.1).contains(m)).collect();
@@ -148,73 +132,48 @@ pub(super) fn tipping_of_basins(job: &Job) -> Result<Finding, Error> {
     for (at, (n, marker)) in LOOKS.into_iter().enumerate() {
         let label = HopperFate::label_of_fixed_point(n);
         let color = fate_colors::css(label);
-        let of = |row: &Vec<f64>| estimate(&row[3 * at..3 * at + 3]);
-        let found: Vec<FractionRange> = drifts.iter().map(of).collect();
-        bars(&mut svg, &right, &hops, &found, Pen::solid(color, 1.2));
-        for (&hops, fraction) in hops.iter().zip(&found) {
+        let stays = |row: &Vec<f64>| estimate(&row[3 * at..3 * at + 3]);
+        let found: Vec<_> = hops.iter().copied().zip(drifts.iter().map(stays)).collect();
+        fraction_curve(&mut svg, &right, &found, Pen::solid(color, 1.2));
+        for (hops, fraction) in found {
             svg.marker(right.at((hops, fraction.value)), marker, 6.5, color);
         }
-        let y = 52.0 + 17.0 * at as f64;
-        svg.marker((right.left + 16.0, y), marker, 6.5, color);
         let name = format!("basin of $α$^{{∗}}_{{{n}}}");
-        svg.text(right.left + 27.0, y + 4.0, Anchor::Start, 11.5, &name);
+        svg.marker_key((right.left + 16.0, 52.0 + 17.0 * at as f64), marker, color, &name);
     }
     let doublings: Vec<_> = hops.iter().step_by(3).map(|&hops| (hops, format!("{hops}"))).collect();
     right.axes(&mut svg, &doublings, &ticks(right.y, 5), "hops of the drift", "probability");
-    let data = [
-        csv_file(
-            "tipping.csv",
-            &["mass_ratio", "to_0.2", "lower", "upper", "to_1", "to_1_lower", "to_1_upper"],
-            ratios.iter().zip(&sudden).map(|(&m, row)| with(m, row)),
-        )?,
-        csv_file(
-            "drift.csv",
-            &[
-                "hops", "1", "1_lower", "1_upper", "2", "2_lower", "2_upper", "3", "3_lower",
-                "3_upper",
-            ],
-            hops.iter().zip(&drifts).map(|(&hops, row)| with(hops, row)),
-        )?,
+    let changes = sudden.points().iter().map(|(m, found)| {
+        let both = [0u8, 1].map(|at| three(found.of(at.into())));
+        [&[*m], both.as_flattened()].concat()
+    });
+    let drifting = hops.iter().zip(&drifts).map(|(&hops, row)| fraction_row(hops, row));
+    let data = vec![
+        csv_file("tipping.csv", &fraction_header("mass_ratio", &["to_0.2", "to_1"]), changes)?,
+        csv_file("drift.csv", &fraction_header("hops", &["1", "2", "3"]), drifting)?,
     ];
     Ok(Finding {
         figure: Figure {
             name: "beyond_tipping",
             title: "Tipping: the fate of a hopper whose mass ratio changes".into(),
             paper: "The basins at $M$ = 0.1 and at $M$ = 0.2, each for itself.".into(),
-            notes: format!(
-                "The fixed points do not depend on $M$; their basins do. (a) A lift-off speed of [$α$^{{∗}}_{{1}}, $α$^{{∗}}_{{6}}], \
-                 equally likely anywhere in the basins of incessant hopping at $M$, is taken by a sudden change to 0.2 or to 1: \
-                 the probability that it still hops for ever. To 0.2 by intersecting basins as intervals, with bounds \
-                 thinner than the line (the branches of the map are proved at both mass ratios); to 1, where they are not, by {SPEEDS} \
-                 speeds of certain fate. (b) $M$ grows from 0.1 to 0.2 in equal parts from hop to hop, and the orbit follows. \
-                 With 1 hop the change is sudden. The slower the drift, the more speeds come into the trap of $M$ = 0.2 before the \
-                 trap has shrunk. Orbits of the drift are computed without error bounds."
-            ),
+            notes: "The fixed points do not depend on $M$; their basins do. (a) A lift-off speed of [$α$^{∗}_{1}, $α$^{∗}_{6}], \
+                    equally likely anywhere in the basins of incessant hopping at $M$, is taken by a sudden change to 0.2 or to 1: \
+                    the probability that it still hops for ever. Both by intersecting basins as intervals, with bounds: the branches of \
+                    the map are proved at small mass ratios, and images are enclosed at large ones. (b) $M$ grows \
+                    from 0.1 to 0.2 in equal parts from hop to hop, and the orbit follows. With 1 hop the change is sudden. The \
+                    slower the drift, the more speeds come into the trap of $M$ = 0.2 before the trap has shrunk. By random speeds \
+                    with 95 % intervals; orbits of the drift are computed without error bounds."
+                .into(),
             svg,
-            data: data.into(),
+            data,
         },
-        table: table(&sudden, &ratios, &slow_basins)?,
+        table: table(&sudden)?,
     })
 }
 
-fn with(first: f64, row: &[f64]) -> Vec<Option<f64>> {
-    std::iter::once(first).chain(row.iter().copied()).map(Some).collect()
-}
-
-/// A curve with bars.
-fn bars(svg: &mut Svg, frame: &Frame, xs: &[f64], found: &[FractionRange], pen: Pen) {
-    frame.clipped(svg, |svg| {
-        let line: Vec<(f64, f64)> = xs.iter().zip(found).map(|(&x, p)| (x, p.value)).collect();
-        frame.polyline(svg, &line, pen);
-        for (&x, p) in xs.iter().zip(found) {
-            let ends = [p.lower.max(frame.y.0), p.upper].map(|y| frame.at((x, y)));
-            svg.line(ends[0], ends[1], Pen::solid(pen.color, 0.9));
-        }
-    });
-}
-
 /// From each basin at 0.1 to each at 0.2, and from some mass ratios to 1.
-fn table(sudden: &[Vec<f64>], ratios: &[f64], slow: &IntervalBasins) -> Result<Table, Error> {
+fn table(sudden: &FractionsAlong) -> Result<Table, Error> {
     let mut table = Table::new(&[
         "from",
         "decaying",
@@ -224,25 +183,20 @@ fn table(sudden: &[Vec<f64>], ratios: &[f64], slow: &IntervalBasins) -> Result<T
         "$α$^{∗}_{4}",
         "$α$^{∗}_{5}",
     ]);
-    let found = proved_basins(&fates(DRIFT.0)?)?.tipping_to(slow)?;
+    let found = interval_basins(DRIFT.0)?.tipping_to(&interval_basins(DRIFT.1)?)?;
     for n in FROM..TO {
         let label = HopperFate::label_of_fixed_point;
-        let cell = |to: u64| {
-            let p = proved(&found, label(n), label(to))?;
-            Ok(format!("{:.4} … {:.4} %", 100.0 * p.lower, 100.0 * p.upper))
-        };
+        let cell = |to: u64| Ok(bounds(&probability(&found, label(n), label(to))?));
         let cells = (0..TO).map(cell).collect::<Result<Vec<_>, Error>>()?;
         let name = format!("$α$^{{∗}}_{{{n}}}, $M$ = 0.1 to 0.2");
         table.row(std::iter::once(name).chain(cells));
     }
     /// Every this many mass ratios one is in the table; the others are in the data.
     const ROWS: usize = 12;
-    for (m, row) in ratios.iter().zip(sudden).step_by(ROWS) {
-        let p = estimate(&row[3..]);
+    for (m, p) in sudden.of(1.into()).step_by(ROWS) {
         let name = format!("incessant, $M$ = {m:.3} to 1");
-        let cells = ["–".into(), format!("all: {}", percent(&p)), "–".into()];
-        let rest = ["–", "–", "–"].map(String::from);
-        table.row(std::iter::once(name).chain(cells).chain(rest));
+        let all = format!("all: {}", bounds(&p));
+        table.row([name, "–".into(), all].into_iter().chain(["–"; 4].map(String::from)));
     }
     Ok(table)
 }

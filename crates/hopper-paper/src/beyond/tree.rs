@@ -7,7 +7,7 @@ use crate::figure::Figure;
 use crate::job::Job;
 use basin_of_attraction::{Interval, Label, PreimageTree, Refinement, ResidualSet};
 use hopper_basin::{branches, hopper_basins};
-use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
+use journal_figures::{Frame, Marker, Pen, Svg, csv_file, decades, ticks};
 use passive_hopper::alpha_star;
 
 /// The mass ratio of the paper's small measure.
@@ -91,14 +91,10 @@ pub(super) fn preimage_tree(_: &Job) -> Result<Finding, Error> {
     for row in &rows {
         svg.marker(frame.at((row.0 as f64, row.2.max(1e-8))), Marker::Disc, 6.0, "#000000");
     }
-    svg.marker((360.0, 44.0), Marker::Disc, 6.0, "#000000");
-    svg.text(374.0, 48.0, Anchor::Start, 11.5, "length of level $k$");
-    svg.line((350.0, 62.0), (370.0, 62.0), Pen::solid("#0072b2", 1.5));
-    svg.text(374.0, 66.0, Anchor::Start, 11.5, "length of all later levels");
+    svg.marker_key((360.0, 44.0), Marker::Disc, "#000000", "length of level $k$");
+    svg.line_key((360.0, 62.0), Pen::solid("#0072b2", 1.5), "length of all later levels");
     frame.axes(&mut svg, &ticks(frame.x, 4), &decades(frame.y, 1), "level $k$", "length");
-    let data = rows
-        .iter()
-        .map(|row| vec![Some(row.0 as f64), Some(row.1 as f64), Some(row.2), Some(row.3)]);
+    let data = rows.iter().map(|row| [row.0 as f64, row.1 as f64, row.2, row.3]);
     Ok(Finding {
         figure: Figure {
             name: "beyond_tree",

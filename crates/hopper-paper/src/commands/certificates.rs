@@ -5,25 +5,37 @@
 use crate::error::Error;
 use basin_of_attraction::Label;
 use hopper_basin::HopperFate;
-use hopper_proof::{BasinInterval, CERTIFICATE_VERSION, Evidence, Theorem};
+use hopper_proof::{BasinGap, BasinInterval, CERTIFICATE_VERSION, Evidence, Theorem};
 use repository_tools::Folder;
 use resumable_job::AtomicFile;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
-/// Writes NAME.jsonl into the folder: its path, and its size.
+/// Writes NAME.jsonl into the folder: its path, and its size. `strips` are the lines for which [`Evidence::Strips`] stands, and are written as
+/// they come.
 pub(super) fn write_certificate(
     theorem: &Theorem,
+    mut strips: impl Iterator<Item = Result<Evidence, Error>>,
     folder: &Folder,
 ) -> Result<(PathBuf, usize), Error> {
     let path = folder.path().join(format!("{}.jsonl", theorem.name));
     let mut file = AtomicFile::create(&path)?;
     let mut size = 0;
-    let lines = theorem.evidence.iter().map(line);
-    for value in std::iter::once(header(theorem)).chain(lines) {
+    let mut write = |value: Value| -> Result<(), Error> {
         let text = format!("{value}\n");
         size += text.len();
-        file.append(text.as_bytes())?;
+        Ok(file.append(text.as_bytes())?)
+    };
+    write(header(theorem))?;
+    for evidence in &theorem.evidence {
+        match line(evidence) {
+            Some(own) => write(own)?,
+            None => {
+                for strip in strips.by_ref().take(evidence.lines()) {
+                    line(&strip?).map_or(Ok(()), &mut write)?;
+                }
+            }
+        }
     }
     file.finish()?;
     Ok((path, size))
@@ -35,7 +47,7 @@ fn header(theorem: &Theorem) -> Value {
         "version": CERTIFICATE_VERSION,
         "theorem": theorem.name,
         "statement": theorem.statement,
-        "lines": theorem.evidence.len(),
+        "lines": theorem.evidence.iter().map(Evidence::lines).sum::<usize>(),
     })
 }
 
@@ -51,14 +63,25 @@ fn intervals(list: &[BasinInterval]) -> Vec<Value> {
     list.iter().map(|(own, label)| json!([own.left, own.right, fate(*label)])).collect()
 }
 
+/// [left, right, [fate, least], …] for each gap.
+fn gaps(list: &[BasinGap]) -> Vec<Value> {
+    let gap = |BasinGap { speeds, at_least }: &BasinGap| {
+        let own = at_least.iter().map(|&(label, least)| json!([fate(label), least]));
+        Value::Array([json!(speeds.left), json!(speeds.right)].into_iter().chain(own).collect())
+    };
+    list.iter().map(gap).collect()
+}
+
 /// [fate, count] for each run of equal fates.
 fn runs(labels: &[Label]) -> Vec<Value> {
     let equal = labels.chunk_by(|a, b| a == b);
     equal.filter_map(|run| Some(json!([fate(*run.first()?), run.len()]))).collect()
 }
 
-fn line(evidence: &Evidence) -> Value {
-    match evidence {
+/// The line of a piece of evidence; `None` for one that stands for other lines.
+fn line(evidence: &Evidence) -> Option<Value> {
+    let value = match evidence {
+        Evidence::Strips(_) => return None,
         Evidence::OneSudden { fixed_point, largest_mass_ratio, available, needed } => json!({
             "kind": "one-sudden", "fixed_point": [fixed_point.low, fixed_point.high],
             "largest_mass_ratio": largest_mass_ratio, "available": available, "needed": needed,
@@ -90,6 +113,7 @@ fn line(evidence: &Evidence) -> Value {
             "kind": "basins", "mass_ratios": [mass_ratios.left, mass_ratios.right],
             "intervals": intervals(list),
         }),
+        Evidence::Gaps(list) => json!({ "kind": "gaps", "gaps": gaps(list) }),
         Evidence::Fraction { label, humps, uniform, by_humps } => json!({
             "kind": "fraction", "fate": fate(*label), "humps": humps,
             "uniform": [uniform.low, uniform.high], "by_humps": [by_humps.low, by_humps.high],
@@ -109,5 +133,6 @@ fn line(evidence: &Evidence) -> Value {
         Evidence::Cells { edges, of_one_basin } => json!({
             "kind": "cells", "edges": edges, "of_one_basin": of_one_basin,
         }),
-    }
+    };
+    Some(value)
 }

@@ -5,12 +5,12 @@ use super::figure_files::write_figure;
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
-use crate::proved_figure::{draw_cells, draw_window, fig_6, proved_cells};
+use crate::proved_figure::{StoredStrips, draw_window, fig_6};
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{FIG_9, FigureWindow, basin_raster};
 use hopper_figures::label_png;
 use hopper_proof::{
-    Theorem, cells_theorem, crises, everything_hops, measures, one_sided, one_sudden,
+    Evidence, Theorem, cells_theorem, crises, everything_hops, measures, one_sided, one_sudden,
     points_theorem, proved_points, rising, trap_edges,
 };
 use journal_figures::Svg;
@@ -33,6 +33,12 @@ pub struct Options {
     /// Strips of mass ratios in a column of cells: with more of them less area stays open
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     strips: u32,
+    /// The only mass ratio of `measures` [default: those of the table, each to a width of its own]
+    #[arg(short = 'M', long, value_name = "M", requires = "width")]
+    mass_ratio: Option<f64>,
+    /// The width of its fractions
+    #[arg(long, value_name = "WIDTH", requires = "mass_ratio")]
+    width: Option<f64>,
     /// Folder for certificates and pictures [default: target/proofs in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -108,12 +114,15 @@ pub fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "proofs")?;
     let mut open = Vec::new();
     for name in wanted {
-        let begin = Instant::now();
-        let theorem = prove(name, options, &folder)?;
-        print(&theorem, begin.elapsed().as_secs_f64())?;
-        let (path, bytes) = write_certificate(&theorem, &folder)?;
-        say(format_args!("{:8} certificate {}, {bytes} bytes", "", path.display()))?;
-        if !theorem.is_proved() {
+        let is_proved = match window_of_cells(name) {
+            Some((name, window, most_open)) => cells(name, window, most_open, options, &folder)?,
+            None => {
+                let begin = Instant::now();
+                let theorem = prove(name, options, &folder)?;
+                report(&theorem, begin, std::iter::empty(), &folder)?
+            }
+        };
+        if !is_proved {
             open.push(name);
         }
     }
@@ -123,14 +132,23 @@ pub fn run(options: &Options) -> Result<(), Error> {
     Err(Error::CheckFailed(format!("not proved: {}", open.join(", "))))
 }
 
-fn print(theorem: &Theorem, seconds: f64) -> Result<(), Error> {
+/// Prints a theorem and writes its certificate: whether it is proved.
+fn report(
+    theorem: &Theorem,
+    begin: Instant,
+    strips: impl Iterator<Item = Result<Evidence, Error>>,
+    folder: &Folder,
+) -> Result<bool, Error> {
     let word = if theorem.is_proved() { "proved" } else { "OPEN" };
+    let seconds = begin.elapsed().as_secs_f64();
     say(format_args!("{word:8} {}  {seconds:.1} s\n{:8} {}", theorem.name, "", theorem.statement))?;
     for step in &theorem.steps {
         let mark = if step.holds { "holds" } else { "OPEN" };
         say(format_args!("{:8} {mark:6} {}: {}", "", step.claim, step.found))?;
     }
-    Ok(())
+    let (path, bytes) = write_certificate(theorem, strips, folder)?;
+    say(format_args!("{:8} certificate {}, {bytes} bytes", "", path.display()))?;
+    Ok(theorem.is_proved())
 }
 
 fn prove(name: &str, options: &Options, folder: &Folder) -> Result<Theorem, Error> {
@@ -141,11 +159,12 @@ fn prove(name: &str, options: &Options, folder: &Folder) -> Result<Theorem, Erro
         "traps" => trap_edges(HUMPS, TRAPS)?,
         "everything-hops" => everything_hops()?,
         "rising" => rising(&RISING)?,
-        "measures" => measures(&MEASURES)?,
+        "measures" => match (options.mass_ratio, options.width) {
+            (Some(mass_ratio), Some(width)) => measures(&[(mass_ratio, width)])?,
+            _ => measures(&MEASURES)?,
+        },
         "fig6-points" => points("fig6-points", fig_6(), options, folder)?,
-        "fig9-points" => points("fig9-points", FIG_9, options, folder)?,
-        "fig6-cells" => cells("fig6-cells", fig_6(), OPEN_OF_FIG_6, options, folder)?,
-        _ => cells("fig9-cells", FIG_9, OPEN_OF_FIG_9, options, folder)?,
+        _ => points("fig9-points", FIG_9, options, folder)?,
     };
     Ok(by_name)
 }
@@ -181,19 +200,32 @@ fn points(
     Ok(points_theorem(name, &proved, &computed)?)
 }
 
-/// Every cell of a figure.
+/// The window of a theorem about cells, and the share of its area that may stay open; `None` for other theorems.
+fn window_of_cells(name: &str) -> Option<(&'static str, FigureWindow, f64)> {
+    match name {
+        "fig6-cells" => Some(("fig6-cells", fig_6(), OPEN_OF_FIG_6)),
+        "fig9-cells" => Some(("fig9-cells", FIG_9, OPEN_OF_FIG_9)),
+        _ => None,
+    }
+}
+
+/// Every cell of a figure. Finished strips are kept until the certificate is written from them.
 fn cells(
     name: &'static str,
     window: FigureWindow,
-    open: f64,
+    most_open: f64,
     options: &Options,
     folder: &Folder,
-) -> Result<Theorem, Error> {
+) -> Result<bool, Error> {
+    let begin = Instant::now();
     let job = Job::new(folder.path())?;
-    let found = proved_cells(name, grid_of(window, options)?, options.strips as usize, &job)?;
-    write(name, draw_cells(name, window, &found)?, folder)?;
+    let strips = StoredStrips::new(name, grid_of(window, options)?, options.strips as usize, &job);
+    let (found, drawn) = strips.cells(name, window)?;
+    write(name, drawn, folder)?;
+    let theorem = cells_theorem(name, &found, most_open)?;
+    let is_proved = report(&theorem, begin, strips.evidence()?, folder)?;
     job.done()?;
-    Ok(cells_theorem(name, found, open)?)
+    Ok(is_proved)
 }
 
 fn write(name: &'static str, svg: Svg, folder: &Folder) -> Result<(), Error> {

@@ -153,7 +153,7 @@ mod tests {
     use resumable_job::{Element, Order, npy_header};
 
     fn csv(values: [f64; 4]) -> Table {
-        let rows = values.chunks(2).map(|row| row.iter().map(|x| Some(*x)).collect());
+        let rows = values.chunks(2).map(|row| row.iter().copied());
         Table::read("x.csv", &csv_file("x.csv", &["a", "b"], rows).unwrap().bytes).unwrap()
     }
 

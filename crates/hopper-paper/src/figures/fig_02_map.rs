@@ -43,8 +43,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     }
     for (k, (m, pen)) in CURVES.iter().enumerate() {
         let y = 40.0 + 18.0 * k as f64;
-        svg.line((80.0, y), (112.0, y), *pen);
-        svg.text(118.0, y + 4.0, Anchor::Start, 12.0, &format!("$M$ = {m}"));
+        svg.line_key((96.0, y), *pen, &format!("$M$ = {m}"));
     }
     let axis = ticks((0.0, 17.8), 9);
     frame.axes(

@@ -116,10 +116,8 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
                 .map(|&(t, y1, y2)| vec![Some(segment.alpha), Some(t), Some(y1), Some(y2)]),
         );
     }
-    svg.line((432.0, 420.0), (456.0, 420.0), UPPER);
-    svg.text(461.0, 424.0, Anchor::Start, 11.0, "upper mass, $y$_{1}");
-    svg.line((570.0, 420.0), (594.0, 420.0), LOWER);
-    svg.text(599.0, 424.0, Anchor::Start, 11.0, "lower mass, $y$_{2}");
+    svg.line_key((444.0, 420.0), UPPER, "upper mass, $y$_{1}");
+    svg.line_key((582.0, 420.0), LOWER, "lower mass, $y$_{2}");
     Ok(Figure {
         name: "fig_03_segments",
         title: "Four segments around the first fixed point, and the motion in each".into(),

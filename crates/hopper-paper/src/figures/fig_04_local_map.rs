@@ -55,8 +55,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     ];
     for (k, (pen, name)) in keys.into_iter().enumerate() {
         let y = 310.0 + 18.0 * k as f64;
-        svg.line((250.0, y), (284.0, y), pen);
-        svg.text(290.0, y + 4.0, Anchor::Start, 11.5, name);
+        svg.line_key((267.0, y), pen, name);
     }
     frame.axes(
         &mut svg,

@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::figure::Figure;
 use hopper_figures::{cuts, graph_pieces};
-use journal_figures::{Anchor, Frame, Pen, Scale, Svg, csv_file, decades, ticks};
+use journal_figures::{Frame, Pen, Scale, Svg, csv_file, decades, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
 use repository_tools::Progress;
 use std::f64::consts::PI;
@@ -41,8 +41,7 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     top.axes(&mut svg, &ticks(window, 9), &ticks((0.0, 12.8), 6), "", "$α$_{n+1} (dimensionless)");
     for (k, (pen, name)) in [(LIGHT, "$M$ = 0.3"), (HEAVY, "$M$ = 1/0.3")].into_iter().enumerate() {
         let y = 36.0 + 18.0 * k as f64;
-        svg.line((80.0, y), (112.0, y), pen);
-        svg.text(118.0, y + 4.0, Anchor::Start, 12.0, name);
+        svg.line_key((96.0, y), pen, name);
     }
 
     let bottom = Frame {

@@ -58,13 +58,11 @@ pub(super) fn build(_: &Progress) -> Result<Figure, Error> {
     }
     for (k, (name, marker, color, _)) in FORMS.into_iter().enumerate() {
         let (x, y) = (90.0 + 250.0 * (k / 2) as f64, 385.0 + 20.0 * (k % 2) as f64);
-        svg.marker((x, y - 4.0), marker, 7.0, color);
-        svg.text(x + 12.0, y, Anchor::Start, 12.0, name);
+        svg.marker_key((x, y - 4.0), marker, color, name);
     }
     let columns: Vec<&str> = std::iter::once("offset").chain(FORMS.map(|form| form.3)).collect();
-    let data = rows
-        .iter()
-        .map(|row| std::iter::once(Some(row.offset)).chain(row.errors.iter().copied()).collect());
+    let data =
+        rows.iter().map(|row| std::iter::once(Some(row.offset)).chain(row.errors.iter().copied()));
     Ok(Figure {
         name: "printed_against_stable",
         title: "Where the printed form of the map loses its digits, $M$ = 1, $n$ = 1".into(),

@@ -1,5 +1,6 @@
 //! The first landing after a gradual lift-off, over an interval of speeds.
 
+use crate::fixed_points::fixed_point;
 use crate::hop::half_time::AtHalfTime;
 use crate::hop::landing_time::first_landing_time;
 use interval_arithmetic::Enclosure;
@@ -13,12 +14,15 @@ pub(crate) struct FirstLanding {
 }
 
 impl FirstLanding {
-    /// Over the speeds of `alpha`, which lie on one contact part or in one window.
+    /// Over the speeds of `alpha`, which lie on one contact part or in one window; `None` if an end of h is beyond a fixed point. There Γ
+    /// has a minimum between the ends, so that its values at them are no bounds.
     pub(crate) fn over(alpha: Enclosure) -> Option<Self> {
         let first = first_landing_time(alpha.low)?;
         let last = if alpha.low == alpha.high { first } else { first_landing_time(alpha.high)? };
         let ends = [first.before, last.after];
-        Some(FirstLanding { half: Enclosure::new(ends[0].h, ends[1].h), ends })
+        let (below, above) = (fixed_point(first.branch - 1), fixed_point(last.branch));
+        let between = below.low <= ends[0].h && ends[1].h <= above.high;
+        between.then_some(FirstLanding { half: Enclosure::new(ends[0].h, ends[1].h), ends })
     }
 
     /// The values of a function that is monotone in h, from its ends.
@@ -52,5 +56,31 @@ impl FirstLanding {
     /// dh/dα = D/Γ in a window, where Γ/D falls.
     pub(crate) fn half_time_slope(&self) -> Enclosure {
         self.between(|end| end.d / end.closing_speed())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use passive_hopper::alpha_star;
+
+    /// Γ ≈ ½ a t² with t³ = 12 a² δ/(1 + a²), within some ulps above a fixed point (docs/theory.md, Lemma 34): no f64 is nearer to α*_1 than
+    /// the first one here, and its landing is enclosed by times on both sides of α*_1.
+    #[test]
+    fn closing_speeds_next_to_a_fixed_point_are_not_too_large() {
+        let a = alpha_star(1);
+        let ulp = a.next_up() - a;
+        // t³ from Γ.
+        let cube = |closing: f64| (2.0 * closing / a) * (2.0 * closing / a).sqrt();
+        let mut known = 0;
+        for ulps in [0.0, 8.0] {
+            let alpha = a + ulps * ulp;
+            let Some(landing) = FirstLanding::over(Enclosure::new(alpha, alpha)) else { continue };
+            known += 1;
+            let closing = landing.closing_speed();
+            let exact = 12.0 * a * a * (3.32e-17 + ulps * ulp) / (1.0 + a * a);
+            assert!(cube(closing.low) < 1.01 * exact && 0.99 * exact < cube(closing.high));
+        }
+        assert_eq!(known, 1);
     }
 }

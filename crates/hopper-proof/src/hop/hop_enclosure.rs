@@ -232,7 +232,7 @@ impl HopEnclosure {
 
 /// W over a contact part: it rises to h = ½ α*_{2n+1} and then falls, and its maximum is (R+1)²/(4R) with R² = 1 + α*²_{2n+1} (docs/theory.md,
 /// Lemma 27).
-fn w_over(first: &FirstLanding, n: u64) -> Enclosure {
+pub(crate) fn w_over(first: &FirstLanding, n: u64) -> Enclosure {
     let [begin, end] = first.w_at_ends();
     let ends = begin.hull(&end);
     let twice = fixed_point(2 * n + 1);

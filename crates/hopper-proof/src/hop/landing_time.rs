@@ -53,9 +53,12 @@ impl LandingTime {
                 if direction * (h - end) >= 0.0 || !h.is_finite() {
                     break;
                 }
-                let at = AtHalfTime::new(h);
-                if at.speed_to_spare(x, v).sign() == Some(-direction) {
-                    return at;
+                // Outside of the bracket there may be other changes of sign.
+                if bracket.contains(h) {
+                    let at = AtHalfTime::new(h);
+                    if at.speed_to_spare(x, v).sign() == Some(-direction) {
+                        return at;
+                    }
                 }
                 distance *= GROWTH;
             }
@@ -121,4 +124,21 @@ pub(crate) fn landings_between(
     let first = at(stretches.low, velocities.low)?;
     let last = at(stretches.high, velocities.high)?;
     (first.branch == last.branch).then_some([first.before, last.after])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A found time beyond the bracket, as a correction of first order may give next to a grazing: no sign is taken there.
+    #[test]
+    fn signs_are_taken_inside_the_bracket_alone() {
+        let start = TakeOff { excess: 1.0, velocity: 2.0 };
+        let whole = next_landing_time(1.0, 2.0).unwrap();
+        assert!(whole.before.h < 3.2 && whole.after.h - whole.before.h < 1e-12, "{whole:?}");
+        for bracket in [Enclosure::new(0.5, 1.5), Enclosure::new(3.1, 3.13)] {
+            let found = LandingTime::between_signs(1, start, bracket).unwrap();
+            assert_eq!((found.before.h, found.after.h), (bracket.low, bracket.high));
+        }
+    }
 }

@@ -19,28 +19,36 @@ const OPEN: f64 = 0.004;
 /// The mass ratios of a strip, and the basins at all of them.
 pub type ProvedStrip = (Interval, ProvedLine);
 
+/// The shares of a cell's area that are proved, of each basin that has one. The rest of the area is open.
+pub type CellShares = Vec<(Label, f64)>;
+
 /// The cells of a raster, with the area of each basin.
+///
+/// Columns are added from the left. What is not added yet is open. The strips, which may need more memory than there is, are not kept.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProvedCells {
-    /// The raster.
-    pub grid: Grid,
-    /// The cells in rows, from the lowest speeds up.
-    pub cells: Vec<Cell>,
-    /// The share of the window's area that each basin has, in the order of the labels.
-    pub areas: Vec<(Label, Enclosure)>,
-    /// The strips, from the left; all columns have equally many.
-    pub strips: Vec<ProvedStrip>,
+    grid: Grid,
+    strips: usize,
+    /// The edges of the rows.
+    edges: Vec<f64>,
+    columns_added: usize,
+    cells: Vec<Cell>,
+    areas: Areas,
 }
 
 fn edges(range: Interval, parts: usize) -> Result<Vec<f64>, Error> {
     Ok(PixelShares::edges(range, parts).map_err(hopper_basin::Error::from)?)
 }
 
-/// The mass ratios of all strips of a raster.
-fn mass_ratios(grid: &Grid, strips: usize) -> Result<Vec<Interval>, Error> {
+/// The mass ratios of the strips of some columns of a raster.
+fn mass_ratios(grid: &Grid, strips: usize, columns: Range<usize>) -> Result<Vec<Interval>, Error> {
     let interval = |pair: &[f64]| Interval { left: pair[0], right: pair[1] };
-    let mut all = Vec::with_capacity(grid.columns * strips);
-    for column in edges(grid.x, grid.columns)?.windows(2).map(interval) {
+    let missing = Error::Columns { wanted: columns.end, all: grid.columns };
+    let edges_of_columns = edges(grid.x, grid.columns)?;
+    let last = columns.end.checked_add(1).ok_or_else(|| missing.clone())?;
+    let own = edges_of_columns.get(columns.start..last).ok_or(missing)?;
+    let mut all = Vec::new();
+    for column in own.windows(2).map(interval) {
         all.extend(edges(column, strips)?.windows(2).map(interval));
     }
     Ok(all)
@@ -50,17 +58,14 @@ fn mass_ratios(grid: &Grid, strips: usize) -> Result<Vec<Interval>, Error> {
 /// proportion. `progress` is as for [`columns_in_parallel`]; it counts strips.
 ///
 /// # Errors
-/// [`Error::Strips`] for columns that the raster has not; those of [`ProvedLine::new`] and of [`columns_in_parallel`].
+/// [`Error::Columns`] for columns that the raster has not; those of [`ProvedLine::new`] and of [`columns_in_parallel`].
 pub fn proved_strips(
     grid: &Grid,
     strips: usize,
     columns: Range<usize>,
     progress: impl Fn(usize) -> ControlFlow<()> + Sync,
 ) -> Result<Vec<ProvedStrip>, Error> {
-    let all = mass_ratios(grid, strips)?;
-    let range = columns.start.saturating_mul(strips)..columns.end.saturating_mul(strips);
-    let missing = Error::Strips { found: range.end, needed: all.len() };
-    let own = all.get(range).ok_or(missing)?;
+    let own = mass_ratios(grid, strips, columns)?;
     let strip = |at: usize| {
         let strip = Strip::between(own[at].left, own[at].right)?;
         Ok((own[at], ProvedLine::new(strip, grid.y, PARTS, OPEN, SPEEDS)?))
@@ -80,7 +85,7 @@ fn with_strip(before: Option<Cell>, found: Cell) -> Cell {
 }
 
 /// Lower bounds of areas, in the order of the labels.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 struct Areas(Vec<(Label, f64)>);
 
 impl Areas {
@@ -122,66 +127,83 @@ fn length(range: Interval) -> Enclosure {
 }
 
 impl ProvedCells {
-    /// The cells of a raster, from `strips` strips of each column. `progress` is as for [`proved_strips`].
-    ///
-    /// # Errors
-    /// Those of [`proved_strips`].
-    pub fn new(
-        grid: Grid,
-        strips: usize,
-        progress: impl Fn(usize) -> ControlFlow<()> + Sync,
-    ) -> Result<Self, Error> {
-        let strips = strips.max(1);
-        ProvedCells::of_strips(grid, proved_strips(&grid, strips, 0..grid.columns, progress)?)
-    }
-
-    /// The cells of a raster from all its strips, as [`proved_strips`] gives them.
-    ///
-    /// # Errors
-    /// [`Error::Strips`] if the strips are not those of the raster.
-    pub fn of_strips(grid: Grid, strips: Vec<ProvedStrip>) -> Result<Self, Error> {
-        let of_column = (strips.len() / grid.columns.max(1)).max(1);
-        let wanted = mass_ratios(&grid, of_column)?;
-        if !strips.iter().map(|(own, _)| own).eq(&wanted) {
-            return Err(Error::Strips { found: strips.len(), needed: wanted.len() });
-        }
-        let rows = edges(grid.y, grid.rows)?;
-        let mut areas = Areas::default();
-        let mut cells = vec![None; grid.columns * grid.rows];
-        for (at, strip) in strips.iter().enumerate() {
-            areas.add_strip(strip, grid.y);
-            for (row, ends) in rows.windows(2).enumerate() {
-                let cell = &mut cells[row * grid.columns + at / of_column];
-                *cell = Some(with_strip(*cell, strip.1.cell(ends[0], ends[1])));
-            }
-        }
-        let cells = cells.into_iter().map(|cell| cell.unwrap_or(Cell::Open)).collect();
-        let areas = areas.shares(length(grid.x) * length(grid.y));
-        Ok(ProvedCells { grid, cells, areas, strips })
-    }
-
-    /// The share of each cell that is proved of each basin, in rows as the cells are.
+    /// A raster of which nothing is proved yet, with `strips` strips of each column.
     ///
     /// # Errors
     /// [`Error::Basin`] for a raster without rows.
-    pub fn shares(&self) -> Result<Vec<Vec<(Label, f64)>>, Error> {
+    pub fn new(grid: Grid, strips: usize) -> Result<Self, Error> {
+        Ok(ProvedCells {
+            edges: edges(grid.y, grid.rows)?,
+            cells: vec![Cell::Open; grid.columns * grid.rows],
+            columns_added: 0,
+            areas: Areas::default(),
+            grid,
+            strips,
+        })
+    }
+
+    /// Adds the next column, from its strips as [`proved_strips`] gives them: the proved shares of its cells, from the lowest speeds up.
+    ///
+    /// # Errors
+    /// [`Error::Columns`] if all columns are there; [`Error::Strips`] if the strips are not those of the next one.
+    pub fn add_column(&mut self, strips: &[ProvedStrip]) -> Result<Vec<CellShares>, Error> {
         let Grid { columns, rows, y, .. } = self.grid;
-        let of_column = self.strips.len() / columns.max(1);
-        let mut shares = vec![Areas::default(); columns * rows];
-        for (at, (_, line)) in self.strips.iter().enumerate() {
-            let found = PixelShares::of_intervals(line.intervals(), y, rows)
+        let column = self.columns_added;
+        let wanted = mass_ratios(&self.grid, self.strips, column..column + 1)?;
+        if !strips.iter().map(|(own, _)| own).eq(&wanted) {
+            return Err(Error::Strips { column, found: strips.len(), needed: wanted.len() });
+        }
+        let mut cells = vec![None; rows];
+        let mut shares = vec![Areas::default(); rows];
+        for strip in strips {
+            self.areas.add_strip(strip, y);
+            let found = PixelShares::of_intervals(strip.1.intervals(), y, rows)
                 .map_err(hopper_basin::Error::from)?;
-            for row in 0..rows {
-                let cell = &mut shares[row * columns + at / of_column];
+            for (row, ends) in self.edges.windows(2).enumerate() {
+                cells[row] = Some(with_strip(cells[row], strip.1.cell(ends[0], ends[1])));
                 for &label in found.labels() {
-                    let share = found.of(label, row).lower / of_column as f64;
+                    let share = found.of(label, row).lower / strips.len() as f64;
                     if share > 0.0 {
-                        cell.add(label, Enclosure::new(share, share));
+                        shares[row].add(label, Enclosure::new(share, share));
                     }
                 }
             }
         }
+        for (row, cell) in cells.into_iter().enumerate() {
+            self.cells[row * columns + column] = cell.unwrap_or(Cell::Open);
+        }
+        self.columns_added += 1;
         Ok(shares.into_iter().map(|cell| cell.0).collect())
+    }
+
+    /// The raster.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// The strips of each column.
+    pub fn strips(&self) -> usize {
+        self.strips
+    }
+
+    /// The edges of the rows, from the lowest speeds up.
+    pub fn edges(&self) -> &[f64] {
+        &self.edges
+    }
+
+    /// The columns that were added.
+    pub fn columns_added(&self) -> usize {
+        self.columns_added
+    }
+
+    /// The cells in rows, from the lowest speeds up.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// The share of the window's area that each basin has, in the order of the labels.
+    pub fn areas(&self) -> Vec<(Label, Enclosure)> {
+        self.areas.shares(length(self.grid.x) * length(self.grid.y))
     }
 
     /// The share of the cells that are open or cut.
@@ -198,6 +220,6 @@ impl ProvedCells {
 
     /// The share of the window's area in which no basin is proved.
     pub fn open_area(&self) -> f64 {
-        self.areas.first().map_or(1.0, |(_, share)| share.width())
+        self.areas().first().map_or(1.0, |(_, share)| share.width())
     }
 }

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::fixed_points::fixed_point;
 use crate::hop::hop_enclosure::{HopEnclosure, Part};
 use crate::hop::strip::Strip;
+use crate::theorems::digits::{at_least, at_most};
 use crate::theorems::theorem::Theorem;
 use crate::traps::Touch;
 use hopper_basin::rising_window;
@@ -59,7 +60,7 @@ pub fn everything_hops() -> Result<Theorem, Error> {
         }
         theorem.step(
             format!("F ≥ α*_1² on the contact part of hump {n} at μ_c(1)"),
-            format!("F ≥ {least:.4}, α*_1² ≤ {:.4}", star.high),
+            format!("F ≥ {}, α*_1² ≤ {}", at_least(least, 4), at_most(star.high, 4)),
             least >= star.high,
         );
         let proved = rising_window(n).map_or(0.0, |window| window.largest_mass_ratio);
@@ -83,7 +84,7 @@ pub fn everything_hops() -> Result<Theorem, Error> {
     let left = strip.mu * losses + star;
     theorem.step(
         "μ_c [(R₁+B₁)² + (R₂+B₂)²] + α*_1² ≤ α² at α = 9π",
-        format!("{:.2} ≤ {:.2}", left.high, alpha.squared().low),
+        format!("{} ≤ {}", at_most(left.high, 2), at_least(alpha.squared().low, 2)),
         left.high <= alpha.squared().low,
     );
     theorem.evidence.push(Evidence::Losses {

@@ -1,10 +1,13 @@
 //! The fractions of the basins at one mass ratio.
 
-use crate::certificate::{BasinInterval, Evidence};
+use crate::certificate::{BasinGap, BasinInterval, Evidence};
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
+use crate::hop::proved_images::ProvedImages;
 use crate::hop::strip::Strip;
+use crate::lengths::BasinLengths;
 use crate::line::ProvedLine;
+use crate::theorems::digits::{at_least, at_most};
 use crate::theorems::theorem::Theorem;
 use basin_of_attraction::{Interval, Label};
 use hopper_basin::HopperFate;
@@ -17,9 +20,18 @@ const HUMPS: u64 = 5;
 const PARTS: usize = 64;
 const SPEEDS: usize = 1_000_000;
 
-/// The share that a sweep may leave open of a part, over the width that is asked for. With a larger one the width is missed; with a smaller
-/// one a sweep takes longer.
-const FINER: f64 = 0.1;
+/// The share that a sweep may leave open of a part, over the root of the width that is asked for, and at most. What is unknown of the gaps is of the
+/// size of their square. With a larger one the gaps, with a smaller one the sweep takes the time.
+const OPEN: f64 = 20.0;
+const MOST_OPEN: f64 = 0.1;
+
+/// The length next to a fixed point that is not divided further, and the unknown length of a gap that is not either, over the width that is asked for.
+/// With larger ones the width is missed; with smaller ones it takes longer.
+const SHORTEST: f64 = 3e-3;
+const UNKNOWN: f64 = 5e-5;
+
+/// Digits of a fraction that are printed: more than the narrowest one has.
+const DIGITS: usize = 12;
 
 /// The share of a basin among the lift-off speeds of humps 1 to 5, enclosed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,18 +55,12 @@ pub struct ProvedFractions {
     pub width: f64,
     /// The basins.
     pub intervals: Vec<BasinInterval>,
+    /// What each basin has at least of the gaps between the intervals.
+    pub gaps: Vec<BasinGap>,
 }
 
-/// The length of a basin between two speeds, from below.
-fn length_of(line: &ProvedLine, label: Label, within: Interval) -> Enclosure {
-    let mut sum = Enclosure::ZERO;
-    for (own, _) in line.intervals().iter().filter(|(_, other)| *other == label) {
-        let (left, right) = (own.left.max(within.left), own.right.min(within.right));
-        if left < right {
-            sum = sum + (Enclosure::new(right, right) - Enclosure::new(left, left));
-        }
-    }
-    sum
+fn point(value: f64) -> Enclosure {
+    Enclosure::new(value, value)
 }
 
 impl ProvedFractions {
@@ -63,56 +69,54 @@ impl ProvedFractions {
     /// # Errors
     /// [`Error::MassRatios`] for a wrong mass ratio; [`Error::Share`] unless `width` is above 0 and below 1.
     pub fn new(mass_ratio: f64, width: f64) -> Result<Self, Error> {
+        if !(width > 0.0 && width < 1.0) {
+            return Err(Error::Share { open: width, parts: PARTS });
+        }
         let strip = Strip::at(mass_ratio)?;
         let stars: Vec<Enclosure> = (1..=HUMPS + 1).map(fixed_point).collect();
-        let ends = stars.windows(2).map(|pair| Interval { left: pair[0].high, right: pair[1].low });
-        let humps: Vec<Interval> = ends.collect();
-        let window = Interval { left: humps[0].left, right: humps[humps.len() - 1].right };
-        let line = ProvedLine::new(strip, window, PARTS, FINER * width, SPEEDS)?;
+        let window = Interval { left: stars[0].high, right: stars[stars.len() - 1].low };
+        let open = (OPEN * width.sqrt()).min(MOST_OPEN);
+        let shortest = SHORTEST * width;
+        let line = ProvedLine::finer_at_fixed_points(strip, window, PARTS, open, SPEEDS, shortest)?;
         let basins = (0..=HUMPS).map(HopperFate::label_of_fixed_point);
-        let mut labels: Vec<Label> = basins.collect();
-        labels.push(HopperFate::GROUNDED);
-        // The lengths of the humps, and what each basin has of it for certain: lower bounds. All together are at most the whole.
-        let whole: Vec<Enclosure> = stars.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let lower: Vec<Vec<f64>> = labels
-            .iter()
-            .map(|&label| {
-                humps.iter().map(|&hump| length_of(&line, label, hump).low.max(0.0)).collect()
-            })
-            .collect();
-        let open = |hump: usize| {
-            let known = lower
-                .iter()
-                .fold(Enclosure::ZERO, |sum, of| sum + Enclosure::new(of[hump], of[hump]));
-            (whole[hump] - known).high.max(0.0)
+        let labels: Vec<Label> = basins.chain([HopperFate::GROUNDED]).collect();
+        let images = ProvedImages::new(strip, window.right)?;
+        let lengths = BasinLengths::new(&line, &images, &labels, UNKNOWN * width);
+        let known = |hump: &[Enclosure]| lengths.between(hump[0].high, hump[1].low);
+        let at_least: Vec<Vec<f64>> = stars.windows(2).map(known).collect();
+        let humps: Vec<Enclosure> = stars.windows(2).map(|hump| hump[1] - hump[0]).collect();
+        let whole = stars[stars.len() - 1] - stars[0];
+        // All together have a hump: each has at most what the others leave.
+        let open = |(known, hump): (&Vec<f64>, &Enclosure)| {
+            let sum = known.iter().fold(Enclosure::ZERO, |sum, &own| sum + point(own));
+            (*hump - sum).high.max(0.0)
         };
-        let open: Vec<f64> = (0..humps.len()).map(open).collect();
-        let total = whole.iter().fold(Enclosure::ZERO, |sum, &length| sum + length);
-        let fraction = |(&label, lower): (&Label, &Vec<f64>)| {
-            let length = |hump: usize| {
-                Enclosure::new(
-                    lower[hump],
-                    (Enclosure::new(lower[hump], lower[hump]) + open[hump]).high,
-                )
-            };
-            let sum = (0..lower.len()).fold(Enclosure::ZERO, |sum, hump| sum + length(hump));
-            let shares = (0..lower.len())
-                .fold(Enclosure::ZERO, |sum, hump| sum + length(hump) / whole[hump]);
-            // A share is between 0 and 1; only rounding leads beyond.
-            let share = |found: Enclosure| Enclosure::new(found.low.max(0.0), found.high.min(1.0));
-            ProvedFraction {
-                label,
-                uniform: share(sum / total),
-                by_humps: share(shares / lower.len() as f64),
+        let open: Vec<f64> = at_least.iter().zip(&humps).map(open).collect();
+        // A share is between 0 and 1; only rounding leads beyond.
+        let share = |found: Enclosure| Enclosure::new(found.low.max(0.0), found.high.min(1.0));
+        let fraction = |(basin, &label): (usize, &Label)| {
+            let (mut uniform, mut by_humps) = (Enclosure::ZERO, Enclosure::ZERO);
+            for ((known, &hump), &open) in at_least.iter().zip(&humps).zip(&open) {
+                let own = point(known[basin]) + Enclosure::new(0.0, open);
+                uniform = uniform + own;
+                by_humps = by_humps + own / hump;
             }
+            let (uniform, by_humps) = (share(uniform / whole), share(by_humps / HUMPS as f64));
+            ProvedFraction { label, uniform, by_humps }
         };
-        let fractions: Vec<ProvedFraction> = labels.iter().zip(&lower).map(fraction).collect();
+        let fractions: Vec<ProvedFraction> = labels.iter().enumerate().map(fraction).collect();
         let width = fractions
             .iter()
             .map(|found| found.uniform.width().max(found.by_humps.width()))
             .fold(0.0, f64::max);
-        Ok(ProvedFractions { mass_ratio, fractions, width, intervals: line.into_intervals() })
+        let gaps = lengths.into_gaps();
+        Ok(ProvedFractions { mass_ratio, fractions, width, intervals: line.into_intervals(), gaps })
     }
+}
+
+/// An interval with the digits of a fraction.
+fn digits(share: Enclosure) -> String {
+    format!("[{}, {}]", at_least(share.low, DIGITS), at_most(share.high, DIGITS))
 }
 
 /// The fractions at some mass ratios, each to a width of its own.
@@ -128,6 +132,7 @@ pub fn measures(cases: &[(f64, f64)]) -> Result<Theorem, Error> {
         let found = ProvedFractions::new(mass_ratio, width)?;
         let mass_ratios = Interval { left: mass_ratio, right: mass_ratio };
         theorem.evidence.push(Evidence::Basins { mass_ratios, intervals: found.intervals });
+        theorem.evidence.push(Evidence::Gaps(found.gaps));
         for ProvedFraction { label, uniform, by_humps } in &found.fractions {
             theorem.evidence.push(Evidence::Fraction {
                 label: *label,
@@ -137,10 +142,7 @@ pub fn measures(cases: &[(f64, f64)]) -> Result<Theorem, Error> {
             });
             theorem.step(
                 format!("M = {mass_ratio}, {}: to {width:e}", HopperFate::label_name(*label)),
-                format!(
-                    "uniform in [{:.12}, {:.12}], by humps in [{:.12}, {:.12}]",
-                    uniform.low, uniform.high, by_humps.low, by_humps.high
-                ),
+                format!("uniform in {}, by humps in {}", digits(*uniform), digits(*by_humps)),
                 uniform.width() <= width && by_humps.width() <= width,
             );
         }

@@ -2,6 +2,7 @@
 //!
 //! ```text
 //!   theorem.rs          a statement with the steps of its proof
+//!   digits.rs           bounds as they are printed
 //!   one_sudden.rs       at most one sudden lift-off for M ≤ 0.9056…
 //!   one_sided.rs        α*_n attracts from the right and repels to the left
 //!   crisis.rs           the mass ratios at which traps reach through their humps
@@ -16,6 +17,7 @@
 
 pub(crate) mod cells;
 pub(crate) mod crisis;
+pub(crate) mod digits;
 pub(crate) mod everything_hops;
 pub(crate) mod measures;
 pub(crate) mod one_sided;

@@ -2,6 +2,7 @@
 
 use crate::certificate::Evidence;
 use crate::fixed_points::fixed_point;
+use crate::theorems::digits::at_least;
 use crate::theorems::theorem::Theorem;
 use interval_arithmetic::Enclosure;
 
@@ -15,8 +16,8 @@ pub fn one_sudden() -> Theorem {
     let mut theorem = Theorem::new(
         "one-sudden",
         format!(
-            "For every M ≤ {:.15} and every lift-off speed a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).",
-            largest.low
+            "For every M ≤ {} and every lift-off speed a hop has at most one sudden lift-off (docs/theory.md, Theorem 20).",
+            at_least(largest.low, 15)
         ),
     );
     // 1 − 2κ = (1 − M)/(1 + M) is 1/a² at M₁.

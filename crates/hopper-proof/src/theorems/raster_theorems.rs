@@ -6,8 +6,9 @@ use crate::error::Error;
 use crate::hop::strip::Strip;
 use crate::line::traps_up_to;
 use crate::theorems::cells::ProvedCells;
+use crate::theorems::digits::{at_least, at_most};
 use crate::theorems::theorem::Theorem;
-use basin_of_attraction::{Grid, LabelImage, PixelShares};
+use basin_of_attraction::{Grid, LabelImage};
 use hopper_basin::HopperFate;
 
 /// A window in words.
@@ -46,7 +47,7 @@ pub fn points_theorem(
     theorem.step(
         "the raster of the library has the same labels",
         format!("{other} differ"),
-        other == 0,
+        other == 0 && computed.grid == proved.grid && computed.labels.len() == proved.labels.len(),
     );
     let grid = proved.grid;
     theorem.evidence.push(Evidence::Grid(grid));
@@ -64,19 +65,24 @@ pub fn points_theorem(
 /// `open` of the area is open.
 ///
 /// # Errors
-/// [`Error::Raster`] for a raster without rows.
-pub fn cells_theorem(name: &'static str, found: ProvedCells, open: f64) -> Result<Theorem, Error> {
+/// [`Error::Columns`] unless all columns of the raster were added.
+pub fn cells_theorem(name: &'static str, found: &ProvedCells, open: f64) -> Result<Theorem, Error> {
+    let grid = *found.grid();
+    if found.columns_added() < grid.columns {
+        return Err(Error::Columns { wanted: found.columns_added(), all: grid.columns });
+    }
+    let areas = found.areas();
     let mut theorem = Theorem::new(
         name,
         format!(
             "All mass ratios and all speeds of a cell that is called a basin's have its fate, and the area of each basin is between the bounds below: {}.",
-            window(&found.grid)
+            window(&grid)
         ),
     );
-    for (label, share) in &found.areas {
+    for (label, share) in &areas {
         theorem.step(
             format!("the area: {}", HopperFate::label_name(*label)),
-            format!("{:.4} to {:.4} of the window", share.low, share.high),
+            format!("{} to {} of the window", at_least(share.low, 4), at_most(share.high, 4)),
             share.low >= 0.0,
         );
     }
@@ -84,24 +90,19 @@ pub fn cells_theorem(name: &'static str, found: ProvedCells, open: f64) -> Resul
     theorem.step(
         format!("at most {open} of the area is open"),
         format!(
-            "open area {area:.4}; cells that are open {:.4}, or open or cut by a boundary {:.4}",
+            "open area {}; cells that are open {:.4}, or open or cut by a boundary {:.4}",
+            at_most(area, 4),
             found.open_cells(),
             found.undecided_cells()
         ),
         area <= open,
     );
-    let grid = found.grid;
     theorem.evidence.push(Evidence::Grid(grid));
-    let edges = PixelShares::edges(grid.y, grid.rows).map_err(hopper_basin::Error::from)?;
-    let of_one_basin = found.cells.iter().filter(|cell| matches!(cell, Cell::Basin(_))).count();
-    theorem.evidence.push(Evidence::Cells { edges, of_one_basin });
-    let strips = found.strips.into_iter();
-    let lines = strips.map(|(mass_ratios, line)| Evidence::Basins {
-        mass_ratios,
-        intervals: line.into_intervals(),
-    });
-    theorem.evidence.extend(lines);
-    let areas = found.areas.into_iter();
-    theorem.evidence.extend(areas.map(|(label, share)| Evidence::Area { label, share }));
+    let of_one_basin = found.cells().iter().filter(|cell| matches!(cell, Cell::Basin(_))).count();
+    theorem.evidence.push(Evidence::Cells { edges: found.edges().to_vec(), of_one_basin });
+    theorem.evidence.push(Evidence::Strips(grid.columns * found.strips()));
+    theorem
+        .evidence
+        .extend(areas.into_iter().map(|(label, share)| Evidence::Area { label, share }));
     Ok(theorem)
 }
