@@ -138,7 +138,8 @@ impl Attractors {
     ///
     /// # Errors
     /// [`Error::BadStateGrid`] for a grid without cells, of more than ten dimensions, or with more than 2⁶⁴ cells;
-    /// [`Error::WrongDimension`] for a start of another dimension than the region; [`Error::TooManyAttractors`] beyond 65 000.
+    /// [`Error::BadSearch`] for a distance of escape that is not positive and finite; [`Error::WrongDimension`] for a start of another
+    /// dimension than the region; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
         region: Hyperrectangle,
@@ -146,6 +147,10 @@ impl Attractors {
         limits: RecurrenceLimits,
     ) -> Result<Attractors, Error> {
         let grid = StateGrid::new(region, limits.cells)?;
+        if let Some(value) = limits.escape.filter(|escape| !(*escape > 0.0 && escape.is_finite())) {
+            let (name, remedy) = ("a distance of escape", "; give none if there is none");
+            return Err(Error::BadSearch { name, value, remedy });
+        }
         let mut found = Attractors { grid, limits, attractors: Vec::new(), unmatched: Vec::new() };
         for start in starts {
             let (expected, dimension) = (found.grid.dimension(), start.len());

@@ -126,6 +126,11 @@ fn points_without_a_value_and_of_another_dimension_are_reported() {
     assert_eq!(found.label(&stops, &[0.5]), Label::UNDECIDED_MAP);
     let found = Attractors::search(&away, line.clone(), &[vec![0.5]], limits).unwrap();
     assert_eq!(found.unmatched()[0].reason, UnmatchedReason::LeftRegion);
-    let error = Attractors::search(&away, line, &[vec![0.5, 0.5]], limits).unwrap_err();
+    let error = Attractors::search(&away, line.clone(), &[vec![0.5, 0.5]], limits).unwrap_err();
     assert_eq!(error, Error::WrongDimension { dimension: 2, expected: 1 });
+    for escape in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        let limits = RecurrenceLimits { escape: Some(escape), ..limits };
+        let error = Attractors::search(&away, line.clone(), &[vec![0.5]], limits).unwrap_err();
+        assert!(matches!(error, Error::BadSearch { .. }), "{escape}: {error}");
+    }
 }

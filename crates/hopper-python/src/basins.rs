@@ -3,6 +3,7 @@
 use crate::arrays::shaped;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background, progress_function};
+use crate::whole::{two_whole, whole};
 use basin_of_attraction::{Grid, Interval, Label, Refinement, columns_in_parallel};
 use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, basin_columns};
 use passive_hopper::MassRatio;
@@ -43,18 +44,19 @@ type Labels<'py> = (Bound<'py, PyAny>, Bound<'py, PyAny>, Bound<'py, PyAny>);
 /// unless given. `progress(done, all)` is called with the number of finished columns, some times a second and at the end;
 /// `progress=True` shows a bar of tqdm. Ctrl-C ends the computation.
 #[pyfunction]
-#[pyo3(signature = (M = (0.1, 1.0), alpha = None, shape = (512, 512), progress = None))]
+#[pyo3(signature = (M = [0.1, 1.0], alpha = None, shape = [512, 512], progress = None),
+       text_signature = "(M=(0.1, 1.0), alpha=None, shape=(512, 512), progress=None)")]
 #[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
 pub(crate) fn basin_labels<'py>(
     py: Python<'py>,
-    M: (f64, f64),
-    alpha: Option<(f64, f64)>,
-    shape: (usize, usize),
+    M: [f64; 2],
+    alpha: Option<[f64; 2]>,
+    #[pyo3(from_py_with = two_whole)] shape: [usize; 2],
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Labels<'py>> {
     let alpha = alpha.unwrap_or_else(first_window);
-    let (ratios, speeds) = pixel_middles(py, (M, alpha), shape)?;
-    let labels = basin_region(py, M, alpha, shape, (0, shape.0), None, progress)?;
+    let (ratios, speeds) = pixel_middles(py, [M, alpha], shape)?;
+    let labels = basin_region(py, M, alpha, shape, [0, shape[0]], None, progress)?;
     Ok((ratios, speeds, labels))
 }
 
@@ -65,15 +67,15 @@ pub(crate) fn basin_labels<'py>(
 #[expect(non_snake_case, reason = "M is the mass ratio in the paper and in Python")]
 pub(crate) fn basin_region<'py>(
     py: Python<'py>,
-    M: (f64, f64),
-    alpha: (f64, f64),
-    shape: (usize, usize),
-    columns: (usize, usize),
+    M: [f64; 2],
+    alpha: [f64; 2],
+    #[pyo3(from_py_with = two_whole)] shape: [usize; 2],
+    #[pyo3(from_py_with = two_whole)] columns: [usize; 2],
     threads: Option<usize>,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let grid = grid_of((M, alpha), shape)?;
-    let (begin, end) = columns;
+    let grid = grid_of([M, alpha], shape)?;
+    let [begin, end] = columns;
     if !(begin < end && end <= grid.columns) {
         return Err(value_error(format!(
             "columns {begin} to {end} are no part of a raster of {} columns",
@@ -92,22 +94,22 @@ pub(crate) fn basin_region<'py>(
         Some(progress) => progress.call1((done, end - begin)).map(drop),
         None => Ok(()),
     })?;
-    shaped(py, codes, &[end - begin, shape.1])
+    shaped(py, codes, &[end - begin, shape[1]])
 }
 
 /// The window of speeds of the paper, from α*_1 to α*_6.
 #[pyfunction]
-pub(crate) fn first_window() -> (f64, f64) {
+pub(crate) fn first_window() -> [f64; 2] {
     let speeds = hopper_basin::first_humps(5);
-    (speeds.left, speeds.right)
+    [speeds.left, speeds.right]
 }
 
-type Window = ((f64, f64), (f64, f64));
+type Window = [[f64; 2]; 2];
 
-fn grid_of(((left, right), (bottom, top)): Window, shape: (usize, usize)) -> PyResult<Grid> {
+fn grid_of([[left, right], [bottom, top]]: Window, [columns, rows]: [usize; 2]) -> PyResult<Grid> {
     let x = Interval::new(left, right).map_err(value_error)?;
     let y = Interval::new(bottom, top).map_err(value_error)?;
-    let grid = Grid { x, y, columns: shape.0, rows: shape.1 };
+    let grid = Grid { x, y, columns, rows };
     grid.pixels().map_err(value_error)?;
     Ok(grid)
 }
@@ -117,7 +119,7 @@ fn grid_of(((left, right), (bottom, top)): Window, shape: (usize, usize)) -> PyR
 pub(crate) fn pixel_middles<'py>(
     py: Python<'py>,
     window: Window,
-    shape: (usize, usize),
+    #[pyo3(from_py_with = two_whole)] shape: [usize; 2],
 ) -> PyResult<Middles<'py>> {
     let grid = grid_of(window, shape)?;
     let across = (0..grid.columns).map(|column| grid.x_at(column)).collect();
@@ -205,7 +207,7 @@ impl IntervalBasins {
     }
 
     /// Bounds on the fraction of the window that has this label. They hold as the labels do: see `ground`.
-    fn fraction(&self, label: u16) -> Bounds {
+    fn fraction(&self, #[pyo3(from_py_with = whole)] label: u16) -> Bounds {
         let basins = &self.found.basins;
         let bounds = basins.basin_length(Label::from_code(label));
         let length = basins.window().length();
@@ -257,15 +259,16 @@ impl IntervalBasins {
 /// Bounds(lower=0.04629701149302055, upper=0.04629728650815918)
 #[pyfunction]
 #[pyo3(signature = (mass_ratio, first = 1, last = 6, undecided = 1e-6, shortest = 1e-12, samples = 400, most = 100_000))]
+#[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
 pub(crate) fn interval_basins(
     py: Python<'_>,
     mass_ratio: f64,
-    first: u64,
-    last: u64,
+    #[pyo3(from_py_with = whole)] first: u64,
+    #[pyo3(from_py_with = whole)] last: u64,
     undecided: f64,
     shortest: f64,
-    samples: usize,
-    most: usize,
+    #[pyo3(from_py_with = whole)] samples: usize,
+    #[pyo3(from_py_with = whole)] most: usize,
 ) -> PyResult<IntervalBasins> {
     let refinement = Refinement { undecided, shortest, intervals: most, ..Refinement::default() };
     let work = move |_: &Watch| {
@@ -282,9 +285,9 @@ pub(crate) fn interval_basins(
 pub(crate) fn fractions(
     py: Python<'_>,
     mass_ratio: f64,
-    first: u64,
-    last: u64,
-    points: usize,
+    #[pyo3(from_py_with = whole)] first: u64,
+    #[pyo3(from_py_with = whole)] last: u64,
+    #[pyo3(from_py_with = whole)] points: usize,
 ) -> PyResult<BTreeMap<String, f64>> {
     let work = move |_: &Watch| {
         hopper_basin::basin_fractions(MassRatio::new(mass_ratio)?, first, last, points)

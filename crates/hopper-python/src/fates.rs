@@ -2,6 +2,7 @@
 
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background};
+use crate::whole::whole;
 use basin_of_attraction::Label;
 use hopper_basin::{Fates, HOP_BUDGET, HopperFate};
 use pyo3::prelude::*;
@@ -53,12 +54,12 @@ impl Fate {
 /// >>> label_name(0)
 /// 'decaying'
 #[pyfunction]
-pub(crate) fn label_name(label: u16) -> String {
+pub(crate) fn label_name(#[pyo3(from_py_with = whole)] label: u16) -> String {
     HopperFate::label_name(Label::from_code(label))
 }
 
 /// The colour of a label in the figures, as CSS.
 #[pyfunction]
-pub(crate) fn label_colour(label: u16) -> &'static str {
+pub(crate) fn label_colour(#[pyo3(from_py_with = whole)] label: u16) -> &'static str {
     hopper_figures::fate_colors::css(Label::from_code(label))
 }

@@ -1,10 +1,13 @@
 //! Fixed points, traps and crises.
 
 use crate::errors::value_error;
+use crate::whole::whole;
 use hopper_basin::TrapEdge;
 use passive_hopper::MassRatio;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+
+/// Fixed points between two looks for Ctrl-C: a millisecond.
+const LOOK: usize = 1 << 12;
 
 /// The trap [α*_n, α*_n + Δ]: every orbit in it converges to α*_n.
 #[pyclass(frozen, eq, module = "passive_hopper")]
@@ -84,7 +87,7 @@ impl Crisis {
     }
 }
 
-/// α*_n, the n-th solution of tan α* = α*, in units of m₂gω/k: a float for an int, a list for a sequence of ints.
+/// α*_n, the n-th solution of tan α* = α*, in units of m₂gω/k: a float for an int, an array for a sequence of ints.
 ///
 /// >>> from passive_hopper import alpha_star
 /// >>> alpha_star(1)
@@ -94,23 +97,27 @@ pub(crate) fn alpha_star<'py>(
     py: Python<'py>,
     n: &Bound<'py, PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let star = |n: i64| match u64::try_from(n) {
-        Ok(n) => Ok(passive_hopper::alpha_star(n)),
-        Err(_) => {
-            Err(PyValueError::new_err(format!("the index of a fixed point is not negative: {n}")))
-        }
+    let star = |n: &Bound<'py, PyAny>| whole(n).map(passive_hopper::alpha_star);
+    let indices = match (star(n), n.try_iter()) {
+        (Ok(star), _) => return Ok(star.into_pyobject(py)?.into_any()),
+        (Err(_), Ok(indices)) => indices,
+        (Err(error), Err(_)) => return Err(error),
     };
-    if let Ok(n) = n.extract::<i64>() {
-        return Ok(star(n)?.into_pyobject(py)?.into_any());
+    let mut stars = Vec::new();
+    for n in indices {
+        // A range may be long.
+        if stars.len().is_multiple_of(LOOK) {
+            py.check_signals()?;
+        }
+        stars.push(star(&n?)?);
     }
-    let stars = n.try_iter()?.map(|n| star(n?.extract()?)).collect::<PyResult<Vec<f64>>>()?;
     let count = stars.len();
     crate::arrays::shaped(py, stars, &[count])
 }
 
 /// The trap of α*_n.
 #[pyfunction]
-pub(crate) fn trap(n: u64, mass_ratio: f64) -> PyResult<Trap> {
+pub(crate) fn trap(#[pyo3(from_py_with = whole)] n: u64, mass_ratio: f64) -> PyResult<Trap> {
     let ratio = MassRatio::new(mass_ratio).map_err(value_error)?;
     hopper_basin::Trap::new(n, ratio).map(|trap| Trap { trap }).map_err(value_error)
 }
@@ -123,12 +130,12 @@ impl From<hopper_basin::Crisis> for Crisis {
 
 /// The mass ratio from which orbits of hump n fall below α*_n.
 #[pyfunction]
-pub(crate) fn crisis(n: u64) -> PyResult<Crisis> {
+pub(crate) fn crisis(#[pyo3(from_py_with = whole)] n: u64) -> PyResult<Crisis> {
     hopper_basin::crisis(n).map(Crisis::from).map_err(value_error)
 }
 
 /// The mass ratio from which orbits of hump n are grounded.
 #[pyfunction]
-pub(crate) fn grounding(n: u64) -> PyResult<Crisis> {
+pub(crate) fn grounding(#[pyo3(from_py_with = whole)] n: u64) -> PyResult<Crisis> {
     hopper_basin::grounding(n).map(Crisis::from).map_err(value_error)
 }

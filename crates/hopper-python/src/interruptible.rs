@@ -5,24 +5,47 @@ use pyo3::prelude::*;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Time between two looks for Ctrl-C, and between two reports of progress. More looks would cost more than they give; fewer would
 /// let a person wait.
 const LOOK: Duration = Duration::from_millis(25);
 
-/// Calls `piece` for 0, 1, … below `count`, without the interpreter's lock. Each piece takes some milliseconds.
-pub(crate) fn pieces<E: Send>(
-    py: Python<'_>,
-    count: usize,
-    mut piece: impl FnMut(usize) -> Result<(), E> + Send,
-    error: impl Fn(E) -> PyErr,
-) -> PyResult<()> {
-    for k in 0..count {
-        py.check_signals()?;
-        py.detach(|| piece(k)).map_err(&error)?;
+/// The number of hops between two looks for Ctrl-C.
+///
+/// A hop takes from 9 ns to some milliseconds, by the arithmetic that decides it, and neighbours take about the same: a piece is made longer if
+/// the one before was short, and shorter if it took long.
+pub(crate) struct Pace {
+    hops: usize,
+    begun: Option<Instant>,
+}
+
+impl Pace {
+    /// Hops of the first piece: 40 ms, if each takes the 160 µs of a hop at α = 10¹².
+    const FIRST: usize = 1 << 8;
+    /// Hops of the longest piece: a tenth of a millisecond, by the kernel.
+    pub(crate) const LONGEST: usize = 1 << 13;
+    /// A piece that takes less is followed by a longer one.
+    const SHORT: Duration = Duration::from_millis(1);
+    /// A piece that takes more is followed by a shorter one.
+    const LONG: Duration = Duration::from_millis(10);
+
+    pub(crate) fn new() -> Self {
+        Pace { hops: Pace::FIRST, begun: None }
     }
-    py.check_signals()
+
+    /// Looks for Ctrl-C, and gives the number of hops of the next piece.
+    pub(crate) fn next(&mut self, py: Python<'_>) -> PyResult<usize> {
+        py.check_signals()?;
+        let now = Instant::now();
+        match self.begun.map(|begun| now - begun) {
+            Some(taken) if taken < Pace::SHORT => self.hops = (2 * self.hops).min(Pace::LONGEST),
+            Some(taken) if taken > Pace::LONG => self.hops = (self.hops / 8).max(1),
+            _ => {}
+        }
+        self.begun = Some(now);
+        Ok(self.hops)
+    }
 }
 
 /// The function of (done, all) that an argument `progress` of a user asks for.

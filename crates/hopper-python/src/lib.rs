@@ -11,6 +11,7 @@ mod interruptible;
 mod labelling;
 mod map;
 mod motion;
+mod whole;
 
 use pyo3::prelude::*;
 

@@ -4,13 +4,14 @@ use crate::arrays::{Numbers, Source, like, scalar, shaped};
 use crate::errors::{map_error, value_error};
 use crate::fates::Fate;
 use crate::hop::Hop;
-use crate::interruptible::{Watch, in_background, pieces};
+use crate::interruptible::{Pace, Watch, in_background};
+use crate::whole::whole;
 use hopper_basin::Fates;
 use passive_hopper::{HopStatus, MassRatio};
 use pyo3::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Speeds between two looks for Ctrl-C: a tenth of a millisecond, and some milliseconds where all of them need longer arithmetic.
+/// Speeds of a piece of labels, after which a call that is no longer wanted ends in the background.
 const PIECE: usize = 1 << 13;
 
 /// The map α′ = f(α; M) from one gradual lift-off speed to the next.
@@ -38,6 +39,11 @@ impl LiftOffMap {
     fn new(mass_ratio: f64) -> PyResult<Self> {
         let ratio = MassRatio::new(mass_ratio).map_err(map_error)?;
         Ok(LiftOffMap { map: passive_hopper::LiftOffMap::new(ratio), fates: OnceLock::new() })
+    }
+
+    /// For pickle and copy: a worker of a cluster gets the mass ratio alone.
+    fn __getnewargs__(&self) -> (f64,) {
+        (self.mass_ratio(),)
     }
 
     /// M = m₂/m₁.
@@ -77,10 +83,11 @@ impl LiftOffMap {
         let count = shape.iter().product();
         let mut images = vec![0.0; count];
         let mut all = vec![HopStatus::NoSpeed; if status { count } else { 0 }];
-        let mut piece = Vec::with_capacity(PIECE.min(count));
-        for start in (0..count).step_by(PIECE) {
-            py.check_signals()?;
-            let range = start..(start + PIECE).min(count);
+        let mut piece = Vec::with_capacity(Pace::LONGEST.min(count));
+        let (mut pace, mut done) = (Pace::new(), 0);
+        while done < count {
+            let range = done..(done + pace.next(py)?).min(count);
+            done = range.end;
             speeds.copy(range.clone(), &mut piece)?;
             let (from, to) = (&piece, &mut images[range.clone()]);
             let status = all.get_mut(range);
@@ -108,21 +115,30 @@ impl LiftOffMap {
 
     /// The speeds α, f(α), f(f(α)), …: an array with up to `hops` + 1 speeds. It ends early if the hopper is grounded.
     #[pyo3(signature = (alpha, hops = 100))]
-    fn orbit<'py>(&self, py: Python<'py>, alpha: f64, hops: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn orbit<'py>(
+        &self,
+        py: Python<'py>,
+        alpha: f64,
+        #[pyo3(from_py_with = whole)] hops: usize,
+    ) -> PyResult<Bound<'py, PyAny>> {
         self.map.check_speed(alpha).map_err(map_error)?;
-        let mut speeds = vec![alpha];
-        let mut grounded = false;
-        let hop = |k: usize| {
-            for _ in k * PIECE..((k + 1) * PIECE).min(hops) {
-                let Some(&speed) = speeds.last().filter(|_| !grounded) else { break };
-                match self.map.image(speed)? {
-                    Some(next) => speeds.push(next),
-                    None => grounded = true,
+        let (mut speeds, mut last, mut left) = (vec![alpha], Some(alpha), hops);
+        let mut pace = Pace::new();
+        while let Some(mut speed) = last
+            && left > 0
+        {
+            let piece = pace.next(py)?.min(left);
+            left -= piece;
+            let follow = || {
+                for _ in 0..piece {
+                    let Some(next) = self.map.image(speed)? else { return Ok(None) };
+                    speeds.push(next);
+                    speed = next;
                 }
-            }
-            Ok(())
-        };
-        pieces(py, hops.div_ceil(PIECE), hop, map_error)?;
+                Ok(Some(speed))
+            };
+            last = py.detach(follow).map_err(map_error)?;
+        }
         let count = speeds.len();
         shaped(py, speeds, &[count])
     }

@@ -3,6 +3,7 @@
 use crate::arrays::shaped;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background, progress_function};
+use crate::whole::whole;
 use hopper_figures::{AnimationForm, MotionEvent, animation, frame_png, frame_times};
 use passive_hopper::{MassRatio, Phase};
 use pyo3::exceptions::PyValueError;
@@ -27,7 +28,7 @@ pub(crate) fn motion_arrays(
     py: Python<'_>,
     alpha: f64,
     mass_ratio: f64,
-    hops: usize,
+    #[pyo3(from_py_with = whole)] hops: usize,
 ) -> PyResult<Bound<'_, PyDict>> {
     let work = move |_: &Watch| motion_of(alpha, mass_ratio, hops);
     let motion = in_background(py, work, value_error, |_| Ok(()))?;
@@ -68,7 +69,7 @@ pub(crate) fn animation_bytes<'py>(
     py: Python<'py>,
     alpha: f64,
     mass_ratio: f64,
-    hops: usize,
+    #[pyo3(from_py_with = whole)] hops: usize,
     form: &str,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyBytes>> {

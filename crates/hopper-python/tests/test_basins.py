@@ -26,8 +26,12 @@ def test_traps_and_crises():
     assert np.array_equal(hopper.alpha_star(range(1, 4)), [hopper.alpha_star(n) for n in (1, 2, 3)])
     with pytest.raises(ValueError):
         hopper.crisis(0)
-    with pytest.raises((ValueError, OverflowError)):
-        hopper.alpha_star(-1)
+    for call in (hopper.alpha_star, hopper.crisis, hopper.grounding, hopper.label_name, lambda n: hopper.trap(n, 0.2)):
+        for n in (-1, 2**64):
+            with pytest.raises(ValueError, match=f"needed, not {n}"):
+                call(n)
+        with pytest.raises(TypeError, match="'float'"):
+            call(1.5)
 
 
 def test_intervals_agree_with_fates():
@@ -62,6 +66,12 @@ def test_rasters_have_the_fates_of_their_pixels():
         assert np.array_equal(hopper.LiftOffMap(ratios[column]).fates(speeds), labels[column])
 
 
+def test_windows_are_lists_or_arrays_as_well():
+    tuples = hopper.basin_labels(M=(0.1, 1.0), alpha=(4.5, 9.0), shape=(6, 4))
+    lists = hopper.basin_labels(M=[0.1, 1.0], alpha=np.array([4.5, 9.0]), shape=[6, 4])
+    assert all(np.array_equal(one, other) for one, other in zip(tuples, lists))
+
+
 def test_datasets_name_their_flags():
     xarray = pytest.importorskip("xarray")
     found = hopper.basins(shape=(20, 30))
@@ -77,6 +87,8 @@ def test_datasets_name_their_flags():
         ({"M": (0.1, float("nan"))}, "NaN"),
         ({"alpha": (-1.0, 5.0)}, "-1"),
         ({"shape": (0, 10)}, "0"),
+        ({"shape": (-4, 10)}, "-4"),
+        ({"shape": (4, 10, 2)}, "3"),
         ({"shape": (2**40, 2**40)}, "1099511627776"),
     ],
 )
@@ -120,4 +132,6 @@ def test_pictures_are_drawn(tmp_path):
     matplotlib.use("Agg")
     hopper.cobweb(0.2, 7.0).figure.savefig(tmp_path / "cobweb.png")
     hopper.plot_basins(shape=(64, 64)).figure.savefig(tmp_path / "basins.png")
+    image = hopper.plot_basins(M=[0.2, 0.3], alpha=(5, 6), shape=(1, 1)).images[0]
+    assert image.get_extent() == [0.2, 0.3, 5, 6]
     assert (tmp_path / "basins.png").stat().st_size > 1000

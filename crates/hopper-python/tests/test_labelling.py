@@ -58,6 +58,14 @@ def test_fractions_of_a_ball_cover_its_volume():
     assert found == again
 
 
+def test_windows_are_lists_or_arrays_as_well():
+    pytest.importorskip("xarray")
+    label = lambda x, y: x > y  # noqa: E731
+    for window in (UNIT, [list(side) for side in UNIT], np.array(UNIT)):
+        assert region_fractions(label, window, count=1000, seed=1) == region_fractions(label, UNIT, count=1000, seed=1)
+        assert basins_of(label, {"x": window[0], "y": window[1]}, shape=[4, 4]).label.sum() == 6
+
+
 def test_a_smooth_boundary_has_the_exponent_one():
     found = uncertainty_exponent(lambda x, y: x**2 + y**2 < 0.5, UNIT, [0.1, 0.03, 0.01, 0.003], count=50_000)
     assert 1 in found.exponent and found.follows_a_power_law
@@ -95,8 +103,14 @@ def test_wrong_calls_are_told():
         basins_of(lambda x, y: np.zeros(3, int), {"x": (0, 1), "y": (0, 1)}, shape=(5, 5))
     with pytest.raises(ValueError, match="two coordinates"):
         basins_of(lambda x: x > 0, {"x": (0, 1)})
+    with pytest.raises(TypeError, match="names its coordinates"):
+        basins_of(lambda x, y: x > 0, [(0, 1), (0, 1)])
     with pytest.raises(ValueError, match="1"):
         basins_of(lambda x, y: x > 0, {"x": (1, 0), "y": (0, 1)})
+    with pytest.raises(ValueError, match="-1"):
+        label_image(checkerboard()).boxes(-1)
+    with pytest.raises(ValueError, match="-1"):
+        region_fractions(lambda x: x > 0, [(0, 1)], seed=-1)
     with pytest.raises(ValueError, match="99"):
         label_image(checkerboard()).boxes(99)
     with pytest.raises(ZeroDivisionError):
@@ -135,6 +149,10 @@ def test_an_exception_of_a_map_passes_unchanged():
         Attractors(lambda x: [1.0, 2.0], region=[(0, 1)], starts=[[0.5]])
     with pytest.raises(ValueError, match="2"):
         Attractors(lambda x: x, region=[(0, 1)], starts=[[0.5, 0.5]])
+    with pytest.raises(ValueError, match="NaN"):
+        Attractors(lambda x: x / 2, region=[(-1, 1)], starts=[[0.5]], escape=float("nan"))
+    with pytest.raises(ValueError, match="2 coordinates where 1"):
+        Attractors(lambda x: x / 2, region=[(-1, 1)], starts=[[0.5]]).labels([[0.5, 0.5]])
 
 
 def test_ctrl_c_ends_a_search(ctrl_c):

@@ -1,5 +1,8 @@
 """The map for scalars and arrays."""
 
+import copy
+import pickle
+
 import numpy as np
 import passive_hopper as hopper
 import pytest
@@ -121,9 +124,16 @@ def test_hops_and_orbits(lift_off_map):
     assert orbit[0] == 7.0 and len(orbit) == 6
     assert np.array_equal(lift_off_map(orbit[:-1]), orbit[1:])
     assert len(lift_off_map.orbit(7.0, 0)) == 1
+    with pytest.raises(ValueError, match="not -1"):
+        lift_off_map.orbit(7.0, -1)
     slope, _ = lift_off_map.slopes(7.0)
     step = 1e-6
     assert (lift_off_map(7.0 + step) - lift_off_map(7.0 - step)) / (2 * step) == pytest.approx(slope, rel=1e-4)
+
+
+def test_a_map_is_copied_and_sent_to_other_processes(lift_off_map):
+    for other in (copy.copy(lift_off_map), copy.deepcopy(lift_off_map), pickle.loads(pickle.dumps(lift_off_map))):
+        assert other.mass_ratio == lift_off_map.mass_ratio and other(7.0) == lift_off_map(7.0)
 
 
 @pytest.mark.parametrize("call", [lambda m: m.fate(4.4), lambda m: m.fates(np.linspace(4.3, 4.4, 30_000)), lambda m: hopper.LiftOffMap(0.2).orbit(4.55, 10**9)])

@@ -111,6 +111,8 @@ def basins_of(
         ) from error
     import numpy
 
+    if not isinstance(window, Mapping):
+        raise TypeError(f"a window names its coordinates, as {{'x': (-2, 2), 'y': (-2, 2)}}, and is not {window!r}")
     if len(window) != 2:
         raise ValueError(f"a window has two coordinates with their ends, not {len(window)}")
     (first, across), (second, up) = window.items()

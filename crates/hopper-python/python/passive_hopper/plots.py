@@ -56,16 +56,15 @@ def plot_basins(
 
     plt = _matplotlib()
     ax = ax or plt.figure(figsize=(6, 4), layout="constrained").add_subplot()
-    ratios, speeds, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape)
+    alpha = _native.first_window() if alpha is None else alpha
+    _, _, labels = _native.basin_labels(M=M, alpha=alpha, shape=shape)
     picture = numpy.empty(labels.T.shape + (3,))
     entries = []
     for code in (int(code) for code in numpy.unique(labels)):
         colour = _native.label_colour(code)
         picture[labels.T == code] = to_rgb(colour)
         entries.append(Patch(facecolor=colour, edgecolor="0.3", linewidth=0.5, label=_native.label_name(code)))
-    half = [(ratios[-1] - ratios[0]) / max(len(ratios) - 1, 1) / 2, (speeds[-1] - speeds[0]) / max(len(speeds) - 1, 1) / 2]
-    extent = (ratios[0] - half[0], ratios[-1] + half[0], speeds[0] - half[1], speeds[-1] + half[1])
-    ax.imshow(picture, origin="lower", extent=extent, aspect="auto", interpolation="nearest")
+    ax.imshow(picture, origin="lower", extent=(*M, *alpha), aspect="auto", interpolation="nearest")
     ax.set_xlabel("mass ratio M")
     ax.set_ylabel(r"lift-off speed $\alpha$")
     if legend:

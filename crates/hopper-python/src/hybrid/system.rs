@@ -6,6 +6,7 @@ use super::model::{Functions, Model, Watched};
 use super::sliding_mode::SlidingMode;
 use super::vectors::numbers;
 use crate::errors::value_error;
+use crate::whole::whole;
 use hybrid_system::{Error, Limits, Tolerances};
 use nalgebra::DVector;
 use pyo3::exceptions::PyValueError;
@@ -95,7 +96,7 @@ impl HybridSystem {
         start: &Bound<'_, PyAny>,
         time: f64,
         mode: Option<Bound<'_, PyAny>>,
-        events: usize,
+        #[pyo3(from_py_with = whole)] events: usize,
         start_time: f64,
     ) -> PyResult<Execution> {
         let state = DVector::from_vec(numbers(start)?);

@@ -3,6 +3,7 @@
 use crate::arrays::shaped;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background};
+use crate::whole::whole;
 use basin_of_attraction::{
     Error, Hyperrectangle, Interval, Label, RecurrenceLimits, UnmatchedReason,
 };
@@ -79,6 +80,7 @@ impl PythonMap {
 #[pyclass(frozen, module = "passive_hopper.labelling")]
 pub(crate) struct Attractors {
     function: Py<PyAny>,
+    dimension: usize,
     found: Arc<basin_of_attraction::Attractors>,
 }
 
@@ -91,20 +93,21 @@ impl Attractors {
     fn new(
         py: Python<'_>,
         map: Py<PyAny>,
-        region: Vec<(f64, f64)>,
+        region: Vec<[f64; 2]>,
         starts: Vec<Vec<f64>>,
-        cells: usize,
-        recurrences: usize,
-        locate: usize,
-        budget: usize,
-        lost: usize,
-        tests: usize,
+        #[pyo3(from_py_with = whole)] cells: usize,
+        #[pyo3(from_py_with = whole)] recurrences: usize,
+        #[pyo3(from_py_with = whole)] locate: usize,
+        #[pyo3(from_py_with = whole)] budget: usize,
+        #[pyo3(from_py_with = whole)] lost: usize,
+        #[pyo3(from_py_with = whole)] tests: usize,
         escape: Option<f64>,
     ) -> PyResult<Self> {
         let limits = RecurrenceLimits { cells, recurrences, locate, budget, lost, tests, escape };
-        let side = |&(left, right): &(f64, f64)| Interval::new(left, right);
+        let side = |&[left, right]: &[f64; 2]| Interval::new(left, right);
         let sides = region.iter().map(side).collect::<Result<_, Error>>().map_err(value_error)?;
         let region = Hyperrectangle::new(sides).map_err(value_error)?;
+        let dimension = region.dimension();
         let own = PythonMap::new(map.clone_ref(py));
         let step = Arc::clone(&own);
         // Only one thread can call Python at a time. More of them would wait for each other at every step.
@@ -118,7 +121,7 @@ impl Attractors {
         };
         let found = in_background(py, work, value_error, |_| Ok(()))?;
         let found = own.unless_raised(found)?.map_err(value_error)?;
-        Ok(Attractors { function: map, found: Arc::new(found) })
+        Ok(Attractors { function: map, dimension, found: Arc::new(found) })
     }
 
     /// The successive points of an orbit on each attractor, by label: arrays with one point a row.
@@ -148,6 +151,10 @@ impl Attractors {
     /// The labels of starts, one a row: an array of uint16. A start that comes to no attractor is undecided.
     fn labels<'py>(&self, py: Python<'py>, starts: Vec<Vec<f64>>) -> PyResult<Bound<'py, PyAny>> {
         let count = starts.len();
+        if let Some(other) = starts.iter().find(|start| start.len() != self.dimension) {
+            let (dimension, expected) = (other.len(), self.dimension);
+            return Err(value_error(Error::WrongDimension { dimension, expected }));
+        }
         let (own, found) = (PythonMap::new(self.function.clone_ref(py)), Arc::clone(&self.found));
         let step = Arc::clone(&own);
         let work = move |watch: &Watch| {

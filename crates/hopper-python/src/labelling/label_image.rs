@@ -4,6 +4,7 @@ use super::interval::Interval;
 use crate::basins::Bounds;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background};
+use crate::whole::whole;
 use basin_of_attraction::{Grid, Label, Ln2Criterion};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
@@ -72,7 +73,11 @@ impl LabelImage {
     }
 
     /// The boxes of a side, in pixels, with the entropies of the basins in them.
-    fn boxes(&self, py: Python<'_>, side: usize) -> PyResult<BoxCount> {
+    fn boxes(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole)] side: usize,
+    ) -> PyResult<BoxCount> {
         let image = Arc::clone(&self.image);
         let found = in_background(py, move |_: &Watch| image.boxes(side), value_error, |_| Ok(()))?;
         Ok(BoxCount {
@@ -96,7 +101,11 @@ impl LabelImage {
 
     /// The largest fraction of the image that lies on the boundary of one basin and farther than `distance` pixels from the boundary of another
     /// one: 0 if all basins share one boundary at this distance (Wada).
-    fn far_from_other_boundaries(&self, py: Python<'_>, distance: usize) -> PyResult<f64> {
+    fn far_from_other_boundaries(
+        &self,
+        py: Python<'_>,
+        #[pyo3(from_py_with = whole)] distance: usize,
+    ) -> PyResult<f64> {
         let image = Arc::clone(&self.image);
         let found =
             in_background(py, move |_: &Watch| image.wada(distance), value_error, |_| Ok(()))?;

@@ -6,52 +6,73 @@
 
 use super::interval::Interval;
 use crate::errors::value_error;
+use crate::interruptible::{Watch, in_background};
+use crate::whole::whole;
 use basin_of_attraction::{Error, Hyperrectangle, Label};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::collections::{BTreeMap, HashMap};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The labels of points, by the bits of their coordinates.
 type Known = HashMap<Vec<u64>, Label>;
 
-/// What `sample` finds with the labels of a function.
-fn labelled<T: Send>(
+/// What one run of a sampling gives.
+struct Run<T> {
+    found: Result<T, Error>,
+    known: Known,
+    /// The points without a known label, and the same as one array for each coordinate.
+    points: Vec<Vec<f64>>,
+    columns: Vec<Vec<f64>>,
+}
+
+/// What `sample` finds with the labels of a function. Ctrl-C ends a call at once, also where there are millions of points.
+fn labelled<T: Send + 'static>(
     py: Python<'_>,
     function: &Bound<'_, PyAny>,
     dimension: usize,
-    sample: impl Fn(&(dyn Fn(&[f64]) -> Label + Sync)) -> Result<T, Error> + Sync,
+    sample: impl Fn(&(dyn Fn(&[f64]) -> Label + Sync)) -> Result<T, Error> + Send + Sync + 'static,
 ) -> PyResult<T> {
-    let mut known = Known::new();
+    let sample = Arc::new(sample);
+    let (mut known, mut labels) = (Known::new(), Vec::<(Vec<f64>, u16)>::new());
     // Each run but the last adds points: a sampling stops early at a label that it cannot use, and then goes on to the next points.
     loop {
-        let unknown: Mutex<Vec<Vec<f64>>> = Mutex::default();
-        let read = |point: &[f64]| {
-            known.get(&bits(point)).copied().unwrap_or_else(|| {
-                unknown.lock().unwrap_or_else(PoisonError::into_inner).push(point.to_vec());
-                Label::UNDECIDED
-            })
+        let sample = Arc::clone(&sample);
+        let work = move |watch: &Watch| {
+            let new = labels.into_iter().take_while(|_| !watch.is_stopped());
+            known.extend(new.map(|(point, code)| (bits(&point), Label::from_code(code))));
+            let unknown: Mutex<Vec<Vec<f64>>> = Mutex::default();
+            let read = |point: &[f64]| match known.get(&bits(point)) {
+                Some(&label) => label,
+                None if watch.is_stopped() => Label::UNDECIDED,
+                None => {
+                    unknown.lock().unwrap_or_else(PoisonError::into_inner).push(point.to_vec());
+                    Label::UNDECIDED
+                }
+            };
+            let found = sample(&read);
+            let points = unknown.into_inner().unwrap_or_else(PoisonError::into_inner);
+            let column = |k: usize| points.iter().map(|point| point[k]).collect();
+            let columns = (0..dimension).map(column).collect();
+            Ok::<_, Error>(Run { found, known, points, columns })
         };
-        let found = py.detach(|| sample(&read));
-        let points = unknown.into_inner().unwrap_or_else(PoisonError::into_inner);
-        if points.is_empty() {
-            return found.map_err(value_error);
+        let run = in_background(py, work, value_error, |_| Ok(()))?;
+        if run.points.is_empty() {
+            return run.found.map_err(value_error);
         }
-        let columns: Vec<Bound<'_, PyAny>> = (0..dimension)
-            .map(|k| PyArray1::from_iter(py, points.iter().map(|point| point[k])).into_any())
-            .collect();
-        let labels = function.call1(PyTuple::new(py, columns)?)?;
-        let labels: PyReadonlyArray1<'_, u16> = labels.extract()?;
-        let labels = labels.as_array();
-        if labels.len() != points.len() {
-            let (found, all) = (labels.len(), points.len());
+        let columns = run.columns.into_iter().map(|column| PyArray1::from_vec(py, column));
+        let codes = function.call1(PyTuple::new(py, columns.collect::<Vec<_>>())?)?;
+        let codes: PyReadonlyArray1<'_, u16> = codes.extract()?;
+        let codes = codes.as_array();
+        if codes.len() != run.points.len() {
+            let (found, all) = (codes.len(), run.points.len());
             let text = format!("the labelling returned {found} labels for {all} points");
             return Err(PyValueError::new_err(text));
         }
-        let pairs = points.iter().zip(labels.iter());
-        known.extend(pairs.map(|(point, &code)| (bits(point), Label::from_code(code))));
+        known = run.known;
+        labels = run.points.into_iter().zip(codes.iter().copied()).collect();
     }
 }
 
@@ -61,8 +82,8 @@ fn bits(point: &[f64]) -> Vec<u64> {
 }
 
 /// The region of a window: one pair of ends for each coordinate.
-fn region_of(window: &[(f64, f64)]) -> PyResult<Hyperrectangle> {
-    let side = |&(left, right): &(f64, f64)| basin_of_attraction::Interval::new(left, right);
+fn region_of(window: &[[f64; 2]]) -> PyResult<Hyperrectangle> {
+    let side = |&[left, right]: &[f64; 2]| basin_of_attraction::Interval::new(left, right);
     let sides = window.iter().map(side).collect::<Result<_, Error>>().map_err(value_error)?;
     Hyperrectangle::new(sides).map_err(value_error)
 }
@@ -72,12 +93,12 @@ fn region_of(window: &[(f64, f64)]) -> PyResult<Hyperrectangle> {
 pub(crate) fn region_fractions(
     py: Python<'_>,
     label: &Bound<'_, PyAny>,
-    window: Vec<(f64, f64)>,
-    count: usize,
-    seed: u64,
+    window: Vec<[f64; 2]>,
+    #[pyo3(from_py_with = whole)] count: usize,
+    #[pyo3(from_py_with = whole)] seed: u64,
 ) -> PyResult<BTreeMap<u16, Interval>> {
     let region = region_of(&window)?;
-    let counts = labelled(py, label, window.len(), |label| {
+    let counts = labelled(py, label, window.len(), move |label| {
         basin_of_attraction::region_fractions(&region, count, seed, label)
     })?;
     let fraction = |label: Label| Ok((label.code(), counts.fraction(label)?.into()));
@@ -109,13 +130,13 @@ impl UncertaintyExponent {
 pub(crate) fn uncertainty_exponent(
     py: Python<'_>,
     label: &Bound<'_, PyAny>,
-    window: Vec<(f64, f64)>,
+    window: Vec<[f64; 2]>,
     epsilons: Vec<f64>,
-    count: usize,
-    seed: u64,
+    #[pyo3(from_py_with = whole)] count: usize,
+    #[pyo3(from_py_with = whole)] seed: u64,
 ) -> PyResult<UncertaintyExponent> {
     let region = region_of(&window)?;
-    let found = labelled(py, label, window.len(), |label| {
+    let found = labelled(py, label, window.len(), move |label| {
         basin_of_attraction::uncertainty_exponent(&region, &epsilons, count, seed, label)
     })?;
     let fractions = found.counts.iter().map(|pairs| Ok((pairs.epsilon, pairs.fraction()?.into())));
