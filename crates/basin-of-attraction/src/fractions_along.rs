@@ -186,9 +186,9 @@ impl FractionsAlong {
 ///
 /// # Errors
 /// [`Error::BadInterval`] for a range that is reversed, of length 0, or not finite; [`Error::BadCurveLimits`] for no first step, a
-/// difference or a shortest step that is not positive, or a budget below the number of the first parameters;
-/// [`Error::TooManySamples`] for more than ten million first parameters; [`Error::BadPoint`] for a known parameter that is not finite; [`Error::TooManyAttractors`] if attractors that appear and vanish use up all labels; errors of
-/// `fractions`.
+/// difference or a shortest step that is not positive, or a budget below the number of the first parameters; [`Error::TooManySamples`]
+/// for more than ten million of these; [`Error::BadPoint`] for a known parameter that is not finite; [`Error::TooManyAttractors`] if
+/// attractors that appear and vanish use up all labels; errors of `fractions`.
 pub fn fractions_along<E: From<Error>>(
     range: Interval,
     known: &[f64],
@@ -224,12 +224,12 @@ pub fn fractions_along<E: From<Error>>(
     found.unmatched = with_common_labels(&mut found.points, limits.matching)?;
     // The labels of the steps are the common ones as well.
     let again = CurveLimits { matching: Matching::ByLabel, ..limits };
-    found.unresolved =
-        found.points.windows(2).filter_map(|pair| too_large(&pair[0], &pair[1], &again)).collect();
+    let steps = found.points.windows(2);
+    found.unresolved = steps.filter_map(|pair| too_large(&pair[0], &pair[1], &again)).collect();
     Ok(found)
 }
 
-/// Each takes a measurement of all fractions: more would take gigabytes, and longer than anybody waits.
+/// Most of these. Each takes a measurement of all fractions.
 const MOST_FIRST_PARAMETERS: usize = 10_000_000;
 
 /// The parameters at which every curve is computed.
@@ -251,11 +251,10 @@ fn first_parameters(
     ends.dedup();
     let CurveLimits { first_steps, difference, relative, shortest, budget, .. } = *limits;
     // Up to rounding: a part of k steps does not get a further one.
-    let steps = |pair: &[f64]| {
-        ((pair[1] - pair[0]) / (right - left) * first_steps as f64 - 1e-9).ceil().max(1.0)
-    };
-    let fewest =
-        ends.windows(2).map(|pair| steps(pair) as usize).fold(1usize, usize::saturating_add);
+    let part = |pair: &[f64]| (pair[1] - pair[0]) / (right - left);
+    let steps = |pair: &[f64]| (part(pair) * first_steps as f64 - 1e-9).ceil().max(1.0);
+    let counts = ends.windows(2).map(|pair| steps(pair) as usize);
+    let fewest = counts.fold(1usize, usize::saturating_add);
     let positive = difference > 0.0 && relative >= 0.0 && shortest > 0.0;
     if first_steps == 0 || budget < fewest || !positive || !shortest.is_finite() {
         let error =
@@ -263,10 +262,10 @@ fn first_parameters(
         return Err(error);
     }
     if fewest > MOST_FIRST_PARAMETERS {
-        let (samples, most, remedy) = (fewest, MOST_FIRST_PARAMETERS, "take fewer first steps");
-        return Err(Error::TooManySamples { samples, most, remedy });
+        let (most, remedy) = (MOST_FIRST_PARAMETERS, "take fewer first steps");
+        return Err(Error::TooManySamples { samples: fewest, most, remedy });
     }
-    let mut parameters = Vec::with_capacity(fewest);
+    let mut parameters = Vec::new();
     for pair in ends.windows(2) {
         let count = steps(pair);
         let at = |k: usize| pair[0] + (pair[1] - pair[0]) * (k as f64 / count);
@@ -291,15 +290,14 @@ fn too_large(
     other: &(f64, Fractions),
     limits: &CurveLimits,
 ) -> Option<UnresolvedStep> {
-    let partners = partners(&one.1, &other.1, limits.matching);
-    let step = |&(before, after): &(Option<Label>, Option<Label>)| {
+    let step = |(before, after): (Option<Label>, Option<Label>)| {
         // An attractor without a partner has no basin at the other parameter.
         let none = FractionRange { value: 0.0, lower: 0.0, upper: 0.0 };
         let left = before.map_or(none, |label| one.1.of(label));
         let right = after.map_or(none, |label| other.1.of(label));
         Some((before.or(after)?, left, right))
     };
-    let steps = partners.iter().filter_map(step);
+    let steps = partners(&one.1, &other.1, limits.matching).into_iter().filter_map(step);
     let large = steps.filter(|&(_, before, after)| excess(before, after, limits) > 1.0);
     // A change that the ranges show counts more than one that they do not.
     let rank = |&(_, before, after): &(Label, FractionRange, FractionRange)| {

@@ -106,9 +106,9 @@ pub enum NoInterval {
 /// ```
 ///
 /// # Errors
-/// [`Error::BadFit`] for fewer than three points in a replicate, scales whose logarithms are equal, scales that are not positive, and values that are
-/// negative or not finite; [`Error::UnlikeReplicates`] for replicates with different scales; [`Error::NothingFound`] if the value
-/// is 0 in all replicates at some scale.
+/// [`Error::BadFit`] for fewer than three points in a replicate, scales that are not positive or whose logarithms are equal, and values
+/// that are negative or not finite; [`Error::UnlikeReplicates`] for replicates with different scales; [`Error::NothingFound`] if the
+/// value is 0 in all replicates at some scale.
 pub fn power_law<R: AsRef<[(f64, f64)]>>(replicates: &[R]) -> Result<PowerLaw, Error> {
     let measured = Measured::new(replicates)?;
     let places = &measured.places;
@@ -376,9 +376,8 @@ mod tests {
         // At the three finest scales half of the replicates find nothing, the others twice as much as the law.
         let mut replicates = measured(|x| x, &scales(16, 5));
         for (number, points) in replicates.iter_mut().enumerate() {
-            points[13..]
-                .iter_mut()
-                .for_each(|point| point.1 *= if number % 2 == 0 { 0.0 } else { 2.1 });
+            let factor = if number % 2 == 0 { 0.0 } else { 2.1 };
+            points[13..].iter_mut().for_each(|point| point.1 *= factor);
         }
         let law = power_law(&replicates).unwrap();
         // Five per cent at the finest scales: with the weight of the others the exponent would be wrong by 0.004.
@@ -388,16 +387,14 @@ mod tests {
     #[test]
     fn bad_points_are_errors() {
         let fit = |points: &[(f64, f64)]| power_law(&[points]).unwrap_err();
-        assert_eq!(
-            fit(&[(1e9, 1.0), (1e9f64.next_up(), 2.0), (2e9, 2.0)]),
-            Error::BadFit { points: 3 }
-        );
+        let next = 1e9f64.next_up();
+        assert_eq!(fit(&[(1e9, 1.0), (next, 2.0), (2e9, 2.0)]), Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, -1.0), (3.0, 2.0)]), Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, f64::NAN), (3.0, 2.0)]), Error::BadFit { points: 3 });
         assert_eq!(fit(&[(1.0, 1.0), (2.0, 0.0), (3.0, 2.0)]), Error::NothingFound { scale: 2.0 });
         let none: [&[(f64, f64)]; 0] = [];
         assert_eq!(power_law(&none).unwrap_err(), Error::TooFewReplicates { replicates: 0 });
-        let two = [[(1.0, 1.0), (2.0, 2.0), (3.0, 3.0)], [(1.0, 1.0), (2.0, 2.0), (4.0, 3.0)]];
+        let two = [3.0, 4.0].map(|last| [(1.0, 1.0), (2.0, 2.0), (last, 3.0)]);
         assert_eq!(power_law(&two).unwrap_err(), Error::UnlikeReplicates { replicate: 1 });
     }
 }

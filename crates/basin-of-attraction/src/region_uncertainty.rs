@@ -6,7 +6,6 @@ use crate::hyperrectangle::Hyperrectangle;
 use crate::label::Label;
 use crate::sampling::check_count;
 use crate::split_mix::SplitMix64;
-use crate::uncertainty::check_perturbation;
 use crate::uncertainty_fit::{ExponentFit, ScaleCount, fit_exponent};
 use rayon::prelude::*;
 
@@ -85,6 +84,15 @@ pub fn uncertain_pairs(
         return Err(Error::NothingInside { points: count });
     }
     Ok(PairCount { epsilon, pairs, uncertain, open })
+}
+
+/// An error for a perturbation that is not positive and finite.
+pub(crate) fn check_perturbation(epsilon: f64) -> Result<(), Error> {
+    if epsilon > 0.0 && epsilon.is_finite() {
+        Ok(())
+    } else {
+        Err(Error::BadPerturbation { epsilon })
+    }
 }
 
 /// Direction `number` of a generator, uniform on the unit sphere: a vector of independent normal numbers, divided by its length.

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::interval::{Interval, IntervalSet};
 use crate::interval_basins::IntervalBasins;
 use crate::label::Label;
-use crate::region_uncertainty::PairCount;
+use crate::region_uncertainty::{PairCount, check_perturbation};
 use crate::sampling::{check_count, check_window};
 use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
@@ -56,15 +56,6 @@ pub fn uncertain_fraction(
         return Err(Error::NothingInside { points: count });
     }
     PairCount { epsilon, pairs, uncertain, open }.fraction()
-}
-
-/// An error for a perturbation that is not positive and finite.
-pub(crate) fn check_perturbation(epsilon: f64) -> Result<(), Error> {
-    if epsilon > 0.0 && epsilon.is_finite() {
-        Ok(())
-    } else {
-        Err(Error::BadPerturbation { epsilon })
-    }
 }
 
 impl IntervalBasins {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::interval_basins::{IntervalBasins, LabelledInterval};
 use crate::label::Label;
 use crate::raster::LabelImage;
-use crate::uncertainty::check_perturbation;
+use crate::region_uncertainty::check_perturbation;
 
 /// The largest distance between the boundaries of the basins.
 #[derive(Debug, Clone, Copy, PartialEq)]
