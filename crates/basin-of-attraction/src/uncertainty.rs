@@ -12,7 +12,7 @@ use crate::split_mix::SplitMix64;
 use rayon::prelude::*;
 
 /// The fraction of starts x whose label differs from that of x + ε or of x − ε (Grebogi, McDonald, Ott, Yorke
-/// 1983), with a 95 % interval ([`proportion_interval`]).
+/// 1983), with a 95 % interval ([`proportion_interval`](crate::proportion_interval)).
 ///
 /// `count` uniform random starts in `window` are tried. For small ε the fraction grows like a power of ε. Its
 /// exponent is the uncertainty exponent, which [`power_law`](crate::power_law) fits.
