@@ -90,16 +90,16 @@ def between_signs(x, v, left, right):
     mid_x, mid_v = x.mid(), v.mid()
     smallest = abs(t).mid() * arb(2) ** (8 - ctx.prec)
     last = None
-    for _ in range(80):
+    for _ in range(200):
         down = slope(t, mid_x, mid_v).mid()
         g = height(t, mid_x, mid_v).mid()
-        if not down < 0:
-            break
-        step = g / down
-        t = (t - step).mid()
-        if not (low < t and t < high):
-            t = (low + high).mid() / 2
-        size = abs(step).mid()
+        low, high = (t, high) if g > 0 else (low, t)
+        before = t
+        t = (t - g / down).mid() if down < 0 else high
+        # The first place has 53 bits, too few for a short flight: G may rise there.
+        if not (low <= t and t <= high and down < 0):
+            t = ((low + high) / 2).mid()
+        size = abs(t - before).mid()
         if size <= smallest or (last is not None and size >= last and size < smallest * 2**20):
             break
         last = size
