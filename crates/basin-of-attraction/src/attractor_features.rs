@@ -6,7 +6,7 @@
 //! successive stretches do, and a group is an attractor only if orbits beside it come to it.
 
 use crate::error::Error;
-use crate::feature_groups::FeatureGroups;
+use crate::feature_groups::{FeatureGroups, check_feature_count};
 use crate::label::Label;
 use crate::recurrences::{Unmatched, UnmatchedReason};
 use crate::split_mix::SplitMix64;
@@ -55,21 +55,38 @@ impl FeatureLimits {
     fn check(&self) -> Result<(), Error> {
         /// Points of a stretch are kept while it is followed; more would take gigabytes for each thread.
         const LONGEST: usize = 10_000_000;
+        /// An orbit that comes to no group is followed through the whole budget: minutes with so many steps of a plain map.
+        const MOST_STEPS: usize = 10_000_000_000;
+        /// More tests than this take hours, and would find openings of a hundred-thousandth of the neighbourhood.
+        const MOST_TESTS: usize = 1_000_000;
         let counts = [("a stretch", self.stretch), ("a number of stretches", self.agree)];
         for (name, value) in counts {
             if value == 0 {
                 return Err(Error::BadSearch { name, value: 0.0, remedy: "" });
             }
         }
-        if self.stretch > LONGEST {
-            let remedy = "take shorter stretches, of every tenth step or less";
-            let (samples, most) = (self.stretch, LONGEST);
-            return Err(Error::TooManySamples { samples, most, remedy });
-        }
         if self.budget < self.agree {
             let (name, remedy) =
                 ("a budget of stretches", ", and not below the number that must agree");
             return Err(Error::BadSearch { name, value: self.budget as f64, remedy });
+        }
+        let steps = self.stretch.saturating_mul(self.budget).saturating_add(self.transient);
+        for (samples, most, remedy) in [
+            (self.stretch, LONGEST, "take shorter stretches, of every tenth step or less"),
+            (
+                steps,
+                MOST_STEPS,
+                "these are the steps of one orbit: take a smaller budget, or a shorter transient",
+            ),
+            (
+                self.tests,
+                MOST_TESTS,
+                "these are the tests of one group: hundreds find all but small openings",
+            ),
+        ] {
+            if samples > most {
+                return Err(Error::TooManySamples { samples, most, remedy });
+            }
         }
         if !(self.beside > 0.0 && self.beside.is_finite()) {
             let name = "a distance of tests";
@@ -135,8 +152,9 @@ impl FeatureAttractors {
     ///
     /// # Errors
     /// [`Error::BadSearch`] for a radius or a distance that is not positive and finite, stretches without steps, and a budget that is too
-    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none; [`Error::TooManySamples`] for more than 20 000 features, and
-    /// stretches of more than 10⁷ steps; [`Error::TooManyAttractors`] beyond 65 000.
+    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none; [`Error::TooManySamples`] for starts with more than 20 000 features,
+    /// stretches of more than 10⁷ steps, a transient and a budget of more than 10¹⁰ steps together, and more than 10⁶ tests;
+    /// [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
         feature: &(impl Fn(&[Vec<f64>]) -> Vec<f64> + Sync),
@@ -144,6 +162,8 @@ impl FeatureAttractors {
         limits: FeatureLimits,
     ) -> Result<FeatureAttractors, Error> {
         limits.check()?;
+        // Before the orbits are followed: each has as many features as stretches that must agree.
+        check_feature_count(starts.len().saturating_mul(limits.agree))?;
         let begin = |start: &Vec<f64>| beginning(map, feature, start, limits);
         let orbits: Vec<Option<Beginning>> = starts.par_iter().map(begin).collect();
         let vectors: Vec<(usize, Vec<f64>)> = orbits

@@ -140,7 +140,7 @@ fn at_least(successes: usize, trials: usize, p: f64) -> f64 {
 /// The mean of independent replicates, with Student's interval.
 ///
 /// If the replicates are normal, the interval contains their mean in 95 % of the samples. Otherwise this holds for many
-/// replicates only.
+/// replicates only. An end that is beyond all `f64` is infinite.
 ///
 /// # Errors
 /// [`Error::TooFewReplicates`] for fewer than two; [`Error::BadPoint`] for one that is not finite.
@@ -151,10 +151,19 @@ pub fn student_interval(replicates: &[f64]) -> Result<ConfidenceInterval, Error>
     }
     check_point(replicates)?;
     let n = count as f64;
-    let mean = replicates.iter().sum::<f64>() / n;
-    let squares: f64 = replicates.iter().map(|x| (x - mean) * (x - mean)).sum();
+    // In units of a power of two, so that no square overflows or vanishes, and nothing is rounded by the change of units.
+    let unit = power_of_two(replicates.iter().fold(0.0, |largest: f64, x| largest.max(x.abs())));
+    let mean = replicates.iter().map(|x| x / unit).sum::<f64>() / n;
+    let squares: f64 = replicates.iter().map(|x| (x / unit - mean) * (x / unit - mean)).sum();
     let half = student_quantile(count - 1) * (squares / (n - 1.0) / n).sqrt();
-    Ok(ConfidenceInterval { value: mean, lower: mean - half, upper: mean + half })
+    let [value, lower, upper] = [mean, mean - half, mean + half].map(|x| x * unit);
+    Ok(ConfidenceInterval { value, lower, upper })
+}
+
+/// The largest power of two that is not above a number, and the smallest normal number if it is below that.
+fn power_of_two(number: f64) -> f64 {
+    const EXPONENT: u64 = 0x7ff << 52;
+    f64::from_bits(number.to_bits() & EXPONENT).max(f64::MIN_POSITIVE)
 }
 
 /// The two-sided 95 % quantile of Student's distribution.
@@ -190,6 +199,24 @@ mod tests {
         {
             assert!((student_quantile(degrees) - quantile).abs() < 2e-4, "{degrees}");
         }
+    }
+
+    #[test]
+    fn student_intervals_have_no_scale() {
+        let sample = [1.0, 2.5, -0.75, 1.5];
+        let ConfidenceInterval { value, lower, upper } = student_interval(&sample).unwrap();
+        // Squares of these numbers would overflow, or vanish.
+        for scale in [2f64.powi(1000), 2f64.powi(-1000)] {
+            let scaled = student_interval(&sample.map(|x| x * scale)).unwrap();
+            let same = [value, lower, upper].map(|x| x * scale);
+            assert_eq!([scaled.value, scaled.lower, scaled.upper], same);
+        }
+        let largest = student_interval(&[f64::MAX; 2]).unwrap();
+        assert_eq!([largest.value, largest.lower, largest.upper], [f64::MAX; 3]);
+        let zero = student_interval(&[0.0; 3]).unwrap();
+        assert_eq!([zero.value, zero.lower, zero.upper], [0.0; 3]);
+        let opposite = student_interval(&[f64::MAX, -f64::MAX]).unwrap();
+        assert_eq!((opposite.lower, opposite.upper), (f64::NEG_INFINITY, f64::INFINITY));
     }
 
     /// The smallest probability with which the interval contains p, over all p: it changes at the ends of intervals only, so that

@@ -8,6 +8,15 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Most feature vectors that are grouped: all their distances are computed, some 10⁸. More take minutes.
 const MOST_FEATURES: usize = 20_000;
 
+/// An error for more feature vectors than can be grouped.
+pub(crate) fn check_feature_count(samples: usize) -> Result<(), Error> {
+    if samples <= MOST_FEATURES {
+        return Ok(());
+    }
+    let remedy = "take fewer starts, and label the others by the groups";
+    Err(Error::TooManySamples { samples, most: MOST_FEATURES, remedy })
+}
+
 /// Feature vectors with labels. Any other vector has the label of those within a radius of it.
 ///
 /// ```text
@@ -57,11 +66,7 @@ impl FeatureGroups {
         fewest: usize,
     ) -> Result<Self, Error> {
         check(vectors.iter().map(|(_, vector)| vector), radius)?;
-        if vectors.len() > MOST_FEATURES {
-            let remedy = "take fewer starts, and label the others by the groups";
-            let (samples, most) = (vectors.len(), MOST_FEATURES);
-            return Err(Error::TooManySamples { samples, most, remedy });
-        }
+        check_feature_count(vectors.len())?;
         let near = |a: &[f64]| -> Vec<usize> {
             (0..vectors.len()).filter(|&k| distance(a, &vectors[k].1) <= radius).collect()
         };

@@ -167,8 +167,17 @@ fn limits_and_features_that_mean_nothing_are_refused() {
     ] {
         assert!(matches!(found(bad), Err(Error::BadSearch { .. })), "{bad:?}");
     }
-    let long = FeatureLimits { stretch: usize::MAX, ..good };
-    assert!(matches!(found(long), Err(Error::TooManySamples { .. })));
+    for endless in [
+        FeatureLimits { stretch: usize::MAX, ..good },
+        FeatureLimits { agree: usize::MAX, budget: usize::MAX, ..good },
+        FeatureLimits { agree: 5000, budget: 5000, ..good },
+        FeatureLimits { budget: usize::MAX, ..good },
+        FeatureLimits { transient: usize::MAX, ..good },
+        FeatureLimits { tests: usize::MAX, ..good },
+    ] {
+        let refused = found(endless);
+        assert!(matches!(refused, Err(Error::TooManySamples { .. })), "{endless:?}");
+    }
     // Features of different lengths, of none, and without a number.
     let unlike = |points: &[Vec<f64>]| vec![0.0; 1 + usize::from(points[0][0] > 0.0005)];
     let short = FeatureLimits { transient: 0, ..good };
