@@ -1,6 +1,6 @@
 //! Every package has a licence that `.deny.toml` allows.
 //!
-//! The licences are in the manifests of the packages, which `cargo metadata` reads without a network once they are downloaded.
+//! The licences are in the manifests of the packages, which `cargo metadata` reads.
 
 use super::breach::Breach;
 use super::sources::Source;
@@ -10,18 +10,38 @@ use std::process::Command;
 
 /// Checks the licences of all packages.
 pub(super) fn check(root: &Path, rules: &Source, breaches: &mut Vec<Breach>) {
-    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let mut cargo = Command::new(program);
-    cargo.args(["metadata", "--offline", "--locked", "--format-version", "1"]).current_dir(root);
-    match cargo.output() {
-        Ok(done) if done.status.success() => {
-            check_all(&String::from_utf8_lossy(&done.stdout), &rules.text, breaches);
-        }
-        _ => {
+    match all_packages(root).or_else(|| packages_of_this_platform(root)) {
+        Some(metadata) => check_all(&metadata, &rules.text, breaches),
+        None => {
             let rule = "the licences of the packages cannot be read: run `cargo fetch` once";
             breaches.push(Breach::new("Cargo.lock", 0, rule));
         }
     }
+}
+
+/// The packages of all platforms. A build for one platform has not downloaded those of the others: they are downloaded now.
+fn all_packages(root: &Path) -> Option<String> {
+    metadata(root, &["--offline"]).or_else(|| metadata(root, &[]))
+}
+
+/// The packages that a build on this machine has, where there is no network.
+fn packages_of_this_platform(root: &Path) -> Option<String> {
+    let version = output(Command::new("rustc").arg("-vV").current_dir(root))?;
+    let platform = version.lines().find_map(|line| line.strip_prefix("host: "))?;
+    metadata(root, &["--offline", "--filter-platform", platform])
+}
+
+fn metadata(root: &Path, options: &[&str]) -> Option<String> {
+    let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut cargo = Command::new(program);
+    cargo.args(["metadata", "--locked", "--format-version", "1"]).args(options).current_dir(root);
+    output(&mut cargo)
+}
+
+/// What a command prints; `None` if it fails.
+fn output(command: &mut Command) -> Option<String> {
+    let done = command.output().ok().filter(|done| done.status.success())?;
+    Some(String::from_utf8_lossy(&done.stdout).into_owned())
 }
 
 fn check_all(metadata: &str, rules: &str, breaches: &mut Vec<Breach>) {
