@@ -208,7 +208,7 @@ const MOST_SAMPLES: usize = 100_000_000;
 /// The monotone branches of `map` on `window`, as far as `samples` equally spaced points show them.
 ///
 /// Turning points are refined by golden-section search, to the square root of an ulp. Points at which the map loses its
-/// value, and jumps that are larger than the steps beside them, are refined to one ulp. A pair of turning points
+/// finite value, and jumps that are larger than the steps beside them, are refined to one ulp. A pair of turning points
 /// between two neighbouring samples is missed, and so is a gap there. If theory gives such places, split the window at
 /// them.
 ///
@@ -229,7 +229,7 @@ pub fn monotone_branches(
         return Err(Error::TooManySamples { samples, most: MOST_SAMPLES, remedy });
     }
     let value = |x: f64| match map.image(x) {
-        Image::Point(value) => Some(value),
+        Image::Point(value) => Some(value).filter(|value| value.is_finite()),
         Image::Stops | Image::Undecided => None,
     };
     let at = |k: usize| window.left + window.length() * (k as f64 / (samples - 1) as f64);
@@ -319,6 +319,15 @@ mod tests {
         samples: usize,
     ) -> Vec<Branch> {
         monotone_branches(&map, Interval { left, right }, samples).unwrap()
+    }
+
+    #[test]
+    fn a_value_that_is_not_finite_is_none() {
+        for value in [f64::NAN, f64::INFINITY] {
+            assert!(branches(|_| Some(value), 0.0, 1.0, 10).is_empty());
+            let some = branches(|x| Some(if x < 0.5 { x } else { value }), 0.0, 1.0, 10);
+            assert_eq!((some.len(), some[0].domain.right), (1, 0.5_f64.next_down()));
+        }
     }
 
     #[test]

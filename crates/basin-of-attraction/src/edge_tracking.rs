@@ -46,7 +46,7 @@ pub enum EdgeEnd {
     Undecided,
     /// The pair has separated, and both its states have this label: the labelling is not constant along orbits.
     SameLabel(Label),
-    /// The map has no value at a state of the pair, or one that is not finite.
+    /// The map has no value at a state of the pair, one that is not finite, or one of another dimension.
     Stopped,
 }
 
@@ -142,14 +142,12 @@ fn separated(
     step: impl Fn(&[f64]) -> Option<Vec<f64>>,
     limits: &EdgeLimits,
 ) -> Result<(Vec<f64>, Vec<f64>), EdgeEnd> {
-    let finite = |next: &Vec<f64>| next.iter().all(|x| x.is_finite());
-    let next = |at: &[f64]| step(at).filter(finite).ok_or(EdgeEnd::Stopped);
+    let dimension = bracket.first.0.len();
+    let is_state = |next: &Vec<f64>| next.len() == dimension && next.iter().all(|x| x.is_finite());
+    let next = |at: &[f64]| step(at).filter(is_state).ok_or(EdgeEnd::Stopped);
     let (mut one, mut other) = (bracket.first.0.clone(), bracket.second.0.clone());
     for _ in 0..limits.steps {
         (one, other) = (next(&one)?, next(&other)?);
-        if one.len() != other.len() {
-            return Err(EdgeEnd::Stopped);
-        }
         if distance(&one, &other) > limits.separate {
             return Ok((one, other));
         }
@@ -173,6 +171,8 @@ mod tests {
             track_edge(&[-0.5, 1.0], &[1.0, 0.7], map, label, limits).unwrap().end
         };
         assert_eq!(end(|_| None, label, limits), EdgeEnd::Stopped);
+        assert_eq!(end(|_| Some(Vec::new()), label, limits), EdgeEnd::Stopped);
+        assert_eq!(end(|z| Some(z[..1].to_vec()), label, limits), EdgeEnd::Stopped);
         assert_eq!(end(|z| Some(z.to_vec()), label, limits), EdgeEnd::Together);
         let few = EdgeLimits { rounds: 2, still: 1e-300, ..limits };
         assert_eq!(end(cubic, label, few), EdgeEnd::Rounds);

@@ -229,7 +229,7 @@ impl IntervalBasins {
     /// The points at which basins end, from left to right.
     ///
     /// Between neighbouring intervals with different labels this is their common end. Beside an undecided gap
-    /// longer than `resolution` both ends of the gap are given.
+    /// longer than `resolution` both ends of the gap are given. A gap at an end of the window gives none.
     pub fn boundary(&self, resolution: f64) -> Vec<f64> {
         let mut points = Vec::new();
         for pair in self.parts.windows(2) {
