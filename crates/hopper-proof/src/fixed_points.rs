@@ -45,13 +45,13 @@ const ERROR_OF_LONG_VALUE: f64 = 7.9e-31;
 /// α − α*_n for one speed: with all its digits, also where α and α*_n nearly coincide.
 pub(crate) fn offset_from_fixed_point(alpha: f64, n: u64) -> Enclosure {
     if n == 0 {
-        return Enclosure::new(alpha, alpha);
+        return Enclosure::from(alpha);
     }
     let star = FixedPointSpeed::new(n);
-    let first = Enclosure::new(alpha, alpha) - star.value();
+    let first = Enclosure::from(alpha) - star.value();
     // The difference of two doubles within a factor of 2 is exact (Sterbenz).
     let exact = alpha <= 2.0 * star.value() && star.value() <= 2.0 * alpha;
     let difference = alpha - star.value();
-    let first = if exact { Enclosure::new(difference, difference) } else { first };
+    let first = if exact { Enclosure::from(difference) } else { first };
     first - Enclosure::around(star.rest(), ERROR_OF_LONG_VALUE * star.value())
 }

@@ -32,7 +32,7 @@ struct AtSpeed {
 
 impl AtSpeed {
     fn new(n: u64, alpha: f64) -> Option<Self> {
-        let speed = Enclosure::new(alpha, alpha);
+        let speed = Enclosure::from(alpha);
         let first = FirstLanding::over(speed)?;
         let square = first.closing_speed().squared();
         let star = fixed_point(n);

@@ -16,6 +16,14 @@ pub struct Enclosure {
     pub high: f64,
 }
 
+impl From<f64> for Enclosure {
+    /// The number alone, without a check.
+    #[inline]
+    fn from(number: f64) -> Self {
+        Enclosure { low: number, high: number }
+    }
+}
+
 impl Enclosure {
     /// The number 0.
     pub const ZERO: Self = Enclosure { low: 0.0, high: 0.0 };

@@ -82,14 +82,14 @@ macro_rules! with_numbers {
             type Output = Self;
             #[inline]
             fn $method(self, number: f64) -> Self {
-                self.$method(Enclosure::new(number, number))
+                self.$method(Enclosure::from(number))
             }
         }
         impl $operator<Enclosure> for f64 {
             type Output = Enclosure;
             #[inline]
             fn $method(self, other: Enclosure) -> Enclosure {
-                Enclosure::new(self, self).$method(other)
+                Enclosure::from(self).$method(other)
             }
         }
     )*};

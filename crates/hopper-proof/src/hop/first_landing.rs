@@ -19,7 +19,7 @@ impl FirstLanding {
     pub(crate) fn over(alpha: Enclosure) -> Option<Self> {
         let first = first_landing_time(alpha.low)?;
         let last = if alpha.low == alpha.high { first } else { first_landing_time(alpha.high)? };
-        let ends = [first.before, last.after];
+        let ends = [first.before(), last.after()];
         let (below, above) = (fixed_point(first.branch - 1), fixed_point(last.branch));
         let between = below.low <= ends[0].h && ends[1].h <= above.high;
         between.then_some(FirstLanding { half: Enclosure::new(ends[0].h, ends[1].h), ends })
@@ -57,6 +57,24 @@ impl FirstLanding {
     pub(crate) fn half_time_slope(&self) -> Enclosure {
         self.between(|end| end.d / end.closing_speed())
     }
+
+    /// d²h/dα² = 2 (dh/dα)² (2S²/D + hS/u) in a window (docs/theory.md, Lemma 97).
+    pub(crate) fn half_time_curvature(&self) -> Enclosure {
+        let (sin, u) = self.sin_and_u();
+        2.0 * self.half_time_slope().squared()
+            * (2.0 * sin.squared() / self.d() + self.half * sin / u)
+    }
+
+    /// d(Su)/dh = Cu − hS² in a window.
+    pub(crate) fn db_slope(&self) -> Enclosure {
+        let (sin, u) = self.sin_and_u();
+        self.half.cos() * u - self.half * sin.squared()
+    }
+
+    /// S and u in a window, where |S| rises and |u| falls (docs/theory.md, Lemma 14).
+    fn sin_and_u(&self) -> (Enclosure, Enclosure) {
+        (self.between(|end| end.sin), self.between(|end| end.u))
+    }
 }
 
 #[cfg(test)]
@@ -75,7 +93,7 @@ mod tests {
         let mut known = 0;
         for ulps in [0.0, 8.0] {
             let alpha = a + ulps * ulp;
-            let Some(landing) = FirstLanding::over(Enclosure::new(alpha, alpha)) else { continue };
+            let Some(landing) = FirstLanding::over(Enclosure::from(alpha)) else { continue };
             known += 1;
             let closing = landing.closing_speed();
             let exact = 12.0 * a * a * (3.32e-17 + ulps * ulp) / (1.0 + a * a);

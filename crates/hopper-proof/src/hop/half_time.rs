@@ -18,9 +18,19 @@ const SERIES_BELOW: f64 = 0.5;
 const OF_D: [f64; 8] = [5.0, 10.5, 18.0, 27.5, 39.0, 52.5, 68.0, 85.5];
 const OF_U: [f64; 8] = [10.0, 28.0, 54.0, 88.0, 130.0, 180.0, 238.0, 304.0];
 
-/// 1 − t/c₁ (1 − t/c₂ (1 − … )) for 0 ≤ t ≤ c₁. The terms alternate and fall, so the innermost bracket lies between 0 and 1.
+/// Terms below this are left out. It is far below an ulp of the sum, which is about 1.
+const NEGLIGIBLE: f64 = 1e-18;
+
+/// 1 − t/c₁ (1 − t/c₂ (1 − … )) for 0 ≤ t ≤ c₁. The terms alternate and fall, so that an inner bracket lies between 0 and 1 wherever the sum ends.
 pub(crate) fn alternating(t: Enclosure, quotients: &[f64]) -> Enclosure {
-    quotients
+    let mut term = 1.0;
+    let counts = |&quotient: &f64| {
+        let before = term;
+        term *= t.high / quotient;
+        before > NEGLIGIBLE
+    };
+    let count = quotients.iter().copied().take_while(counts).count();
+    quotients[..count]
         .iter()
         .rev()
         .fold(Enclosure::new(0.0, 1.0), |inner, &quotient| Enclosure::ONE - t * inner / quotient)
@@ -39,7 +49,7 @@ pub(crate) struct AtHalfTime {
 
 impl AtHalfTime {
     pub(crate) fn new(h: f64) -> Self {
-        let half = Enclosure::new(h, h);
+        let half = Enclosure::from(h);
         let (sin, cos) = half.sin_cos();
         let (d, u) = if h < SERIES_BELOW {
             let square = half.squared();
@@ -69,6 +79,6 @@ impl AtHalfTime {
     /// V − V_x(h), which has the sign of the height after 2h.
     pub(crate) fn speed_to_spare(&self, x: f64, v: f64) -> Enclosure {
         let beyond = self.sin * (self.u - x * self.sin) / self.d;
-        (Enclosure::new(v, v) - self.h) - beyond
+        (Enclosure::from(v) - self.h) - beyond
     }
 }

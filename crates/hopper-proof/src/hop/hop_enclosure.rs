@@ -2,9 +2,8 @@
 
 use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
-use crate::hop::landing_time::landings_between;
+use crate::hop::following::Following;
 use crate::hop::strip::Strip;
-use crate::hop::time_functions::TimeFunctions;
 use interval_arithmetic::{Enclosure, PI};
 
 /// Most sudden lift-offs of a hop that are followed. Orbits with more, at large M, stay open.
@@ -19,6 +18,8 @@ pub(crate) struct HopEnclosure {
     pub(crate) by_speed: Enclosure,
     /// ∂F/∂κ.
     pub(crate) by_kappa: Enclosure,
+    /// F of the [middle](Enclosure::middle) of the speeds, where the hops from there were followed as well.
+    pub(crate) at_middle: Option<Enclosure>,
 }
 
 /// A part of the speeds on which the first landing is of one kind.
@@ -52,117 +53,9 @@ impl Part {
     }
 }
 
-/// What a landing depends on, over an interval: a state on the ground with its derivatives by α and by κ, and the sum of the losses.
-#[derive(Debug, Clone, Copy)]
-struct Following {
-    x: Enclosure,
-    v: Enclosure,
-    /// (∂x, ∂V) by α and by κ.
-    by_speed: (Enclosure, Enclosure),
-    by_kappa: (Enclosure, Enclosure),
-    /// Σ Γ², with its derivatives.
-    losses: Enclosure,
-    losses_by_speed: Enclosure,
-    losses_by_kappa: Enclosure,
-}
-
-/// The derivatives of one flight by one parameter (docs/theory.md, Lemma 16).
-struct Changes {
-    /// ½ d(Γ²).
-    half_square: Enclosure,
-    dx: Enclosure,
-    dv: Enclosure,
-}
-
-struct Flight {
-    at: TimeFunctions,
-    x: Enclosure,
-    v: Enclosure,
-    closing: Enclosure,
-    landed: Enclosure,
-}
-
-impl Flight {
-    /// The changes at the landing for changes of the start, and for `kappa_part` = dκ.
-    fn changes(
-        &self,
-        (dx, dv): (Enclosure, Enclosure),
-        kappa: Enclosure,
-        kappa_part: f64,
-    ) -> Changes {
-        let TimeFunctions { sin, cos, r, p, .. } = self.at;
-        let height = r * dx + p * dv;
-        let half_square = -(self.closing * (sin * dx + r * dv)) - self.landed * height;
-        let dtime = height / self.closing;
-        let stretch = Enclosure::ONE + self.x;
-        Changes {
-            half_square,
-            dx: cos * dx + sin * dv + (self.v * cos - stretch * sin) * dtime,
-            dv: dv - dtime + kappa * (half_square / self.closing) + kappa_part * self.closing,
-        }
-    }
-}
-
-impl Following {
-    /// After the first landing from a window (docs/theory.md, Lemmas 5 and 78).
-    fn from_window(alpha: Enclosure, first: &FirstLanding, kappa: Enclosure) -> Option<Self> {
-        let (h, b) = (first.half, first.lead());
-        let closing = first.closing_speed();
-        let slope = first.half_time_slope();
-        // x = 2h (α − h) as well.
-        let x = (2.0 * h * b).intersection(&(2.0 * h * (alpha - h)))?;
-        Some(Following {
-            x: Enclosure::new(x.low.max(0.0), x.high),
-            v: b - h + kappa * closing,
-            by_speed: (
-                2.0 * b * slope + 2.0 * h * (Enclosure::ONE - slope),
-                Enclosure::ONE - 2.0 * slope - 4.0 * kappa * alpha * b * slope,
-            ),
-            by_kappa: (Enclosure::ZERO, closing),
-            losses: closing.squared(),
-            losses_by_speed: -8.0 * alpha * first.d() * b,
-            losses_by_kappa: Enclosure::ZERO,
-        })
-    }
-
-    /// After the next landing, and whether a sudden lift-off follows it; `None` if that is open.
-    fn next(self, kappa: Enclosure) -> Option<(Self, bool)> {
-        let Following { x, v, .. } = self;
-        let ends = landings_between(x, v)?;
-        let at = TimeFunctions::between(&ends);
-        let time = Enclosure::new(2.0 * ends[0].h, 2.0 * ends[1].h);
-        // Γ = τ − V r − (1 + x) sin τ; it is never negative at a landing.
-        let closing = at.p - v * at.r - x * at.sin;
-        let closing = Enclosure::new(closing.low.max(0.0), closing.high);
-        // x′ by P and by s (docs/theory.md, Lemma 1).
-        let by_centre = x + v * time - 0.5 * time.squared();
-        let landed = by_centre.intersection(&(x * at.cos - at.r + v * at.sin))?;
-        // A flight up to α*_1 is followed by contact (docs/theory.md, Lemma 17).
-        let short = time.high <= fixed_point(1).low;
-        let sudden = match landed.sign() {
-            _ if short => false,
-            Some(sign) => sign > 0.0,
-            None => return None,
-        };
-        let flight = Flight { at, x, v, closing, landed };
-        let speed = flight.changes(self.by_speed, kappa, 0.0);
-        let mass = flight.changes(self.by_kappa, kappa, 1.0);
-        let next = Following {
-            x: landed,
-            v: v - time + kappa * closing,
-            by_speed: (speed.dx, speed.dv),
-            by_kappa: (mass.dx, mass.dv),
-            losses: self.losses + closing.squared(),
-            losses_by_speed: self.losses_by_speed + 2.0 * speed.half_square,
-            losses_by_kappa: self.losses_by_kappa + 2.0 * mass.half_square,
-        };
-        Some((next, sudden))
-    }
-}
-
-/// The hop from the middle of an interval of speeds. From it, and from the derivatives by α, the mean value form encloses the states
-/// after a landing: their widths then add, where interval arithmetic alone multiplies them.
+/// The hop from the middle of an interval of speeds, from which the mean value form encloses the others.
 struct Centre {
+    speed: f64,
     /// α − the middle, over the interval.
     distance: Enclosure,
     state: Following,
@@ -171,29 +64,17 @@ struct Centre {
 impl Centre {
     /// `None` for a single speed, which is narrow as it is.
     fn of(alpha: Enclosure, kappa: Enclosure) -> Option<Self> {
-        let middle = Enclosure::new(alpha.middle(), alpha.middle());
+        let speed = alpha.middle();
+        let middle = Enclosure::from(speed);
         if alpha.low == alpha.high {
             return None;
         }
         let state = Following::from_window(middle, &FirstLanding::over(middle)?, kappa)?;
-        Some(Centre { distance: alpha - middle, state })
+        Some(Centre { speed, distance: alpha - middle, state })
     }
 
     fn next(self, kappa: Enclosure) -> Option<Self> {
         Some(Centre { state: self.state.next(kappa)?.0, ..self })
-    }
-
-    /// The part of the states of all hops that the mean value form allows.
-    fn narrowed(&self, all: Following) -> Option<Following> {
-        let form = |at: Enclosure, slope: Enclosure, all: Enclosure| {
-            (at + slope * self.distance).intersection(&all)
-        };
-        Some(Following {
-            x: form(self.state.x, all.by_speed.0, all.x)?,
-            v: form(self.state.v, all.by_speed.1, all.v)?,
-            losses: form(self.state.losses, all.losses_by_speed, all.losses)?,
-            ..all
-        })
     }
 }
 
@@ -210,19 +91,29 @@ impl HopEnclosure {
                 square: alpha.squared() - mu * square,
                 by_speed: 2.0 * alpha * (Enclosure::ONE - 4.0 * mu * w_over(&first, n)),
                 by_kappa: -(tilt * square),
+                at_middle: None,
             });
         }
-        let mut state = Following::from_window(alpha, &first, kappa)?;
+        let narrowed = |centre: &Option<Centre>, all: Following| {
+            let centre = centre.as_ref();
+            centre.and_then(|own| all.narrowed(&own.state, own.distance)).unwrap_or(all)
+        };
         let mut centre = Centre::of(alpha, kappa);
+        let mut state = narrowed(&centre, Following::from_window(alpha, &first, kappa)?);
         for _ in 0..MOST_SUDDEN {
             let (next, again) = state.next(kappa)?;
             centre = centre.and_then(|centre| centre.next(kappa));
-            state = centre.as_ref().and_then(|centre| centre.narrowed(next)).unwrap_or(next);
+            state = narrowed(&centre, next);
             if !again {
+                let square_of = |centre: &Centre| {
+                    let speed = Enclosure::from(centre.speed);
+                    speed.squared() - mu * centre.state.losses
+                };
                 return Some(HopEnclosure {
                     square: alpha.squared() - mu * state.losses,
-                    by_speed: 2.0 * alpha - mu * state.losses_by_speed,
-                    by_kappa: -(tilt * state.losses) - mu * state.losses_by_kappa,
+                    at_middle: centre.as_ref().map(square_of),
+                    by_speed: 2.0 * alpha - mu * state.by_speed.losses,
+                    by_kappa: -(tilt * state.losses) - mu * state.by_kappa.losses,
                 });
             }
         }
@@ -249,4 +140,57 @@ pub(crate) fn largest_w(n: u64) -> Enclosure {
         return Enclosure::WHOLE;
     };
     (root + Enclosure::ONE).squared() / (4.0 * root)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Intervals of speeds in windows 1 to 6, of widths from 10⁻³ to 10⁻⁸.
+    fn intervals() -> impl Iterator<Item = Enclosure> {
+        let place = |k: u32| (f64::from(k) * 0.618_033_988_749_895).fract();
+        (0..3000).map(move |k| {
+            let n = u64::from(1 + k % 6);
+            let (begin, star) = ((PI * n as f64).high, fixed_point(n).low);
+            let low = begin + 0.999 * (star - begin) * place(k);
+            Enclosure::new(low, low + 10f64.powi(-3 - (k / 6 % 6) as i32))
+        })
+    }
+
+    /// F and its slopes at single speeds lie in the enclosures over an interval; and the slopes of the interval are hardly more than those
+    /// of its speeds, also after many sudden lift-offs.
+    #[test]
+    fn slopes_over_intervals_are_those_of_their_speeds() {
+        const SPEEDS: u32 = 8;
+        for (ratio, at_least) in [(0.5, 2990), (3.0, 2980), (5.0, 2950), (10.0, 2900)] {
+            let strip = Strip::at(ratio).unwrap();
+            let mut excess = Vec::new();
+            for alpha in intervals() {
+                let Some(part) = Part::of(alpha) else { continue };
+                let Some(all) = HopEnclosure::plain(alpha, part, &strip) else { continue };
+                let mut slopes: Option<Enclosure> = None;
+                for k in 0..=SPEEDS {
+                    let speed = alpha.low + alpha.width() * f64::from(k) / f64::from(SPEEDS);
+                    let own = Enclosure::new(speed, speed.min(alpha.high));
+                    let own = HopEnclosure::plain(own, part, &strip).unwrap();
+                    for (one, all) in [
+                        (own.square, all.square),
+                        (own.by_speed, all.by_speed),
+                        (own.by_kappa, all.by_kappa),
+                    ] {
+                        assert!(
+                            one.intersection(&all).is_some(),
+                            "M = {ratio}, {alpha:?}: {one:?} {all:?}"
+                        );
+                    }
+                    slopes = Some(slopes.map_or(own.by_speed, |slopes| slopes.hull(&own.by_speed)));
+                }
+                excess.push(all.by_speed.width() / slopes.unwrap().width());
+            }
+            excess.sort_by(f64::total_cmp);
+            assert!(excess.len() > at_least, "M = {ratio}: {}", excess.len());
+            let [median, high] = [5, 9].map(|tenths| excess[excess.len() * tenths / 10]);
+            assert!(median < 1.1 && high < 2.0, "M = {ratio}: {median} {high}");
+        }
+    }
 }

@@ -22,20 +22,23 @@ const FIRST_DISTANCE: f64 = 4.0;
 const GROWTH: f64 = 4.0;
 const ATTEMPTS: usize = 24;
 
-/// A landing: the branch of increasing start speeds on which it lies, and the functions of half its time at a time before it and at one
-/// after it.
+/// A landing: the branch of increasing start speeds on which it lies, and where to look for the signs beside it.
 ///
 /// The branch is the only b for which half the time lies in (α*_{b−1}, α*_b).
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LandingTime {
     pub(crate) branch: u64,
-    pub(crate) before: AtHalfTime,
-    pub(crate) after: AtHalfTime,
+    start: TakeOff,
+    /// It holds h for certain.
+    bracket: Enclosure,
+    /// h as it was found, and the first distance from it at which a sign is looked for.
+    found: f64,
+    first_distance: f64,
 }
 
 impl LandingTime {
-    /// A landing whose h lies in `bracket`, by signs beside a found h. Without a sign that end stays.
-    fn between_signs(branch: u64, start: TakeOff, bracket: Enclosure) -> Option<Self> {
+    /// A landing whose h lies in `bracket`, found by a search.
+    fn search(branch: u64, start: TakeOff, bracket: Enclosure) -> Option<Self> {
         let TakeOff { excess: x, velocity: v } = start;
         let flight = HalfFlight::of(start)?;
         let (h, slope) = (flight.half_time(), flight.start_speed_slope(x));
@@ -44,31 +47,43 @@ impl LandingTime {
         // The rounding error of V − V_x(h), over its slope: larger next to Γ = 0.
         let sin = flight.sin();
         let scale = (v - h).abs() + (sin * flight.rho()).abs() + x * sin * sin / flight.d();
-        let first = (FIRST_DISTANCE * f64::EPSILON * scale / slope)
+        let first_distance = (FIRST_DISTANCE * f64::EPSILON * scale / slope)
             .clamp(2.0 * f64::EPSILON * found, 1e-3 * found);
-        let look = |direction: f64, end: f64| {
-            let mut distance = first;
-            for _ in 0..ATTEMPTS {
-                let h = found + direction * distance;
-                if direction * (h - end) >= 0.0 || !h.is_finite() {
-                    break;
-                }
-                // Outside of the bracket there may be other changes of sign.
-                if bracket.contains(h) {
-                    let at = AtHalfTime::new(h);
-                    if at.speed_to_spare(x, v).sign() == Some(-direction) {
-                        return at;
-                    }
-                }
-                distance *= GROWTH;
+        Some(LandingTime { branch, start, bracket, found, first_distance })
+    }
+
+    /// The functions at a time before the landing.
+    pub(crate) fn before(&self) -> AtHalfTime {
+        let end = self.bracket.low;
+        self.with_sign(-1.0, end).unwrap_or_else(|| AtHalfTime::new(end))
+    }
+
+    /// The functions at a time after it.
+    pub(crate) fn after(&self) -> AtHalfTime {
+        let end = self.bracket.high;
+        self.with_sign(1.0, end).unwrap_or_else(|| AtHalfTime::new(end))
+    }
+
+    /// The functions at the nearest of some times on one side of the found one, up to `end`, that a sign shows to be on this side of the landing.
+    fn with_sign(&self, direction: f64, end: f64) -> Option<AtHalfTime> {
+        let TakeOff { excess: x, velocity: v } = self.start;
+        let mut distance = self.first_distance;
+        for _ in 0..ATTEMPTS {
+            let h = self.found + direction * distance;
+            let is_short = direction * (h - end) < 0.0;
+            if !is_short {
+                return None;
             }
-            AtHalfTime::new(end)
-        };
-        Some(LandingTime {
-            branch,
-            before: look(-1.0, bracket.low),
-            after: look(1.0, bracket.high),
-        })
+            // Outside of the bracket there may be other changes of sign.
+            if self.bracket.contains(h) {
+                let at = AtHalfTime::new(h);
+                if at.speed_to_spare(x, v).sign() == Some(-direction) {
+                    return Some(at);
+                }
+            }
+            distance *= GROWTH;
+        }
+        None
     }
 }
 
@@ -78,7 +93,7 @@ pub(crate) fn first_landing_time(alpha: f64) -> Option<LandingTime> {
     // α and h lie between the same two neighbouring multiples of π (Theorem 7); half of π more on both sides covers the rounding of the quotient.
     let k = (alpha / std::f64::consts::PI).floor();
     let bracket = Enclosure::new((k - 0.5).max(0.0) * PI.low, (k + 1.5) * PI.high);
-    LandingTime::between_signs(n + 1, TakeOff { excess: 0.0, velocity: alpha }, bracket)
+    LandingTime::search(n + 1, TakeOff { excess: 0.0, velocity: alpha }, bracket)
 }
 
 /// The first landing of the flight from the stretch x > 0 with velocity `v` (docs/theory.md, Theorem 12); `None` next to a grazing,
@@ -89,10 +104,10 @@ pub(crate) fn next_landing_time(x: f64, v: f64) -> Option<LandingTime> {
     if !(m < 1e9) || (m > 0.0 && !((PI * m).high <= v)) || !(v < (PI * (m + 1.0)).low) {
         return None;
     }
-    let speed = Enclosure::new(v, v);
+    let speed = Enclosure::from(v);
     let mut same_branch = false;
     if m >= 1.0 {
-        let test = speed * speed.cos() - (1.0 + Enclosure::new(x, x)) * speed.sin();
+        let test = speed * speed.cos() - (1.0 + Enclosure::from(x)) * speed.sin();
         let sign = test.sign()?;
         same_branch = if m % 2.0 == 0.0 { sign > 0.0 } else { sign < 0.0 };
     }
@@ -103,7 +118,7 @@ pub(crate) fn next_landing_time(x: f64, v: f64) -> Option<LandingTime> {
         let star = if m >= 1.0 { fixed_point(m as u64).low } else { 0.0 };
         Enclosure::new(star.max(v), (PI * (m + 1.0)).high)
     };
-    LandingTime::between_signs(branch, TakeOff { excess: x, velocity: v }, half)
+    LandingTime::search(branch, TakeOff { excess: x, velocity: v }, half)
 }
 
 /// The landings of all flights from x in `stretches`, x ≥ 0, with V in `velocities`, lie between the two ends: on one branch the time rises with x
@@ -117,13 +132,14 @@ pub(crate) fn landings_between(
         false if v > 0.0 => first_landing_time(v),
         // Without a stretch a flight with V ≤ 0 ends at once (docs/theory.md, Lemma 22).
         false => {
-            let at_once = AtHalfTime::new(0.0);
-            Some(LandingTime { branch: 1, before: at_once, after: at_once })
+            let start = TakeOff { excess: 0.0, velocity: v };
+            let bracket = Enclosure::ZERO;
+            Some(LandingTime { branch: 1, start, bracket, found: 0.0, first_distance: 0.0 })
         }
     };
     let first = at(stretches.low, velocities.low)?;
     let last = at(stretches.high, velocities.high)?;
-    (first.branch == last.branch).then_some([first.before, last.after])
+    (first.branch == last.branch).then(|| [first.before(), last.after()])
 }
 
 #[cfg(test)]
@@ -135,10 +151,11 @@ mod tests {
     fn signs_are_taken_inside_the_bracket_alone() {
         let start = TakeOff { excess: 1.0, velocity: 2.0 };
         let whole = next_landing_time(1.0, 2.0).unwrap();
-        assert!(whole.before.h < 3.2 && whole.after.h - whole.before.h < 1e-12, "{whole:?}");
+        let (before, after) = (whole.before().h, whole.after().h);
+        assert!(before < 3.2 && after - before < 1e-12, "{whole:?}");
         for bracket in [Enclosure::new(0.5, 1.5), Enclosure::new(3.1, 3.13)] {
-            let found = LandingTime::between_signs(1, start, bracket).unwrap();
-            assert_eq!((found.before.h, found.after.h), (bracket.low, bracket.high));
+            let found = LandingTime::search(1, start, bracket).unwrap();
+            assert_eq!((found.before().h, found.after().h), (bracket.low, bracket.high));
         }
     }
 }

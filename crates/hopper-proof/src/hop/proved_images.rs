@@ -39,10 +39,6 @@ pub(crate) fn image_of(square: Enclosure) -> SpeedImage {
     }
 }
 
-fn point(value: f64) -> Enclosure {
-    Enclosure::new(value, value)
-}
-
 impl ProvedImages {
     /// The images of speeds up to `top`, for all mass ratios of `strip`.
     ///
@@ -83,7 +79,7 @@ impl ProvedImages {
 
     /// F of one speed, over the strip; `None` if a decision of the hop is open.
     pub fn square(&self, alpha: f64) -> Option<Enclosure> {
-        let speed = point(alpha);
+        let speed = Enclosure::from(alpha);
         if let Some(joint) = self.joint(speed) {
             return joint;
         }
@@ -170,8 +166,9 @@ impl ProvedImages {
             return Some(low.hull(&high));
         }
         // Along α from either end; the mean value form holds at each κ.
-        let from =
-            |at: Enclosure, end: f64| Enclosure::mean_value(at, all.by_speed, alpha, point(end));
+        let from = |at: Enclosure, end: f64| {
+            Enclosure::mean_value(at, all.by_speed, alpha, Enclosure::from(end))
+        };
         let form = from(low, alpha.low).intersection(&from(high, alpha.high))?;
         form.intersection(&all.square)
     }

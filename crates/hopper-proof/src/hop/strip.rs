@@ -19,13 +19,13 @@ pub struct Strip {
 
 /// κ of one mass ratio.
 fn kappa_of(mass_ratio: f64) -> Enclosure {
-    let m = Enclosure::new(mass_ratio, mass_ratio);
+    let m = Enclosure::from(mass_ratio);
     m / (Enclosure::ONE + m)
 }
 
 /// κ(1−κ), which rises up to κ = ½ and falls beyond it.
 fn mu_of(kappa: Enclosure) -> Enclosure {
-    let at = |k: f64| Enclosure::new(k, k) * (Enclosure::ONE - Enclosure::new(k, k));
+    let at = |k: f64| Enclosure::from(k) * (Enclosure::ONE - Enclosure::from(k));
     let ends = at(kappa.low).hull(&at(kappa.high));
     if kappa.contains(0.5) { ends.hull(&Enclosure::new(0.25, 0.25)) } else { ends }
 }
@@ -60,7 +60,7 @@ impl Strip {
 
     fn of_kappa(kappa: Enclosure, mass_ratios: Enclosure) -> Self {
         let centre = kappa.middle();
-        Strip { mass_ratios, kappa, mu: mu_of(kappa), middle: Enclosure::new(centre, centre) }
+        Strip { mass_ratios, kappa, mu: mu_of(kappa), middle: Enclosure::from(centre) }
     }
 
     /// The length in κ.

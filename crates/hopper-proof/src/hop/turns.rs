@@ -31,7 +31,7 @@ pub(crate) enum Turns {
 
 /// 4μW at a speed of the contact part of hump n.
 fn steepness(alpha: f64, strip: &Strip) -> Option<Enclosure> {
-    let first = FirstLanding::over(Enclosure::new(alpha, alpha))?;
+    let first = FirstLanding::over(Enclosure::from(alpha))?;
     let [low, high] = first.w_at_ends();
     Some(4.0 * strip.mu * low.hull(&high))
 }
@@ -71,12 +71,12 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
     let turn = |speeds: Interval| {
         let all = Enclosure::new(speeds.left, speeds.right);
         let at = |alpha: f64| {
-            HopEnclosure::plain(Enclosure::new(alpha, alpha), Part::Contact(n), strip)
+            HopEnclosure::plain(Enclosure::from(alpha), Part::Contact(n), strip)
                 .map(|hop| hop.square)
         };
         let slope = HopEnclosure::plain(all, Part::Contact(n), strip)?.by_speed;
         let middle = all.middle();
-        let form = Enclosure::mean_value(at(middle)?, slope, all, Enclosure::new(middle, middle));
+        let form = Enclosure::mean_value(at(middle)?, slope, all, Enclosure::from(middle));
         Some(Turn { speeds, image: super::proved_images::image_of(form) })
     };
     told.then(|| Some(Turns::All(vec![turn(top)?, turn(bottom)?])))?

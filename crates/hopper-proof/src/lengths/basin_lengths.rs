@@ -33,12 +33,12 @@ pub(crate) struct BasinLengths<'a> {
 
 /// The distance from `low` up to `high` at least; 0 if `low` may be above.
 pub(super) fn distance(low: f64, high: f64) -> f64 {
-    (Enclosure::new(high, high) - Enclosure::new(low, low)).low.max(0.0)
+    (Enclosure::from(high) - low).low.max(0.0)
 }
 
 /// The sum of numbers, at least.
 pub(super) fn sum(numbers: &[f64]) -> f64 {
-    numbers.iter().fold(Enclosure::ZERO, |sum, &own| sum + Enclosure::new(own, own)).low.max(0.0)
+    numbers.iter().fold(Enclosure::ZERO, |sum, &own| sum + own).low.max(0.0)
 }
 
 impl<'a> BasinLengths<'a> {
@@ -76,7 +76,7 @@ impl<'a> BasinLengths<'a> {
     pub(crate) fn between(&self, left: f64, right: f64) -> Vec<f64> {
         let mut sums = vec![Enclosure::ZERO; self.labels.len()];
         let mut add = |basin: usize, length: f64| {
-            sums[basin] = sums[basin] + Enclosure::new(length, length);
+            sums[basin] = sums[basin] + length;
         };
         let inside = self.segments_from(left).iter().take_while(|own| own.interval.left < right);
         for Segment { interval, known } in inside {

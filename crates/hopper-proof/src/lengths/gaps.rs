@@ -22,16 +22,37 @@ const STALLED: f64 = 0.8;
 /// If a larger part of a gap than this is lost to its curvature, halves are worth it in any case.
 const CURVED: f64 = 0.5;
 
+/// An interval of speeds, with F at its ends; `None` if that is open.
+#[derive(Debug, Clone, Copy)]
+struct Gap {
+    speeds: Interval,
+    squares: [Option<Enclosure>; 2],
+}
+
 /// What is known of a gap.
 struct Found {
     /// The least length that each basin has.
     at_least: Vec<f64>,
     /// The length that would stay unknown if all of the image were known.
     lost: f64,
+    /// F of the middle speed, if it was found on the way.
+    at_middle: Option<Enclosure>,
 }
 
-fn point(value: f64) -> Enclosure {
-    Enclosure::new(value, value)
+impl Gap {
+    fn halves(&self, middle: f64, at_middle: Option<Enclosure>) -> [Gap; 2] {
+        let Gap { speeds, squares: [first, last] } = *self;
+        [
+            Gap { speeds: Interval { right: middle, ..speeds }, squares: [first, at_middle] },
+            Gap { speeds: Interval { left: middle, ..speeds }, squares: [at_middle, last] },
+        ]
+    }
+
+    /// The image of its upper end may lie in the gap.
+    fn reaches_itself(&self) -> bool {
+        let Interval { left, .. } = self.speeds;
+        self.squares[1].is_none_or(|image| image.high > left * left)
+    }
 }
 
 impl BasinLengths<'_> {
@@ -45,24 +66,32 @@ impl BasinLengths<'_> {
         for end in ends {
             if from < end && end <= gap.right {
                 let part = Interval { left: from, right: end };
+                let part = self.gap(part);
                 self.add(part, self.of_whole_gap(part), goal, MOST_HALVINGS);
                 from = end;
             }
         }
     }
 
+    fn gap(&self, speeds: Interval) -> Gap {
+        let Interval { left, right } = speeds;
+        Gap { speeds, squares: [left, right].map(|speed| self.images.square(speed)) }
+    }
+
     /// Adds a part of a gap, of which `found` is known.
-    fn add(&mut self, gap: Interval, found: Found, goal: f64, halvings: usize) {
-        let unknown = |gap: Interval, found: &Found| gap.length() - sum(&found.at_least);
-        let before = unknown(gap, &found);
-        let middle = gap.left.midpoint(gap.right);
-        let divisible = halvings > 0 && gap.left < middle && middle < gap.right;
-        let curved = found.lost > CURVED * gap.length();
+    fn add(&mut self, gap: Gap, found: Found, goal: f64, halvings: usize) {
+        let Interval { left, right } = gap.speeds;
+        let unknown = |gap: &Gap, found: &Found| gap.speeds.length() - sum(&found.at_least);
+        let before = unknown(&gap, &found);
+        let middle = left.midpoint(right);
+        let divisible = halvings > 0 && left < middle && middle < right;
+        let curved = found.lost > CURVED * gap.speeds.length();
         // Next to a fixed point the image reaches into the gap itself, and so does that of the upper half.
-        if before > goal && divisible && (curved || !self.reaches_itself(gap)) {
-            let halves = [Interval { right: middle, ..gap }, Interval { left: middle, ..gap }];
+        if before > goal && divisible && (curved || !gap.reaches_itself()) {
+            let at_middle = found.at_middle.or_else(|| self.images.square(middle));
+            let halves = gap.halves(middle, at_middle);
             let of_halves = halves.map(|half| self.of_whole_gap(half));
-            let after = unknown(halves[0], &of_halves[0]) + unknown(halves[1], &of_halves[1]);
+            let after = unknown(&halves[0], &of_halves[0]) + unknown(&halves[1], &of_halves[1]);
             if curved || after < STALLED * before {
                 for (half, found) in halves.into_iter().zip(of_halves) {
                     self.add(half, found, goal, halvings - 1);
@@ -70,26 +99,26 @@ impl BasinLengths<'_> {
                 return;
             }
         }
-        self.segments.push(Segment { interval: gap, known: Known::AtLeast(found.at_least) });
+        let known = Known::AtLeast(found.at_least);
+        self.segments.push(Segment { interval: gap.speeds, known });
     }
 
-    fn reaches_itself(&self, gap: Interval) -> bool {
-        self.images.square(gap.right).is_none_or(|image| image.high > gap.left * gap.left)
-    }
-
-    fn of_whole_gap(&self, gap: Interval) -> Found {
+    fn of_whole_gap(&self, gap: Gap) -> Found {
         let mut hops = MOST_HOPS;
-        let nothing = || Found { at_least: self.nothing(), lost: gap.length() };
-        self.of_gap(gap, &mut hops).unwrap_or_else(nothing)
+        self.of_gap(gap, &mut hops).unwrap_or_else(|| Found {
+            at_least: self.nothing(),
+            lost: gap.speeds.length(),
+            at_middle: None,
+        })
     }
 
     /// What each basin has at least of a gap, from its image; `None` if a decision of the hops is open.
-    fn of_gap(&self, gap: Interval, hops: &mut usize) -> Option<Found> {
-        let all = Enclosure::new(gap.left, gap.right);
+    fn of_gap(&self, gap: Gap, hops: &mut usize) -> Option<Found> {
+        let all = Enclosure::new(gap.speeds.left, gap.speeds.right);
         // On one part, and with one number of sudden lift-offs, F is smooth.
         let hop = HopEnclosure::plain(all, Part::of(all)?, self.images.strip())?;
         let steepest = hop.by_speed.magnitude();
-        let ends = [self.images.square(gap.left)?, self.images.square(gap.right)?];
+        let ends = [gap.squares[0]?, gap.squares[1]?];
         // All values from `low` to `high` are taken.
         let low = ends[0].high.min(ends[1].high);
         let high = ends[0].low.max(ends[1].low);
@@ -98,19 +127,20 @@ impl BasinLengths<'_> {
         }
         let mut values = self.values_between(low.max(0.0), high, hops);
         if let Some(grounded) = self.labels.iter().position(|&own| own == HopperFate::GROUNDED) {
-            let below_zero = point(distance(low, high.min(0.0)));
-            values[grounded] = (point(values[grounded]) + below_zero).low;
+            let below_zero = distance(low, high.min(0.0));
+            values[grounded] = sum(&[values[grounded], below_zero]);
         }
-        let length = |value: f64| (point(value) / point(steepest)).low.max(0.0);
-        let lost = gap.length() - length(distance(low, high));
-        Some(Found { at_least: values.into_iter().map(length).collect(), lost })
+        let length = |value: f64| (Enclosure::from(value) / steepest).low.max(0.0);
+        let lost = gap.speeds.length() - length(distance(low, high));
+        let at_least = values.into_iter().map(length).collect();
+        Some(Found { at_least, lost, at_middle: hop.at_middle })
     }
 
     /// What each basin has at least of the values of F from `low` ≥ 0 to `high`.
     fn values_between(&self, low: f64, high: f64, hops: &mut usize) -> Vec<f64> {
         let mut sums = vec![Enclosure::ZERO; self.labels.len()];
-        let [first, last] =
-            [low, high].map(|value| point(value.max(0.0)).sqrt().unwrap_or(Enclosure::WHOLE));
+        let [first, last] = [low, high]
+            .map(|value| Enclosure::from(value.max(0.0)).sqrt().unwrap_or(Enclosure::WHOLE));
         for Segment { interval, known } in self.segments_from(first.low) {
             if interval.left >= last.high {
                 break;
@@ -123,7 +153,8 @@ impl BasinLengths<'_> {
             }
             match known {
                 &Known::Whole(basin) => {
-                    sums[basin] = sums[basin] + (point(right).squared() - point(left).squared());
+                    sums[basin] = sums[basin]
+                        + (Enclosure::from(right).squared() - Enclosure::from(left).squared());
                 }
                 Known::AtLeast(lengths) => {
                     let inside = Interval { left, right };
@@ -131,13 +162,13 @@ impl BasinLengths<'_> {
                         Some(lengths.clone())
                     } else if *hops > 0 {
                         *hops -= 1;
-                        self.of_gap(inside, hops).map(|found| found.at_least)
+                        self.of_gap(self.gap(inside), hops).map(|found| found.at_least)
                     } else {
                         None
                     };
                     // dF = 2α dα.
                     for (sum, length) in sums.iter_mut().zip(own.into_iter().flatten()) {
-                        *sum = *sum + 2.0 * point(left) * point(length);
+                        *sum = *sum + 2.0 * Enclosure::from(left) * length;
                     }
                 }
             }

@@ -115,7 +115,7 @@ impl Areas {
     fn shares(&self, whole: Enclosure) -> Vec<(Label, Enclosure)> {
         let known = self.0.iter().fold(Enclosure::ZERO, |sum, &(_, area)| sum + area);
         let open = (whole - known).high.max(0.0);
-        let most = |area: f64| (Enclosure::new(area, area) + open).high;
+        let most = |area: f64| (Enclosure::from(area) + open).high;
         let share =
             |&(label, area): &(Label, f64)| (label, Enclosure::new(area, most(area)) / whole);
         self.0.iter().map(share).collect()
@@ -123,7 +123,7 @@ impl Areas {
 }
 
 fn length(range: Interval) -> Enclosure {
-    Enclosure::new(range.right, range.right) - range.left
+    Enclosure::from(range.right) - range.left
 }
 
 impl ProvedCells {
@@ -164,7 +164,7 @@ impl ProvedCells {
                 for &label in found.labels() {
                     let share = found.of(label, row).lower / strips.len() as f64;
                     if share > 0.0 {
-                        shares[row].add(label, Enclosure::new(share, share));
+                        shares[row].add(label, Enclosure::from(share));
                     }
                 }
             }

@@ -12,6 +12,8 @@ use crate::theorems::theorem::Theorem;
 use basin_of_attraction::{Interval, Label};
 use hopper_basin::HopperFate;
 use interval_arithmetic::Enclosure;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// The humps of the paper's fractions.
 const HUMPS: u64 = 5;
@@ -29,6 +31,9 @@ const MOST_OPEN: f64 = 0.1;
 /// With larger ones the width is missed; with smaller ones it takes longer.
 const SHORTEST: f64 = 1.5e-3;
 const UNKNOWN: f64 = 2.5e-5;
+
+/// A width that was missed is asked for again as these parts of it. A smaller part takes longer, a larger one may miss it again.
+const FINER: [f64; 2] = [0.3, 0.1];
 
 /// Digits of a fraction that are printed: more than the narrowest one has.
 const DIGITS: usize = 12;
@@ -59,12 +64,10 @@ pub struct ProvedFractions {
     pub gaps: Vec<BasinGap>,
 }
 
-fn point(value: f64) -> Enclosure {
-    Enclosure::new(value, value)
-}
-
 impl ProvedFractions {
-    /// The fractions at M, to about `width`.
+    /// The fractions at M, to `width` where that is reached: [`width`](Self::width) tells.
+    ///
+    /// Below about 10⁻⁹ it is not reached, and at M ≥ 5 each half of the width takes several times as long.
     ///
     /// # Errors
     /// [`Error::MassRatios`] for a wrong mass ratio; [`Error::Share`] unless `width` is above 0 and below 1.
@@ -72,6 +75,18 @@ impl ProvedFractions {
         if !(width > 0.0 && width < 1.0) {
             return Err(Error::Share { open: width, parts: PARTS });
         }
+        let mut found = Self::with_effort(mass_ratio, width)?;
+        for part in FINER {
+            if found.width <= width {
+                break;
+            }
+            found = Self::with_effort(mass_ratio, part * width)?;
+        }
+        Ok(found)
+    }
+
+    /// The fractions at M, to about `width`.
+    fn with_effort(mass_ratio: f64, width: f64) -> Result<Self, Error> {
         let strip = Strip::at(mass_ratio)?;
         let stars: Vec<Enclosure> = (1..=HUMPS + 1).map(fixed_point).collect();
         let window = Interval { left: stars[0].high, right: stars[stars.len() - 1].low };
@@ -88,7 +103,7 @@ impl ProvedFractions {
         let whole = stars[stars.len() - 1] - stars[0];
         // All together have a hump: each has at most what the others leave.
         let open = |(known, hump): (&Vec<f64>, &Enclosure)| {
-            let sum = known.iter().fold(Enclosure::ZERO, |sum, &own| sum + point(own));
+            let sum = known.iter().fold(Enclosure::ZERO, |sum, &own| sum + own);
             (*hump - sum).high.max(0.0)
         };
         let open: Vec<f64> = at_least.iter().zip(&humps).map(open).collect();
@@ -97,7 +112,7 @@ impl ProvedFractions {
         let fraction = |(basin, &label): (usize, &Label)| {
             let (mut uniform, mut by_humps) = (Enclosure::ZERO, Enclosure::ZERO);
             for ((known, &hump), &open) in at_least.iter().zip(&humps).zip(&open) {
-                let own = point(known[basin]) + Enclosure::new(0.0, open);
+                let own = Enclosure::new(0.0, open) + known[basin];
                 uniform = uniform + own;
                 by_humps = by_humps + own / hump;
             }
@@ -119,17 +134,28 @@ fn digits(share: Enclosure) -> String {
     format!("[{}, {}]", at_least(share.low, DIGITS), at_most(share.high, DIGITS))
 }
 
-/// The fractions at some mass ratios, each to a width of its own.
+/// The fractions at some mass ratios, each to a width of its own. `progress` is called with the number of finished ones.
+///
+/// The last ones are begun first: put the mass ratios that take longest there.
 ///
 /// # Errors
 /// As [`ProvedFractions::new`].
-pub fn measures(cases: &[(f64, f64)]) -> Result<Theorem, Error> {
+pub fn measures(cases: &[(f64, f64)], progress: impl Fn(usize) + Sync) -> Result<Theorem, Error> {
     let mut theorem = Theorem::new(
         "measures",
         "The fractions of the basins among the lift-off speeds of humps 1 to 5, uniform in α, and as the mean of the five humps: between these bounds.",
     );
-    for &(mass_ratio, width) in cases {
-        let found = ProvedFractions::new(mass_ratio, width)?;
+    let done = AtomicUsize::new(0);
+    let prove = |(number, &(mass_ratio, width)): (usize, &(f64, f64))| {
+        let found = ProvedFractions::new(mass_ratio, width);
+        progress(done.fetch_add(1, Relaxed) + 1);
+        (number, width, found)
+    };
+    let mut all: Vec<_> = cases.iter().enumerate().rev().par_bridge().map(prove).collect();
+    all.sort_by_key(|&(number, ..)| number);
+    for (_, width, found) in all {
+        let found = found?;
+        let mass_ratio = found.mass_ratio;
         let mass_ratios = Interval { left: mass_ratio, right: mass_ratio };
         theorem.evidence.push(Evidence::Basins { mass_ratios, intervals: found.intervals });
         theorem.evidence.push(Evidence::Gaps(found.gaps));
