@@ -1,4 +1,5 @@
-//! Rounding outwards: one `f64` beyond the result of rounding to nearest.
+//! Rounding outwards: one `f64` beyond the result of rounding to nearest. Sums, whose rounding error is known, are rounded outwards only if it is
+//! on that side.
 
 /// A number that is not above the exact value whose rounding to nearest is `rounded`.
 ///
@@ -12,4 +13,27 @@ pub(crate) fn down(rounded: f64) -> f64 {
 #[inline]
 pub(crate) fn up(rounded: f64) -> f64 {
     if rounded.is_nan() { f64::INFINITY } else { rounded.next_up() }
+}
+
+/// The largest `f64` that is not above a + b, or one below it if an end has no bound.
+#[inline]
+pub(crate) fn sum_down(a: f64, b: f64) -> f64 {
+    let (sum, error) = with_error(a, b);
+    if error >= 0.0 { sum } else { down(sum) }
+}
+
+/// The smallest `f64` that is not below a + b, or one above it if an end has no bound.
+#[inline]
+pub(crate) fn sum_up(a: f64, b: f64) -> f64 {
+    let (sum, error) = with_error(a, b);
+    if error <= 0.0 { sum } else { up(sum) }
+}
+
+/// The rounded sum, and what is left of the exact one (D. E. Knuth, The Art of Computer Programming 2, Section 4.2.2, Theorem B); NaN if the sum
+/// or an end is infinite.
+#[inline]
+fn with_error(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let part = sum - a;
+    (sum, (a - (sum - part)) + (b - part))
 }

@@ -31,6 +31,11 @@ proptest! {
     fn sums_products_quotients_and_roots_hold_the_exact_numbers(a in moderate(), b in moderate()) {
         prop_assert!(holds(point(a) + point(b), a + b, rest_of_sum(a, b)));
         prop_assert!(holds(point(a) - point(b), a - b, rest_of_sum(a, -b)));
+        let sharp = point(a).sharp_difference(point(b));
+        let exact = rest_of_sum(a, -b) == 0.0;
+        prop_assert!(holds(sharp, a - b, rest_of_sum(a, -b)));
+        let end = if exact { sharp.low } else { sharp.low.next_up() };
+        prop_assert_eq!(sharp.high, end);
         let product = a * b;
         prop_assert!(holds(point(a) * point(b), product, a.mul_add(b, -product)));
         if b != 0.0 {
@@ -115,4 +120,9 @@ fn no_interval_says_anything_certain() {
     let infinite = Enclosure::new(f64::MAX, f64::MAX) * 2.0;
     assert!(infinite.low.is_finite() && infinite.high == f64::INFINITY);
     assert_eq!((infinite - infinite).sign(), None);
+    assert_eq!(infinite.sharp_difference(infinite).sign(), None);
+    assert_eq!(one.sharp_difference(wrong).sign(), None);
+    assert_eq!(one.sharp_difference(Enclosure::WHOLE), Enclosure::WHOLE);
+    let beyond = Enclosure::from(f64::MAX).sharp_difference(Enclosure::from(f64::MIN));
+    assert_eq!(beyond, Enclosure::new(f64::MAX, f64::INFINITY));
 }

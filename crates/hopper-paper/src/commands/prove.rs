@@ -74,13 +74,13 @@ const RISING: [(u64, f64); 10] = [
 
 /// Mass ratios of the fractions, with the width that is asked for. The last ones take longest.
 const MEASURES: [(f64, f64); 11] = [
-    (0.1, 2e-9),
-    (0.15, 2e-9),
-    (0.2, 2e-9),
-    (0.3, 2e-9),
-    (0.5, 5e-9),
-    (0.8, 5e-9),
-    (1.0, 5e-9),
+    (0.1, 1e-9),
+    (0.15, 1e-9),
+    (0.2, 1e-9),
+    (0.3, 1e-9),
+    (0.5, 2e-9),
+    (0.8, 1e-9),
+    (1.0, 1e-9),
     (2.0, 2e-6),
     (3.0, 1e-5),
     (5.0, 1e-4),

@@ -4,22 +4,62 @@ use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::following::Following;
 use crate::hop::strip::Strip;
+use hopper_basin::SpeedImage;
 use interval_arithmetic::{Enclosure, PI};
 
 /// Most sudden lift-offs of a hop that are followed. Orbits with more, at large M, stay open.
 const MOST_SUDDEN: usize = 64;
 
-/// F = α′² of the hop, below zero where the hopper is grounded, with its derivatives.
+/// Where a hop leads.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reached {
+    /// F = α′², below zero where the hopper is grounded.
+    pub(crate) square: Enclosure,
+    /// α² − F.
+    pub(crate) loss: Enclosure,
+}
+
+impl Reached {
+    fn by_loss(alpha: Enclosure, loss: Enclosure) -> Self {
+        Reached { square: alpha.squared() - loss, loss }
+    }
+
+    /// α′ of the hop from α; 0 where the hopper may be grounded.
+    ///
+    /// It is √F, and α − (α² − F)/(α + α′) as well: small losses keep their digits.
+    pub(crate) fn speed(&self, alpha: f64) -> Option<Enclosure> {
+        let positive = Enclosure::new(self.square.low.max(0.0), self.square.high.max(0.0));
+        let root = positive.sqrt()?;
+        if self.square.is_positive() {
+            let by_loss = Enclosure::from(alpha).sharp_difference(self.loss / (root + alpha));
+            root.intersection(&by_loss)
+        } else {
+            Some(root)
+        }
+    }
+
+    /// The image of α.
+    pub(crate) fn image(&self, alpha: f64) -> SpeedImage {
+        match self.speed(alpha) {
+            _ if self.square.is_negative() => SpeedImage::Grounded,
+            Some(speed) if self.square.is_positive() && speed.high.is_finite() => {
+                SpeedImage::Within(speed.low, speed.high)
+            }
+            _ => SpeedImage::Unknown,
+        }
+    }
+}
+
+/// The hops of an interval, with their derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HopEnclosure {
-    /// F.
-    pub(crate) square: Enclosure,
+    pub(crate) reached: Reached,
     /// ∂F/∂α.
     pub(crate) by_speed: Enclosure,
     /// ∂F/∂κ.
     pub(crate) by_kappa: Enclosure,
-    /// F of the [middle](Enclosure::middle) of the speeds, where the hops from there were followed as well.
-    pub(crate) at_middle: Option<Enclosure>,
+    /// The hops of the [middle](Enclosure::middle) speed, where they were followed as well.
+    pub(crate) at_middle: Option<Reached>,
 }
 
 /// A part of the speeds on which the first landing is of one kind.
@@ -88,7 +128,7 @@ impl HopEnclosure {
         if let Part::Contact(n) = part {
             let square = first.closing_speed().squared();
             return Some(HopEnclosure {
-                square: alpha.squared() - mu * square,
+                reached: Reached::by_loss(alpha, mu * square),
                 by_speed: 2.0 * alpha * (Enclosure::ONE - 4.0 * mu * w_over(&first, n)),
                 by_kappa: -(tilt * square),
                 at_middle: None,
@@ -105,13 +145,12 @@ impl HopEnclosure {
             centre = centre.and_then(|centre| centre.next(kappa));
             state = narrowed(&centre, next);
             if !again {
-                let square_of = |centre: &Centre| {
-                    let speed = Enclosure::from(centre.speed);
-                    speed.squared() - mu * centre.state.losses
+                let of_middle = |centre: &Centre| {
+                    Reached::by_loss(Enclosure::from(centre.speed), mu * centre.state.losses)
                 };
                 return Some(HopEnclosure {
-                    square: alpha.squared() - mu * state.losses,
-                    at_middle: centre.as_ref().map(square_of),
+                    reached: Reached::by_loss(alpha, mu * state.losses),
+                    at_middle: centre.as_ref().map(of_middle),
                     by_speed: 2.0 * alpha - mu * state.by_speed.losses,
                     by_kappa: -(tilt * state.losses) - mu * state.by_kappa.losses,
                 });
@@ -174,7 +213,7 @@ mod tests {
                     let own = Enclosure::new(speed, speed.min(alpha.high));
                     let own = HopEnclosure::plain(own, part, &strip).unwrap();
                     for (one, all) in [
-                        (own.square, all.square),
+                        (own.reached.square, all.reached.square),
                         (own.by_speed, all.by_speed),
                         (own.by_kappa, all.by_kappa),
                     ] {

@@ -5,7 +5,7 @@
 
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
-use crate::hop::hop_enclosure::{HopEnclosure, Part};
+use crate::hop::hop_enclosure::{HopEnclosure, Part, Reached};
 use crate::hop::strip::Strip;
 use crate::hop::turns::{Turns, turns_up_to};
 use hopper_basin::{ImagedSpeed, SpeedImage, SpeedImages, rising_window};
@@ -79,22 +79,27 @@ impl ProvedImages {
 
     /// F of one speed, over the strip; `None` if a decision of the hop is open.
     pub fn square(&self, alpha: f64) -> Option<Enclosure> {
+        Some(self.reached(alpha)?.square)
+    }
+
+    /// Where the hops from one speed lead, over the strip; `None` if a decision of the hop is open.
+    pub(crate) fn reached(&self, alpha: f64) -> Option<Reached> {
         let speed = Enclosure::from(alpha);
         if let Some(joint) = self.joint(speed) {
-            return joint;
+            return Some(Reached { square: joint?, loss: Enclosure::WHOLE });
         }
         let part = Part::of(speed)?;
         let all = HopEnclosure::plain(speed, part, &self.strip)?;
         if self.strip.kappa.width() <= 4.0 * f64::EPSILON {
-            return Some(all.square);
+            return Some(all.reached);
         }
         if let Part::Contact(_) = part {
-            return Some(all.square); // α is a point, and F is linear in μ: nothing is lost
+            return Some(all.reached); // α is a point, and F is linear in μ: nothing is lost
         }
-        let middle = HopEnclosure::plain(speed, part, &self.middle)?;
-        let form =
-            Enclosure::mean_value(middle.square, all.by_kappa, self.strip.kappa, self.strip.middle);
-        form.intersection(&all.square)
+        let middle = HopEnclosure::plain(speed, part, &self.middle)?.reached.square;
+        let form = Enclosure::mean_value(middle, all.by_kappa, self.strip.kappa, self.strip.middle);
+        let Reached { square, loss } = all.reached;
+        Some(Reached { square: form.intersection(&square)?, loss })
     }
 
     /// F over an interval that reaches to a multiple of π, for M < 1, where F is continuous (docs/theory.md, Theorem 23): by the formulas of
@@ -105,7 +110,8 @@ impl ProvedImages {
         let next_to = k >= 1.0 && alpha.low >= joint.low && alpha.high <= joint.high;
         next_to.then(|| {
             let light = self.strip.mass_ratios.high < 1.0;
-            let side = |part| HopEnclosure::plain(alpha, part, &self.strip).map(|hop| hop.square);
+            let side =
+                |part| HopEnclosure::plain(alpha, part, &self.strip).map(|hop| hop.reached.square);
             let n = k as u64;
             let both = || Some(side(Part::Contact(n - 1))?.hull(&side(Part::Window(n))?));
             if light { both() } else { None }
@@ -170,7 +176,7 @@ impl ProvedImages {
             Enclosure::mean_value(at, all.by_speed, alpha, Enclosure::from(end))
         };
         let form = from(low, alpha.low).intersection(&from(high, alpha.high))?;
-        form.intersection(&all.square)
+        form.intersection(&all.reached.square)
     }
 
     /// F over an interval that contains at most one multiple of π.
@@ -192,7 +198,7 @@ impl ProvedImages {
 
 impl SpeedImages for ProvedImages {
     fn of_speed(&self, speed: f64) -> SpeedImage {
-        self.square(speed).map_or(SpeedImage::Unknown, image_of)
+        self.reached(speed).map_or(SpeedImage::Unknown, |reached| reached.image(speed))
     }
 
     fn of_all_between(&self, a: &ImagedSpeed, b: &ImagedSpeed) -> SpeedImage {

@@ -72,7 +72,7 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
         let all = Enclosure::new(speeds.left, speeds.right);
         let at = |alpha: f64| {
             HopEnclosure::plain(Enclosure::from(alpha), Part::Contact(n), strip)
-                .map(|hop| hop.square)
+                .map(|hop| hop.reached.square)
         };
         let slope = HopEnclosure::plain(all, Part::Contact(n), strip)?.by_speed;
         let middle = all.middle();

@@ -1,7 +1,7 @@
 //! Gaps between the intervals of a line: what the basins have of them, from their images.
 
 use crate::fixed_points::fixed_point;
-use crate::hop::hop_enclosure::{HopEnclosure, Part};
+use crate::hop::hop_enclosure::{HopEnclosure, Part, Reached};
 use crate::lengths::basin_lengths::{BasinLengths, Known, Segment, distance, sum};
 use basin_of_attraction::Interval;
 use hopper_basin::HopperFate;
@@ -22,11 +22,31 @@ const STALLED: f64 = 0.8;
 /// If a larger part of a gap than this is lost to its curvature, halves are worth it in any case.
 const CURVED: f64 = 0.5;
 
-/// An interval of speeds, with F at its ends; `None` if that is open.
+/// An interval of speeds, with where the hops from its ends lead; `None` if that is open.
 #[derive(Debug, Clone, Copy)]
 struct Gap {
     speeds: Interval,
-    squares: [Option<Enclosure>; 2],
+    ends: [Option<Reached>; 2],
+}
+
+/// Values of F that a gap takes for certain.
+struct Values {
+    /// Their roots.
+    speeds: Interval,
+    /// The length of those below 0.
+    below_zero: f64,
+}
+
+impl Values {
+    /// Their length.
+    fn length(&self) -> f64 {
+        sum(&[between_squares(self.speeds).low, self.below_zero])
+    }
+}
+
+/// The length from the square of the left end to that of the right one.
+fn between_squares(Interval { left, right }: Interval) -> Enclosure {
+    (Enclosure::from(right) - left) * (Enclosure::from(right) + left)
 }
 
 /// What is known of a gap.
@@ -35,23 +55,37 @@ struct Found {
     at_least: Vec<f64>,
     /// The length that would stay unknown if all of the image were known.
     lost: f64,
-    /// F of the middle speed, if it was found on the way.
-    at_middle: Option<Enclosure>,
+    /// Where the hop from the middle speed leads, if it was found on the way.
+    at_middle: Option<Reached>,
 }
 
 impl Gap {
-    fn halves(&self, middle: f64, at_middle: Option<Enclosure>) -> [Gap; 2] {
-        let Gap { speeds, squares: [first, last] } = *self;
+    fn halves(&self, middle: f64, at_middle: Option<Reached>) -> [Gap; 2] {
+        let Gap { speeds, ends: [first, last] } = *self;
         [
-            Gap { speeds: Interval { right: middle, ..speeds }, squares: [first, at_middle] },
-            Gap { speeds: Interval { left: middle, ..speeds }, squares: [at_middle, last] },
+            Gap { speeds: Interval { right: middle, ..speeds }, ends: [first, at_middle] },
+            Gap { speeds: Interval { left: middle, ..speeds }, ends: [at_middle, last] },
         ]
     }
 
     /// The image of its upper end may lie in the gap.
     fn reaches_itself(&self) -> bool {
         let Interval { left, .. } = self.speeds;
-        self.squares[1].is_none_or(|image| image.high > left * left)
+        self.ends[1].is_none_or(|end| end.square.high > left * left)
+    }
+
+    /// Values between those at the ends; `None` if these are open.
+    fn values(&self) -> Option<Values> {
+        let ends = [self.ends[0]?, self.ends[1]?];
+        let speeds = [ends[0].speed(self.speeds.left)?, ends[1].speed(self.speeds.right)?];
+        // All values from `left` to `right`, and from `low` to 0, are taken.
+        let left = speeds[0].high.min(speeds[1].high);
+        let right = speeds[0].low.max(speeds[1].low).max(left);
+        let low = ends[0].square.high.min(ends[1].square.high);
+        let high = ends[0].square.low.max(ends[1].square.low);
+        let below_zero = distance(low, high.min(0.0));
+        (left < right || below_zero > 0.0)
+            .then_some(Values { speeds: Interval { left, right }, below_zero })
     }
 }
 
@@ -75,7 +109,7 @@ impl BasinLengths<'_> {
 
     fn gap(&self, speeds: Interval) -> Gap {
         let Interval { left, right } = speeds;
-        Gap { speeds, squares: [left, right].map(|speed| self.images.square(speed)) }
+        Gap { speeds, ends: [left, right].map(|speed| self.images.reached(speed)) }
     }
 
     /// Adds a part of a gap, of which `found` is known.
@@ -88,7 +122,7 @@ impl BasinLengths<'_> {
         let curved = found.lost > CURVED * gap.speeds.length();
         // Next to a fixed point the image reaches into the gap itself, and so does that of the upper half.
         if before > goal && divisible && (curved || !gap.reaches_itself()) {
-            let at_middle = found.at_middle.or_else(|| self.images.square(middle));
+            let at_middle = found.at_middle.or_else(|| self.images.reached(middle));
             let halves = gap.halves(middle, at_middle);
             let of_halves = halves.map(|half| self.of_whole_gap(half));
             let after = unknown(&halves[0], &of_halves[0]) + unknown(&halves[1], &of_halves[1]);
@@ -118,46 +152,35 @@ impl BasinLengths<'_> {
         // On one part, and with one number of sudden lift-offs, F is smooth.
         let hop = HopEnclosure::plain(all, Part::of(all)?, self.images.strip())?;
         let steepest = hop.by_speed.magnitude();
-        let ends = [gap.squares[0]?, gap.squares[1]?];
-        // All values from `low` to `high` are taken.
-        let low = ends[0].high.min(ends[1].high);
-        let high = ends[0].low.max(ends[1].low);
-        if !(low < high && steepest.is_finite()) {
-            return None;
-        }
-        let mut values = self.values_between(low.max(0.0), high, hops);
+        let values = gap.values().filter(|_| steepest.is_finite())?;
+        let mut own = self.values_between(values.speeds, hops);
         if let Some(grounded) = self.labels.iter().position(|&own| own == HopperFate::GROUNDED) {
-            let below_zero = distance(low, high.min(0.0));
-            values[grounded] = sum(&[values[grounded], below_zero]);
+            own[grounded] = sum(&[own[grounded], values.below_zero]);
         }
         let length = |value: f64| (Enclosure::from(value) / steepest).low.max(0.0);
-        let lost = gap.speeds.length() - length(distance(low, high));
-        let at_least = values.into_iter().map(length).collect();
+        let lost = gap.speeds.length() - length(values.length());
+        let at_least = own.into_iter().map(length).collect();
         Some(Found { at_least, lost, at_middle: hop.at_middle })
     }
 
-    /// What each basin has at least of the values of F from `low` ≥ 0 to `high`.
-    fn values_between(&self, low: f64, high: f64, hops: &mut usize) -> Vec<f64> {
+    /// What each basin has at least of the values of F between the squares of two speeds.
+    fn values_between(&self, speeds: Interval, hops: &mut usize) -> Vec<f64> {
         let mut sums = vec![Enclosure::ZERO; self.labels.len()];
-        let [first, last] = [low, high]
-            .map(|value| Enclosure::from(value.max(0.0)).sqrt().unwrap_or(Enclosure::WHOLE));
-        for Segment { interval, known } in self.segments_from(first.low) {
-            if interval.left >= last.high {
+        for Segment { interval, known } in self.segments_from(speeds.left) {
+            if interval.left >= speeds.right {
                 break;
             }
-            // The speeds of the segment whose squares are between the two for certain.
-            let left = if interval.left < first.high { first.high } else { interval.left };
-            let right = if interval.right > last.low { last.low } else { interval.right };
-            if !(left < right) {
+            let left = interval.left.max(speeds.left);
+            let right = interval.right.min(speeds.right);
+            if left >= right {
                 continue;
             }
+            let inside = Interval { left, right };
             match known {
                 &Known::Whole(basin) => {
-                    sums[basin] = sums[basin]
-                        + (Enclosure::from(right).squared() - Enclosure::from(left).squared());
+                    sums[basin] = sums[basin] + between_squares(inside);
                 }
                 Known::AtLeast(lengths) => {
-                    let inside = Interval { left, right };
                     let own = if inside == *interval {
                         Some(lengths.clone())
                     } else if *hops > 0 {

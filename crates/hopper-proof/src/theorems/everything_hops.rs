@@ -49,7 +49,7 @@ pub fn everything_hops() -> Result<Theorem, Error> {
             // The ends lie some ulps beyond the contact part, where F is the same formula.
             let part = Enclosure::new(at(k), at(k + 1));
             let found = HopEnclosure::plain(part, Part::Contact(n), &strip);
-            let bound = found.map_or(f64::NEG_INFINITY, |hop| hop.square.low);
+            let bound = found.map_or(f64::NEG_INFINITY, |hop| hop.reached.square.low);
             least = least.min(bound);
             theorem.evidence.push(Evidence::ContactPart {
                 n,
