@@ -152,7 +152,7 @@ impl FeatureAttractors {
     ///
     /// # Errors
     /// [`Error::BadSearch`] for a radius or a distance that is not positive and finite, stretches without steps, and a budget that is too
-    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none; [`Error::TooManySamples`] for starts with more than 20 000 features,
+    /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none; [`Error::TooManySamples`] for more than 20 000 features, as many as starts times `agree`,
     /// stretches of more than 10⁷ steps, a transient and a budget of more than 10¹⁰ steps together, and more than 10⁶ tests;
     /// [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(

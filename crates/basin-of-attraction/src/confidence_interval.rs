@@ -151,7 +151,7 @@ pub fn student_interval(replicates: &[f64]) -> Result<ConfidenceInterval, Error>
     }
     check_point(replicates)?;
     let n = count as f64;
-    // In units of a power of two, so that no square overflows or vanishes, and nothing is rounded by the change of units.
+    // In units of a power of two, so that no square that counts overflows or vanishes. The change of units rounds subnormal numbers alone.
     let unit = power_of_two(replicates.iter().fold(0.0, |largest: f64, x| largest.max(x.abs())));
     let mean = replicates.iter().map(|x| x / unit).sum::<f64>() / n;
     let squares: f64 = replicates.iter().map(|x| (x / unit - mean) * (x / unit - mean)).sum();

@@ -38,6 +38,14 @@ pub enum Error {
         /// The number of parts.
         parts: usize,
     },
+    /// No width of a fraction that can be asked for.
+    #[error("a width of {width} of fractions: give one from {narrowest} up, and below 1")]
+    Width {
+        /// The width.
+        width: f64,
+        /// The smallest one.
+        narrowest: f64,
+    },
     /// The strips are not those of the next column of the raster.
     #[error(
         "{found} strips for column {column}, which has {needed}: give those of this column, from the left"

@@ -8,6 +8,7 @@ use crate::error::Error;
 use crate::fixed_points::{fixed_point, offset_from_fixed_point};
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::hop_enclosure::w_over;
+use crate::hop::part::Part;
 use crate::hop::strip::Strip;
 use basin_of_attraction::Interval;
 use hopper_basin::{Trap, TrapEdge, rising_window};
@@ -33,7 +34,7 @@ struct AtSpeed {
 impl AtSpeed {
     fn new(n: u64, alpha: f64) -> Option<Self> {
         let speed = Enclosure::from(alpha);
-        let first = FirstLanding::over(speed)?;
+        let first = FirstLanding::over(speed, Part::Contact(n))?;
         let square = first.closing_speed().squared();
         let star = fixed_point(n);
         let rise = offset_from_fixed_point(alpha, n) * (speed + star);
@@ -99,7 +100,7 @@ impl Touch {
         }
         // The minimum of q lies between. There 4μW = 1 as well, and q is at most its value at both ends.
         let speed = Enclosure::new(low, high);
-        let Some(first) = FirstLanding::over(speed) else { return Err(open) };
+        let Some(first) = FirstLanding::over(speed, Part::Contact(n)) else { return Err(open) };
         let by_w = Enclosure::ONE / (4.0 * w_over(&first, n));
         let mu = Enclosure::new(by_w.low, by_w.high.min(left.q.high).min(right.q.high));
         Ok(Touch { n, speed, mu })

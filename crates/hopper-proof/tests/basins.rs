@@ -5,7 +5,7 @@ use basin_of_attraction::{Grid, Interval, Refinement, StopReason};
 use hopper_basin::{BranchGround, Fates, HopperFate, basin_raster, first_humps};
 use hopper_proof::{
     Cell, Error, ProvedCells, ProvedFractions, ProvedLine, Strip, basins_at_every_mass_ratio,
-    proved_basins, proved_points, proved_strips,
+    measures, proved_basins, proved_points, proved_strips,
 };
 use passive_hopper::MassRatio;
 use std::ops::ControlFlow::Continue;
@@ -189,6 +189,11 @@ fn what_is_no_question_is_refused() {
     for (parts, open) in [(0, 0.1), (4, 0.0), (4, 2.0), (4, f64::NAN)] {
         let refused = ProvedLine::new(strip, window, parts, open, 100);
         assert!(matches!(refused, Err(Error::Share { .. })), "{parts} {open}");
+    }
+    for width in [0.0, 1e-320, 1e-13, 1.0, -1.0, f64::NAN, f64::INFINITY] {
+        let refused = ProvedFractions::new(0.2, width);
+        assert!(matches!(refused, Err(Error::Width { .. })), "{width}");
+        assert!(matches!(measures(&[(0.2, 0.5), (0.2, width)], |_| {}), Err(Error::Width { .. })));
     }
 }
 

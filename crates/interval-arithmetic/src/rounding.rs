@@ -15,22 +15,22 @@ pub(crate) fn up(rounded: f64) -> f64 {
     if rounded.is_nan() { f64::INFINITY } else { rounded.next_up() }
 }
 
-/// The largest `f64` that is not above a + b, or one below it if an end has no bound.
+/// The largest `f64` that is not above a + b, or one below it if a, b or the sum is not finite.
 #[inline]
 pub(crate) fn sum_down(a: f64, b: f64) -> f64 {
     let (sum, error) = with_error(a, b);
     if error >= 0.0 { sum } else { down(sum) }
 }
 
-/// The smallest `f64` that is not below a + b, or one above it if an end has no bound.
+/// The smallest `f64` that is not below a + b, or one above it if a, b or the sum is not finite.
 #[inline]
 pub(crate) fn sum_up(a: f64, b: f64) -> f64 {
     let (sum, error) = with_error(a, b);
     if error <= 0.0 { sum } else { up(sum) }
 }
 
-/// The rounded sum, and what is left of the exact one (D. E. Knuth, The Art of Computer Programming 2, Section 4.2.2, Theorem B); NaN if the sum
-/// or an end is infinite.
+/// The rounded sum, and what is left of the exact one (D. E. Knuth, The Art of Computer Programming 2, Section 4.2.2, Theorem B); NaN if one of
+/// them is not finite.
 #[inline]
 fn with_error(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;

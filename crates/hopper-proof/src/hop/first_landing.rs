@@ -3,7 +3,8 @@
 use crate::fixed_points::fixed_point;
 use crate::hop::half_time::AtHalfTime;
 use crate::hop::landing_time::first_landing_time;
-use interval_arithmetic::Enclosure;
+use crate::hop::part::Part;
+use interval_arithmetic::{Enclosure, PI};
 
 /// The first landing over an interval of speeds: half the time, and the closed forms at its ends.
 #[derive(Debug, Clone, Copy)]
@@ -14,14 +15,24 @@ pub(crate) struct FirstLanding {
 }
 
 impl FirstLanding {
-    /// Over the speeds of `alpha`, which lie on one contact part or in one window; `None` if an end of h is beyond a fixed point. There Γ
-    /// has a minimum between the ends, so that its values at them are no bounds.
-    pub(crate) fn over(alpha: Enclosure) -> Option<Self> {
+    /// Over the speeds of `alpha` that are in `part`; `None` if an end of h is beyond a fixed point. There Γ has a minimum between the ends, so
+    /// that its values at them are no bounds.
+    pub(crate) fn over(alpha: Enclosure, part: Part) -> Option<Self> {
         let first = first_landing_time(alpha.low)?;
         let last = if alpha.low == alpha.high { first } else { first_landing_time(alpha.high)? };
-        let ends = [first.before(), last.after()];
+        let mut ends = [first.before(), last.after()];
+        // h is on the same side of a multiple of π as α (docs/theory.md, Theorem 7), where |u| is largest.
+        match part {
+            Part::Window(n) if ends[0].h < (PI * n as f64).high => {
+                ends[0] = AtHalfTime::at_multiple_of_pi(n, (PI * n as f64).low);
+            }
+            Part::Contact(n) if ends[1].h > (PI * (n + 1) as f64).low => {
+                ends[1] = AtHalfTime::at_multiple_of_pi(n + 1, (PI * (n + 1) as f64).high);
+            }
+            _ => {}
+        }
         let (below, above) = (fixed_point(first.branch - 1), fixed_point(last.branch));
-        let between = below.low <= ends[0].h && ends[1].h <= above.high;
+        let between = below.high <= ends[0].h && ends[1].h <= above.low;
         between.then_some(FirstLanding { half: Enclosure::new(ends[0].h, ends[1].h), ends })
     }
 
@@ -66,7 +77,7 @@ impl FirstLanding {
     }
 
     /// d(Su)/dh = Cu − hS² in a window.
-    pub(crate) fn db_slope(&self) -> Enclosure {
+    pub(crate) fn sin_u_slope(&self) -> Enclosure {
         let (sin, u) = self.sin_and_u();
         self.half.cos() * u - self.half * sin.squared()
     }
@@ -93,12 +104,27 @@ mod tests {
         let mut known = 0;
         for ulps in [0.0, 8.0] {
             let alpha = a + ulps * ulp;
-            let Some(landing) = FirstLanding::over(Enclosure::from(alpha)) else { continue };
+            let Some(landing) = FirstLanding::over(Enclosure::from(alpha), Part::Contact(1)) else {
+                continue;
+            };
             known += 1;
             let closing = landing.closing_speed();
             let exact = 12.0 * a * a * (3.32e-17 + ulps * ulp) / (1.0 + a * a);
             assert!(cube(closing.low) < 1.01 * exact && 0.99 * exact < cube(closing.high));
         }
         assert_eq!(known, 1);
+    }
+    /// At a multiple of π |u| has its largest value, kπ, which lies between two `f64`.
+    #[test]
+    fn bounds_hold_the_values_at_multiples_of_pi() {
+        for k in 1..=8 {
+            let multiple = PI * k as f64;
+            let window = FirstLanding::over(multiple, Part::Window(k)).unwrap();
+            assert!(multiple.is_inside(&window.sin_and_u().1.abs()), "{k}");
+            for part in [Part::Window(k), Part::Contact(k - 1)] {
+                let closing = FirstLanding::over(multiple, part).unwrap().closing_speed();
+                assert!((2.0 * multiple).is_inside(&closing), "{k}: {closing:?}");
+            }
+        }
     }
 }

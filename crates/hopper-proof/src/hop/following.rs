@@ -44,7 +44,7 @@ impl Following {
                 x: 2.0 * (bend * (b - h) + 2.0 * slope * rest),
                 v: -2.0 * bend + kappa * closing,
             };
-            let losses = -8.0 * (first.d() * b + alpha * slope * first.db_slope());
+            let losses = -8.0 * (first.d() * b + alpha * slope * first.sin_u_slope());
             Slopes { state, losses }
         });
         Some(Following {

@@ -8,7 +8,7 @@
 //!
 //! The height after 2h of the flight with the start speed V is 2D (V − V_x(h)) (docs/theory.md, Lemmas 5 and 91).
 
-use interval_arithmetic::Enclosure;
+use interval_arithmetic::{Enclosure, PI};
 
 /// Below this h the terms of D and of u cancel, and their series are summed.
 const SERIES_BELOW: f64 = 0.5;
@@ -59,6 +59,13 @@ impl AtHalfTime {
             (half - sin * cos, half * cos - sin)
         };
         AtHalfTime { h, sin, d, u }
+    }
+
+    /// The functions at kπ, k ≥ 1, exactly; `h` is a bound of kπ.
+    pub(crate) fn at_multiple_of_pi(k: u64, h: f64) -> Self {
+        let multiple = PI * k as f64;
+        let u = if k.is_multiple_of(2) { multiple } else { -multiple };
+        AtHalfTime { h, sin: Enclosure::ZERO, d: multiple, u }
     }
 
     /// u/D.

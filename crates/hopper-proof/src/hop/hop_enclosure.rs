@@ -3,9 +3,10 @@
 use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
 use crate::hop::following::Following;
+use crate::hop::part::Part;
 use crate::hop::strip::Strip;
 use hopper_basin::SpeedImage;
-use interval_arithmetic::{Enclosure, PI};
+use interval_arithmetic::Enclosure;
 
 /// Most sudden lift-offs of a hop that are followed. Orbits with more, at large M, stay open.
 const MOST_SUDDEN: usize = 64;
@@ -21,12 +22,14 @@ pub(crate) struct Reached {
 
 impl Reached {
     fn by_loss(alpha: Enclosure, loss: Enclosure) -> Self {
+        // A loss is never negative.
+        let loss = Enclosure::new(loss.low.max(0.0), loss.high);
         Reached { square: alpha.squared() - loss, loss }
     }
 
-    /// α′ of the hop from α; 0 where the hopper may be grounded.
+    /// α′ of the hop from α, from 0 up where the hopper may be grounded.
     ///
-    /// It is √F, and α − (α² − F)/(α + α′) as well: small losses keep their digits.
+    /// It is √F where F is positive, and α − (α² − F)/(α + α′) as well: small losses keep their digits.
     pub(crate) fn speed(&self, alpha: f64) -> Option<Enclosure> {
         let positive = Enclosure::new(self.square.low.max(0.0), self.square.high.max(0.0));
         let root = positive.sqrt()?;
@@ -62,37 +65,6 @@ pub(crate) struct HopEnclosure {
     pub(crate) at_middle: Option<Reached>,
 }
 
-/// A part of the speeds on which the first landing is of one kind.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Part {
-    /// (α*_n, (n+1)π): contact follows.
-    Contact(u64),
-    /// (nπ, α*_n), n ≥ 1: a sudden lift-off follows.
-    Window(u64),
-}
-
-impl Part {
-    /// The part that contains all speeds of an interval; `None` if it reaches to a multiple of π or a fixed point.
-    pub(crate) fn of(alpha: Enclosure) -> Option<Self> {
-        if !(alpha.low > 0.0 && alpha.high < 1e9) {
-            return None;
-        }
-        let k = (alpha.low / std::f64::consts::PI).floor();
-        let (begin, end) = (PI * k, PI * (k + 1.0));
-        if !((k == 0.0 || begin.high <= alpha.low) && alpha.high <= end.low) {
-            return None;
-        }
-        let star = fixed_point(k as u64);
-        if alpha.high <= star.low && k >= 1.0 {
-            Some(Part::Window(k as u64))
-        } else if alpha.low >= star.high {
-            Some(Part::Contact(k as u64))
-        } else {
-            None
-        }
-    }
-}
-
 /// The hop from the middle of an interval of speeds, from which the mean value form encloses the others.
 struct Centre {
     speed: f64,
@@ -102,14 +74,14 @@ struct Centre {
 }
 
 impl Centre {
-    /// `None` for a single speed, which is narrow as it is.
-    fn of(alpha: Enclosure, kappa: Enclosure) -> Option<Self> {
+    /// `None` for a single speed, which is narrow as it is, and for a middle that is not in the window.
+    fn of(alpha: Enclosure, part: Part, kappa: Enclosure) -> Option<Self> {
         let speed = alpha.middle();
         let middle = Enclosure::from(speed);
-        if alpha.low == alpha.high {
+        if alpha.low == alpha.high || Part::of(middle) != Some(part) {
             return None;
         }
-        let state = Following::from_window(middle, &FirstLanding::over(middle)?, kappa)?;
+        let state = Following::from_window(middle, &FirstLanding::over(middle, part)?, kappa)?;
         Some(Centre { speed, distance: alpha - middle, state })
     }
 
@@ -119,10 +91,10 @@ impl Centre {
 }
 
 impl HopEnclosure {
-    /// All hops, by interval arithmetic alone: narrow only where the intervals are. `None` if the intervals do not tell the number of
-    /// sudden lift-offs.
+    /// All hops from the speeds of `alpha` that are in `part`, by the mean value form from the middle one. `None` if the intervals do not tell the
+    /// number of sudden lift-offs.
     pub(crate) fn plain(alpha: Enclosure, part: Part, strip: &Strip) -> Option<Self> {
-        let first = FirstLanding::over(alpha)?;
+        let first = FirstLanding::over(alpha, part)?;
         let (kappa, mu) = (strip.kappa, strip.mu);
         let tilt = Enclosure::ONE - 2.0 * kappa;
         if let Part::Contact(n) = part {
@@ -138,7 +110,7 @@ impl HopEnclosure {
             let centre = centre.as_ref();
             centre.and_then(|own| all.narrowed(&own.state, own.distance)).unwrap_or(all)
         };
-        let mut centre = Centre::of(alpha, kappa);
+        let mut centre = Centre::of(alpha, part, kappa);
         let mut state = narrowed(&centre, Following::from_window(alpha, &first, kappa)?);
         for _ in 0..MOST_SUDDEN {
             let (next, again) = state.next(kappa)?;
@@ -184,6 +156,7 @@ pub(crate) fn largest_w(n: u64) -> Enclosure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use interval_arithmetic::PI;
 
     /// Intervals of speeds in windows 1 to 6, of widths from 10⁻³ to 10⁻⁸.
     fn intervals() -> impl Iterator<Item = Enclosure> {
@@ -210,7 +183,7 @@ mod tests {
                 let mut slopes: Option<Enclosure> = None;
                 for k in 0..=SPEEDS {
                     let speed = alpha.low + alpha.width() * f64::from(k) / f64::from(SPEEDS);
-                    let own = Enclosure::new(speed, speed.min(alpha.high));
+                    let own = Enclosure::from(speed.min(alpha.high));
                     let own = HopEnclosure::plain(own, part, &strip).unwrap();
                     for (one, all) in [
                         (own.reached.square, all.reached.square),

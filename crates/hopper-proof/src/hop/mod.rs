@@ -3,6 +3,7 @@
 //! ```text
 //!   strip.rs            mass ratios, as κ and μ
 //!   half_time.rs        the functions of half a time of flight, without cancellation
+//!   part.rs             sudden windows and contact parts
 //!   time_functions.rs   those of a time of flight, over intervals
 //!   landing_time.rs     a landing, enclosed by two signs
 //!   first_landing.rs    the first landing over an interval of speeds
@@ -19,6 +20,7 @@ mod following;
 pub(crate) mod half_time;
 pub(crate) mod hop_enclosure;
 pub(crate) mod landing_time;
+pub(crate) mod part;
 pub(crate) mod proved_images;
 pub(crate) mod strip;
 pub(crate) mod time_functions;

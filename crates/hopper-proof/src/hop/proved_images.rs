@@ -5,7 +5,8 @@
 
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
-use crate::hop::hop_enclosure::{HopEnclosure, Part, Reached};
+use crate::hop::hop_enclosure::{HopEnclosure, Reached};
+use crate::hop::part::Part;
 use crate::hop::strip::Strip;
 use crate::hop::turns::{Turns, turns_up_to};
 use hopper_basin::{ImagedSpeed, SpeedImage, SpeedImages, rising_window};

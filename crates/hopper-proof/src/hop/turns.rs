@@ -2,7 +2,8 @@
 
 use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
-use crate::hop::hop_enclosure::{HopEnclosure, Part, largest_w};
+use crate::hop::hop_enclosure::{HopEnclosure, largest_w};
+use crate::hop::part::Part;
 use crate::hop::strip::Strip;
 use basin_of_attraction::Interval;
 use hopper_basin::{SpeedImage, falling_laps};
@@ -30,8 +31,8 @@ pub(crate) enum Turns {
 }
 
 /// 4μW at a speed of the contact part of hump n.
-fn steepness(alpha: f64, strip: &Strip) -> Option<Enclosure> {
-    let first = FirstLanding::over(Enclosure::from(alpha))?;
+fn steepness(n: u64, alpha: f64, strip: &Strip) -> Option<Enclosure> {
+    let first = FirstLanding::over(Enclosure::from(alpha), Part::Contact(n))?;
     let [low, high] = first.w_at_ends();
     Some(4.0 * strip.mu * low.hull(&high))
 }
@@ -63,8 +64,8 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
     };
     let (top, bottom) = (around(a.left, b.left), around(a.right, b.right));
     // 1 − 4μW has the sign of the slope. W rises and then falls, so that four signs tell the slope everywhere between and beyond.
-    let rises = |alpha: f64| steepness(alpha, strip).is_some_and(|s| s.high < 1.0);
-    let falls = |alpha: f64| steepness(alpha, strip).is_some_and(|s| s.low > 1.0);
+    let rises = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.high < 1.0);
+    let falls = |alpha: f64| steepness(n, alpha, strip).is_some_and(|s| s.low > 1.0);
     let inside = fixed_point(n).high < top.left && top.right < bottom.left;
     let told =
         inside && rises(top.left) && falls(top.right) && falls(bottom.left) && rises(bottom.right);

@@ -1,7 +1,8 @@
 //! Gaps between the intervals of a line: what the basins have of them, from their images.
 
 use crate::fixed_points::fixed_point;
-use crate::hop::hop_enclosure::{HopEnclosure, Part, Reached};
+use crate::hop::hop_enclosure::{HopEnclosure, Reached};
+use crate::hop::part::Part;
 use crate::lengths::basin_lengths::{BasinLengths, Known, Segment, distance, sum};
 use basin_of_attraction::Interval;
 use hopper_basin::HopperFate;

@@ -35,6 +35,9 @@ const UNKNOWN: f64 = 2.5e-5;
 /// A width that was missed is asked for again as these parts of it. A smaller part takes longer, a larger one may miss it again.
 const FINER: [f64; 2] = [0.3, 0.1];
 
+/// The smallest width that can be asked for: far below what is left by the rounding of speeds to `f64`.
+const NARROWEST: f64 = 1e-12;
+
 /// Digits of a fraction that are printed: more than the narrowest one has.
 const DIGITS: usize = 12;
 
@@ -64,23 +67,30 @@ pub struct ProvedFractions {
     pub gaps: Vec<BasinGap>,
 }
 
+fn check(mass_ratio: f64, width: f64) -> Result<(), Error> {
+    Strip::at(mass_ratio)?;
+    let is_width = (NARROWEST..1.0).contains(&width);
+    if is_width { Ok(()) } else { Err(Error::Width { width, narrowest: NARROWEST }) }
+}
+
 impl ProvedFractions {
-    /// The fractions at M, to `width` where that is reached: [`width`](Self::width) tells.
+    /// The fractions at M, to `width` where one of three runs reaches it: [`width`](Self::width) tells.
     ///
-    /// Below about 10⁻⁹ it is not reached, and at M ≥ 5 each half of the width takes several times as long.
+    /// Below about 10⁻⁹ it is not reached, and at M ≥ 5 each halving of the width takes several times as long.
     ///
     /// # Errors
-    /// [`Error::MassRatios`] for a wrong mass ratio; [`Error::Share`] unless `width` is above 0 and below 1.
+    /// [`Error::MassRatios`] for a wrong mass ratio; [`Error::Width`] unless `width` is from 10⁻¹² to 1.
     pub fn new(mass_ratio: f64, width: f64) -> Result<Self, Error> {
-        if !(width > 0.0 && width < 1.0) {
-            return Err(Error::Share { open: width, parts: PARTS });
-        }
+        check(mass_ratio, width)?;
         let mut found = Self::with_effort(mass_ratio, width)?;
         for part in FINER {
             if found.width <= width {
                 break;
             }
-            found = Self::with_effort(mass_ratio, part * width)?;
+            let finer = Self::with_effort(mass_ratio, part * width)?;
+            if finer.width < found.width {
+                found = finer;
+            }
         }
         Ok(found)
     }
@@ -145,6 +155,7 @@ pub fn measures(cases: &[(f64, f64)], progress: impl Fn(usize) + Sync) -> Result
         "measures",
         "The fractions of the basins among the lift-off speeds of humps 1 to 5, uniform in α, and as the mean of the five humps: between these bounds.",
     );
+    cases.iter().try_for_each(|&(mass_ratio, width)| check(mass_ratio, width))?;
     let done = AtomicUsize::new(0);
     let prove = |(number, &(mass_ratio, width)): (usize, &(f64, f64))| {
         let found = ProvedFractions::new(mass_ratio, width);

@@ -3,7 +3,8 @@
 use crate::certificate::Evidence;
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
-use crate::hop::hop_enclosure::{HopEnclosure, Part};
+use crate::hop::hop_enclosure::HopEnclosure;
+use crate::hop::part::Part;
 use crate::hop::strip::Strip;
 use crate::theorems::theorem::Theorem;
 use interval_arithmetic::{Enclosure, PI};
