@@ -23,19 +23,6 @@ pub struct BasinGap {
     pub at_least: Vec<(Label, f64)>,
 }
 
-impl BasinGap {
-    /// Adds the part above, up to `right`, with the lengths that basins have of it at least.
-    pub(crate) fn append(&mut self, right: f64, at_least: &[(Label, f64)]) {
-        self.speeds.right = right;
-        for &(label, length) in at_least {
-            match self.at_least.iter_mut().find(|(own, _)| *own == label) {
-                Some((_, own)) => *own = (Enclosure::from(*own) + length).low,
-                None => self.at_least.push((label, length)),
-            }
-        }
-    }
-}
-
 /// One line of a certificate.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Evidence {

@@ -6,9 +6,6 @@ use crate::line::ProvedLine;
 use basin_of_attraction::{Interval, Label};
 use interval_arithmetic::Enclosure;
 
-/// Most parts of a gap that are written as one. With fewer, certificates are larger; with more, another program needs more steps to confirm one.
-const MOST_PARTS: usize = 16;
-
 /// An interval of speeds, and what the basins have of it.
 #[derive(Debug, Clone)]
 pub(super) struct Segment {
@@ -96,28 +93,17 @@ impl<'a> BasinLengths<'a> {
         sums.into_iter().map(|sum| sum.low.max(0.0)).collect()
     }
 
-    /// The gaps of which something is known. Some neighbouring parts of a gap are written as one.
+    /// The gaps of which something is known.
     pub(crate) fn into_gaps(self) -> Vec<BasinGap> {
-        let mut gaps: Vec<BasinGap> = Vec::new();
-        let mut parts = 0;
-        for Segment { interval, known } in self.segments {
-            let Known::AtLeast(lengths) = known else { continue };
-            let own = self.labels.iter().copied().zip(lengths);
-            let at_least: Vec<(Label, f64)> = own.filter(|&(_, own)| own > 0.0).collect();
-            if at_least.is_empty() {
-                continue;
+        let labels = self.labels;
+        let gap = |Segment { interval, known }: Segment| match known {
+            Known::Whole(_) => None,
+            Known::AtLeast(lengths) => {
+                let own = labels.iter().copied().zip(lengths);
+                let at_least: Vec<(Label, f64)> = own.filter(|&(_, own)| own > 0.0).collect();
+                (!at_least.is_empty()).then_some(BasinGap { speeds: interval, at_least })
             }
-            match gaps.last_mut().filter(|last| last.speeds.right == interval.left) {
-                Some(last) if parts < MOST_PARTS => {
-                    parts += 1;
-                    last.append(interval.right, &at_least);
-                }
-                _ => {
-                    parts = 1;
-                    gaps.push(BasinGap { speeds: interval, at_least });
-                }
-            }
-        }
-        gaps
+        };
+        self.segments.into_iter().filter_map(gap).collect()
     }
 }
