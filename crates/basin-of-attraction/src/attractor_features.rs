@@ -55,8 +55,8 @@ impl FeatureLimits {
     fn check(&self) -> Result<(), Error> {
         /// Points of a stretch are kept while it is followed; more would take gigabytes for each thread.
         const LONGEST: usize = 10_000_000;
-        /// An orbit that comes to no group is followed through the whole budget: minutes with so many steps of a plain map.
-        const MOST_STEPS: usize = 10_000_000_000;
+        /// An orbit that comes to no group is followed through the whole budget: some minutes with so many steps.
+        const MOST_STEPS: usize = 1_000_000_000;
         /// More tests than this take hours, and would find openings of a hundred-thousandth of the neighbourhood.
         const MOST_TESTS: usize = 1_000_000;
         let counts = [("a stretch", self.stretch), ("a number of stretches", self.agree)];
@@ -153,7 +153,7 @@ impl FeatureAttractors {
     /// # Errors
     /// [`Error::BadSearch`] for a radius or a distance that is not positive and finite, stretches without steps, and a budget that is too
     /// small; [`Error::WrongDimension`] and [`Error::NoDimension`] for features of different lengths or none; [`Error::TooManySamples`] for more than 20 000 features, as many as starts times `agree`,
-    /// stretches of more than 10⁷ steps, a transient and a budget of more than 10¹⁰ steps together, and more than 10⁶ tests;
+    /// stretches of more than 10⁷ steps, a transient and a budget of more than 10⁹ steps together, and more than 10⁶ tests;
     /// [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
