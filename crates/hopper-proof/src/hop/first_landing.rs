@@ -114,6 +114,7 @@ mod tests {
         }
         assert_eq!(known, 1);
     }
+
     /// At a multiple of π |u| has its largest value, kπ, which lies between two `f64`.
     #[test]
     fn bounds_hold_the_values_at_multiples_of_pi() {

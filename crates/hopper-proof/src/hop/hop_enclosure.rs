@@ -43,13 +43,25 @@ impl Reached {
 
     /// The image of α.
     pub(crate) fn image(&self, alpha: f64) -> SpeedImage {
-        match self.speed(alpha) {
-            _ if self.square.is_negative() => SpeedImage::Grounded,
-            Some(speed) if self.square.is_positive() && speed.high.is_finite() => {
-                SpeedImage::Within(speed.low, speed.high)
-            }
-            _ => SpeedImage::Unknown,
+        match image_of(self.square) {
+            SpeedImage::Within(..) => self
+                .speed(alpha)
+                .map_or(SpeedImage::Unknown, |speed| SpeedImage::Within(speed.low, speed.high)),
+            image => image,
         }
+    }
+}
+
+/// The image of an enclosed F = α′².
+pub(crate) fn image_of(square: Enclosure) -> SpeedImage {
+    if square.is_negative() {
+        return SpeedImage::Grounded;
+    }
+    match square.sqrt() {
+        Some(speed) if square.is_positive() && speed.high.is_finite() => {
+            SpeedImage::Within(speed.low, speed.high)
+        }
+        _ => SpeedImage::Unknown,
     }
 }
 

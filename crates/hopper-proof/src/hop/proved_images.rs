@@ -5,7 +5,7 @@
 
 use crate::error::Error;
 use crate::fixed_points::fixed_point;
-use crate::hop::hop_enclosure::{HopEnclosure, Reached};
+use crate::hop::hop_enclosure::{HopEnclosure, Reached, image_of};
 use crate::hop::part::Part;
 use crate::hop::strip::Strip;
 use crate::hop::turns::{Turns, turns_up_to};
@@ -25,19 +25,6 @@ pub struct ProvedImages {
     /// By humps.
     turns: Vec<Turns>,
     cuts: Vec<f64>,
-}
-
-/// The image of an enclosed F = α′².
-pub(crate) fn image_of(square: Enclosure) -> SpeedImage {
-    if square.is_negative() {
-        return SpeedImage::Grounded;
-    }
-    match square.sqrt() {
-        Some(speed) if square.is_positive() && speed.high.is_finite() => {
-            SpeedImage::Within(speed.low, speed.high)
-        }
-        _ => SpeedImage::Unknown,
-    }
 }
 
 impl ProvedImages {

@@ -2,7 +2,7 @@
 
 use crate::fixed_points::fixed_point;
 use crate::hop::first_landing::FirstLanding;
-use crate::hop::hop_enclosure::{HopEnclosure, largest_w};
+use crate::hop::hop_enclosure::{HopEnclosure, image_of, largest_w};
 use crate::hop::part::Part;
 use crate::hop::strip::Strip;
 use basin_of_attraction::Interval;
@@ -78,7 +78,7 @@ fn between(n: u64, [a, b]: [Interval; 2], strip: &Strip) -> Option<Turns> {
         let slope = HopEnclosure::plain(all, Part::Contact(n), strip)?.by_speed;
         let middle = all.middle();
         let form = Enclosure::mean_value(at(middle)?, slope, all, Enclosure::from(middle));
-        Some(Turn { speeds, image: super::proved_images::image_of(form) })
+        Some(Turn { speeds, image: image_of(form) })
     };
     told.then(|| Some(Turns::All(vec![turn(top)?, turn(bottom)?])))?
 }
