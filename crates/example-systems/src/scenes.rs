@@ -126,7 +126,7 @@ pub const SECOND_PAIR: u8 = 1;
 pub const CRADLE: Scene<6> = Scene {
     field: |_, x| State::from([x[3], x[4], x[5], 0.0, 0.0, 0.0]),
     second: uniform,
-    guards: &[&[Guard::falling(FIRST_PAIR), Guard::falling(SECOND_PAIR)]],
+    guards: &[&[Guard::falling(FIRST_PAIR).contact(), Guard::falling(SECOND_PAIR).contact()]],
     plane: |surface| {
         let mut normal = SVector::zeros();
         normal[usize::from(surface)] = -1.0;
@@ -156,7 +156,7 @@ pub const BETWEEN: u8 = 1;
 pub const STACK: Scene<4> = Scene {
     field: |_, x| State::from([x[2], x[3], -1.0, -1.0]),
     second: |_| State::from([-1.0, -1.0, 0.0, 0.0]),
-    guards: &[&[Guard::falling(FLOOR), Guard::falling(BETWEEN)]],
+    guards: &[&[Guard::falling(FLOOR).contact(), Guard::falling(BETWEEN).contact()]],
     plane: |surface| match surface {
         FLOOR => (State::from([1.0, 0.0, 0.0, 0.0]), 0.0),
         _ => (State::from([-1.0, 1.0, 0.0, 0.0]), 0.0),
@@ -200,11 +200,11 @@ pub const FIVE_MODES: Scene<1> = Scene {
     field: |_, _| State::from([1.0]),
     second: uniform,
     guards: &[
-        &[Guard::rising(0)],
-        &[Guard::rising(1)],
-        &[Guard::rising(2)],
-        &[Guard::rising(3)],
-        &[Guard::rising(4)],
+        &[Guard::rising(0).contact()],
+        &[Guard::rising(1).contact()],
+        &[Guard::rising(2).contact()],
+        &[Guard::rising(3).contact()],
+        &[Guard::rising(4).contact()],
     ],
     plane: |_| (State::from([1.0]), 1.0),
     reset: |mode, _, x| (mode + 1, *x),
@@ -213,16 +213,24 @@ pub const FIVE_MODES: Scene<1> = Scene {
 
 /// ẋ = 1. Mode 0 is left at x = 1, mode 1 at x = ½: the jump into mode 1 leads beyond its surface.
 pub const PAST_GUARD: Scene<1> = Scene {
-    guards: &[&[Guard::rising(0)], &[Guard::rising(1)]],
+    guards: &[&[Guard::rising(0)], &[Guard::rising(1).contact()]],
     plane: |surface| (State::from([1.0]), if surface == 0 { 1.0 } else { 0.5 }),
     ..FIVE_MODES
 };
+
+/// The same with a guard that says neither that it is a contact nor that it is a crossing.
+pub const PAST_SWITCH: Scene<1> =
+    Scene { guards: &[&[Guard::rising(0)], &[Guard::rising(1)]], ..PAST_GUARD };
+
+/// The same with a crossing.
+pub const PAST_CROSSING: Scene<1> =
+    Scene { guards: &[&[Guard::rising(0)], &[Guard::rising(1).crossing()]], ..PAST_GUARD };
 
 /// A ball over a floor at 0, under gravity 1, that keeps half of its speed. State: height and velocity.
 pub const BALL: Scene<2> = Scene {
     field: |_, x| State::from([x[1], -1.0]),
     second: |_| State::from([-1.0, 0.0]),
-    guards: &[&[Guard::falling(FLOOR)]],
+    guards: &[&[Guard::falling(FLOOR).contact()]],
     plane: |_| (State::from([1.0, 0.0]), 0.0),
     reset: |_, _, x| (0, State::from([x[0].max(0.0), -0.5 * x[1]])),
     by: By::Signal,
@@ -236,15 +244,15 @@ pub const ZERO: u8 = 1;
 /// ẋ = 1 up to x = 15, where x jumps to −20, over the surface x = 0. That surface bounds the flow, x > 0; its reset
 /// puts x to 5.
 pub const LEAP: Scene<1> = Scene {
-    guards: &[&[Guard::rising(TOP), Guard::falling(ZERO)]],
+    guards: &[&[Guard::rising(TOP), Guard::falling(ZERO).contact()]],
     plane: |surface| (State::from([1.0]), if surface == TOP { 15.0 } else { 0.0 }),
     reset: |_, surface, _| (0, State::from([if surface == TOP { -20.0 } else { 5.0 }])),
     ..FIVE_MODES
 };
 
-/// The same with an observer at x = 0. Its reset changes nothing.
+/// The same with a crossing at x = 0. Its reset changes nothing.
 pub const WATCHED_LEAP: Scene<1> = Scene {
-    guards: &[&[Guard::rising(TOP), Guard::either(ZERO).observer()]],
+    guards: &[&[Guard::rising(TOP), Guard::either(ZERO).crossing()]],
     reset: |_, surface, x| (0, if surface == TOP { State::from([-20.0]) } else { *x }),
     ..LEAP
 };
@@ -252,7 +260,7 @@ pub const WATCHED_LEAP: Scene<1> = Scene {
 /// ẋ = 1. Mode 0 is left upwards at x = 1 and mode 1 downwards at x = 3, with x left as it is: at x = 1 the state is
 /// beyond both surfaces.
 pub const ENDLESS: Scene<1> = Scene {
-    guards: &[&[Guard::rising(0)], &[Guard::falling(1)]],
+    guards: &[&[Guard::rising(0).contact()], &[Guard::falling(1).contact()]],
     plane: |surface| (State::from([1.0]), if surface == 0 { 1.0 } else { 3.0 }),
     reset: |mode, _, x| (1 - mode, *x),
     ..FIVE_MODES

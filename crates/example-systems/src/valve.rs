@@ -65,7 +65,7 @@ impl HybridSystem for Valve {
                 const {
                     &[
                         Guard::falling(Surface::Seat),
-                        Guard::falling(Surface::TurningPoint).observer(),
+                        Guard::falling(Surface::TurningPoint).crossing(),
                     ]
                 }
             }

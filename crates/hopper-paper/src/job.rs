@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub struct Job {
     scans: PathBuf,
+    /// The build that computes the rows.
+    build: String,
     /// Two runs in one folder would remove each other's rows at their end.
     lock: Lock,
 }
@@ -18,7 +20,8 @@ impl Job {
     /// folder: a scan rests on most functions of all libraries, and no version says whether one of them has changed. While the run lasts, another run with the same results folder is an error.
     pub fn new(results: &Path) -> Result<Self, Error> {
         let lock = Lock::take(results, "scans")?;
-        Ok(Job { scans: results.join("scans").join(program_digest()?), lock })
+        let build = program_digest()?;
+        Ok(Job { scans: results.join("scans").join(&build), build, lock })
     }
 
     /// `count` rows of numbers. Rows that an earlier run finished are read; the others are computed.
@@ -28,7 +31,7 @@ impl Job {
         count: usize,
         row: impl Fn(usize) -> Result<Vec<f64>, Error>,
     ) -> Result<Vec<Vec<f64>>, Error> {
-        let kept = Pieces::open(&self.scans.join(name), name)?;
+        let kept = self.pieces(name)?;
         let bar = Progress.bar(name, count as u64);
         let mut rows = Vec::with_capacity(count);
         for k in 0..count {
@@ -42,7 +45,14 @@ impl Job {
     /// Rows that are computed one after the other, each depending on those before it. Rows that an earlier run finished are read: it
     /// asked for the same ones in the same order. The name has the parameters, if the rows depend on some.
     pub(crate) fn rows(&self, name: &str) -> Result<Rows<'_>, Error> {
-        Ok(Rows { job: self, kept: Pieces::open(&self.scans.join(name), name)?, finished: 0 })
+        Ok(Rows { job: self, kept: self.pieces(name)?, finished: 0 })
+    }
+
+    /// The finished rows of this name and build: lists of doubles.
+    fn pieces(&self, name: &str) -> Result<Pieces, Error> {
+        let description = format!("{name}; build {}", self.build);
+        let kept = Pieces::open(&self.scans.join(name), &description)?;
+        Ok(kept.holding(|_, bytes| bytes.len() % size_of::<f64>() == 0))
     }
 
     /// Row k, read or computed.
@@ -62,8 +72,7 @@ impl Job {
                 bytes
             }
         };
-        let number = |word: &[u8]| word.try_into().map_or(f64::NAN, f64::from_le_bytes);
-        Ok(bytes.chunks(8).map(number).collect())
+        Ok(bytes.as_chunks().0.iter().map(|word| f64::from_le_bytes(*word)).collect())
     }
 
     /// Removes the finished rows. Call it when all results are written.

@@ -102,6 +102,26 @@ fn damaged_tiles_are_named_and_computed_again() {
     other.remove();
 }
 
+/// A tile of one layer has other bytes than that of another one: it would be read as basins that are not there.
+#[test]
+fn a_tile_of_another_layer_is_never_joined() {
+    let whole = undisturbed("foreign_layer_whole", &with(&JOB, &["--layer", "label", "hops"]));
+    let folder = Folder::new("foreign_layer");
+    let call =
+        |more: &[&str]| basins(&folder.0, &with(&with(&JOB, &["--layer", "label", "hops"]), more));
+    for (from, to) in [("tiles_hops", "tiles"), ("tiles", "tiles_hops")] {
+        ends(call(&["--part", "1/1", "--force"]), 0);
+        let tile = |folder_name: &str| folder.0.join(folder_name).join("piece_000001.bin");
+        std::fs::copy(tile(from), tile(to)).unwrap();
+        let text = text(&ends(call(&["--join"]), 1));
+        assert!(text.contains("1 of 20 tiles are missing or damaged"), "{text}");
+        assert!(text.contains("another job"), "{text}");
+        ends(call(&[]), 0);
+        assert!(folder.files() == whole);
+    }
+    folder.remove();
+}
+
 #[test]
 fn parts_are_computed_side_by_side_and_joined_when_all_are_there() {
     let whole = undisturbed("parts_whole", &LONG);
@@ -187,6 +207,13 @@ fn damaged_results_are_named_and_computed_again() {
         }
     }
     assert!(text(&ends(basins(&folder.0, &JOB), 0)).contains("complete already"));
+    // A list of digests without one of the results is not that of this job.
+    let list = String::from_utf8(whole["basin.digests"].clone()).unwrap();
+    let shorter: Vec<&str> = list.lines().filter(|line| !line.ends_with("basin.npy")).collect();
+    std::fs::write(folder.0.join("basin.digests"), shorter.join("\n") + "\n").unwrap();
+    std::fs::remove_file(folder.0.join("basin.npy")).unwrap();
+    assert!(!text(&ends(basins(&folder.0, &JOB), 0)).contains("complete already"));
+    assert!(folder.files() == whole);
     folder.remove();
 }
 

@@ -107,6 +107,12 @@ fn a_name_that_no_result_can_have_is_an_error_before_the_computation() {
         assert!(text.contains(name) && text.contains("remove it"), "{text}");
         assert_eq!(folder.names(""), [name]);
         folder.remove();
+        // A named pipe would let the call wait for ever.
+        std::fs::create_dir_all(&folder.0).unwrap();
+        assert!(Command::new("mkfifo").arg(folder.0.join(name)).status().unwrap().success());
+        let text = basin_calls::text(&ends(raster(&folder.0), 1));
+        assert!(text.contains(name), "{text}");
+        folder.remove();
     }
 }
 

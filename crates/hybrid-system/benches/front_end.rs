@@ -102,7 +102,7 @@ impl HybridSystem for Pendulum {
         integrated_flow(self, (), x, t, Tolerances::both(TOLERANCE))
     }
     fn guards(&self, (): ()) -> &[Guard<Floor>] {
-        const { &[Guard::falling(Floor).observer()] }
+        const { &[Guard::falling(Floor).crossing()] }
     }
     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 {
         x[0]

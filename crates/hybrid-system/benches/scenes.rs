@@ -138,7 +138,7 @@ fn ball(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surfac
 fn pendulum(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], -pxfm::f_sin(x[0])),
-        guards: [Guard::either(()).observer()],
+        guards: [Guard::either(()).crossing()],
         jump: |x| *x,
         tolerances: Tolerances::both(tolerance),
     }
@@ -148,7 +148,7 @@ fn pendulum(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Su
 fn van_der_pol(tolerance: f64) -> impl HybridSystem<State = State<2>, Mode = (), Surface = ()> {
     Integrated {
         field: |x: &State<2>| Vector2::new(x[1], 5.0 * (1.0 - x[0] * x[0]) * x[1] - x[0]),
-        guards: [Guard::either(()).observer()],
+        guards: [Guard::either(()).crossing()],
         jump: |x| *x,
         tolerances: Tolerances::both(tolerance),
     }

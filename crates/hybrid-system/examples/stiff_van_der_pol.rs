@@ -163,6 +163,7 @@ impl HybridSystem for VanDerPol {
             surface: (),
             time,
             // Errors of steps are damped; an estimate.
+            time_rounding: 2.0 * f64::EPSILON * time,
             time_error: self.tolerance * (1.0 + time),
             state: self.flow((), start, time),
             kind: EventKind::Crossing,

@@ -14,6 +14,9 @@ pub struct Event<M, S, X> {
     pub surface: S,
     /// Continuous time t of the event.
     pub time: f64,
+    /// How far the event may be from the zero of the guard along the computed trajectory, by rounding: see
+    /// [`Crossing::time_rounding`](crate::Crossing::time_rounding).
+    pub time_rounding: f64,
     /// The error of the duration of the arc before the event: a bound for closed forms, an estimate from the tolerances
     /// for integrated flows. Errors of earlier events are not contained.
     pub time_error: f64,
@@ -92,6 +95,7 @@ impl<M: Copy, S: Copy, X: StateVector> Arc<M, S, X> {
             ArcEnd::Event(event) => ArcEnd::Event(Event {
                 surface: event.surface,
                 time: event.time,
+                time_rounding: event.time_rounding,
                 time_error: event.time_error,
                 at_time_limit: event.at_time_limit,
                 jump: event.jump,

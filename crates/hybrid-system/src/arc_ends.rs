@@ -21,7 +21,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         crossing: Crossing<T::Surface, T::State>,
         horizon: f64,
     ) -> Result<AnArc<T>, Error> {
-        let Crossing { surface, time: duration, time_error, state, kind, certainty } = crossing;
+        let Crossing { surface, time: duration, time_rounding, time_error, state, kind, certainty } =
+            crossing;
         let before = self.at.time.value();
         self.check_state(before + duration, &state)?;
         // The searches of this crate certify less, and miss no change of sign.
@@ -31,7 +32,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                 &self.at.residues,
                 Some(surface),
                 &state,
-                (duration, time_error),
+                (duration, time_rounding),
             )?;
         }
         let mut time = self.at.time.plus(duration);
@@ -46,7 +47,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let time_passes = time.value() > before;
         if time_passes {
             self.at.chain.clear();
-        } else if time.since(self.at.time) > 0.0 && duration > time_error {
+        } else if time.since(self.at.time) > 0.0 && duration > time_rounding {
             self.at.chain.moves_on();
         }
         self.at.chain.push(self.at.mode, surface);
@@ -61,6 +62,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let end = ArcEnd::Event(Event {
             surface,
             time: time.value(),
+            time_rounding,
             time_error,
             at_time_limit: (horizon - duration).abs() <= time_error,
             jump: self.at.jump,
@@ -70,7 +72,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             certainty,
         });
         let arc = self.new_arc(duration, end);
-        self.remember((kind, surface), &state, (duration, time_error), time_passes);
+        self.remember((kind, surface), &state, (duration, time_rounding), time_passes);
         let same = |(mode, after): &(T::Mode, T::State)| *mode == self.at.mode && *after == state;
         let changes_nothing = after.as_ref().is_some_and(same);
         self.at.time = time;
@@ -99,24 +101,23 @@ impl<T: HybridSystem> Execution<'_, T> {
         &mut self,
         (kind, surface): (EventKind, T::Surface),
         state: &T::State,
-        (duration, time_error): (f64, f64),
+        (duration, time_rounding): (f64, f64),
         time_passes: bool,
     ) {
         let passed = (kind == EventKind::Crossing).then_some(surface);
         self.forget_residues(passed, state);
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-        let arrival =
-            |surface, time_error| Arrival::new(&flow, surface, state, (duration, time_error));
+        let arrival = |surface, rounding| Arrival::new(&flow, surface, state, (duration, rounding));
         match kind {
             EventKind::Crossing => {
                 let guard = flow.guards().iter().find(|guard| guard.surface == surface);
                 if let Some(guard) = guard {
                     self.at.residues.push(guard, flow.guard_value(surface, state));
                 }
-                self.at.arrival = Some(arrival(Some(surface), time_error));
+                self.at.arrival = Some(arrival(Some(surface), time_rounding));
             }
             EventKind::Touch => {
-                self.at.arrival = Some(arrival(Some(surface), time_error).by_touch());
+                self.at.arrival = Some(arrival(Some(surface), time_rounding).by_touch());
             }
             // A guard that is on its surface at the preset time, before it has passed through it, must not lose its event.
             EventKind::Clock if duration > 0.0 => self.at.arrival = Some(arrival(None, 0.0)),

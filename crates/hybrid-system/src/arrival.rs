@@ -1,7 +1,7 @@
 //! How the state came to the start of an arc: by a crossing, whose time has an error.
 
 use crate::crossing::{GuardedFlow, guard_rate};
-use crate::guard::{Direction, Guard, Role};
+use crate::guard::{Guard, Role};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
 use smallvec::SmallVec;
@@ -9,8 +9,8 @@ use smallvec::SmallVec;
 /// Surfaces that are reached together without allocating.
 const FEW: usize = 4;
 
-/// The lookback from a crossing, in errors of its time. The error counts in both directions: two crossings whose times
-/// differ by the sum of their errors may be at the same instant. A larger number would join events that are distinct.
+/// The lookback from a crossing, in roundings of its time. The rounding counts in both directions: two crossings whose times
+/// differ by the sum of their roundings may be at the same instant. A larger number would join events that are distinct.
 const LOOKBACK: f64 = 2.0;
 
 /// The end of the last arc, as long as no time has passed since.
@@ -27,10 +27,9 @@ pub(crate) struct Arrival<M, S, X> {
     mode: M,
     start: X,
     duration: f64,
-    /// The error of the duration.
-    time_error: f64,
-    /// Other surfaces that were reached at the same instant, with the sides from which the guards came. Only surfaces that
-    /// have no side beyond are listed: for the others the state after the reset decides.
+    /// The error of the duration by rounding.
+    time_rounding: f64,
+    /// Other surfaces that were reached at the same instant, with the sides from which the guards came.
     reached: SmallVec<[(S, f64); FEW]>,
 }
 
@@ -40,7 +39,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         arc: &FlowFrom<T>,
         surface: Option<S>,
         before: &X,
-        (duration, time_error): (f64, f64),
+        (duration, time_rounding): (f64, f64),
     ) -> Self
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -52,18 +51,20 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             mode: arc.mode,
             start: arc.start.clone(),
             duration,
-            time_error,
+            time_rounding,
             reached: SmallVec::new(),
         };
-        let both_ways = |guard: &&Guard<S>| {
-            guard.role == Role::Observer
-                || guard.role == Role::Switch && guard.direction == Direction::Either
-        };
-        let others = arc.guards().iter().filter(both_ways);
-        for guard in others.filter(|guard| Some(guard.surface) != surface) {
+        let is_other =
+            |guard: &&Guard<S>| guard.role != Role::Clock && Some(guard.surface) != surface;
+        for guard in arc.guards().iter().filter(is_other) {
             let value = |state: &X| arc.guard_value(guard.surface, state);
             let rounding = arc.rounding_at(guard.surface, before);
-            if !(value(before).abs() <= arrival.change(arc.system, guard.surface) + rounding)
+            let (earlier, change) = arrival.earlier(arc.system, guard.surface);
+            // It has another sign a moment earlier, or in the middle of the arc, and no event since.
+            let jumped = earlier * value(before) < 0.0
+                || value(arc.start) * value(before) < 0.0
+                    && value(&arc.state(0.5 * duration)) * value(before) < 0.0;
+            if !(jumped || value(before).abs() <= change + rounding)
                 || arrival.has_stayed(arc, guard.surface)
             {
                 continue;
@@ -72,7 +73,11 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             let rate = arc
                 .vector_field(before)
                 .and_then(|field| guard_rate(before, &field, rounding, value));
-            let from = rate.map_or_else(|| value(arc.start), |rate| -rate);
+            let from = match rate {
+                _ if jumped => -value(before),
+                Some(rate) => -rate,
+                None => value(arc.start),
+            };
             if guard.direction.admits(from, -from) {
                 arrival.reached.push((guard.surface, from.signum()));
             }
@@ -117,8 +122,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         &self.before
     }
 
-    /// The sign that the guard of this surface had before, if the surface was reached at the same instant and has no side
-    /// beyond.
+    /// The sign that the guard of this surface had before, if the surface was reached at the same instant.
     pub(crate) fn came_from(&self, surface: S) -> Option<f64> {
         self.reached.iter().find(|reached| reached.0 == surface).map(|reached| reached.1)
     }
@@ -130,7 +134,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = next.guard_value(surface, next.start);
-        let change = self.change(next.system, surface);
+        let (_, change) = self.earlier(next.system, surface);
         if Some(surface) == self.surface && value == next.guard_value(surface, &self.before) {
             change.max(value.abs())
         } else {
@@ -149,25 +153,33 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         is_zero(arc.start) && is_zero(&arc.state(0.5 * self.duration))
     }
 
-    /// The change of a guard within the error of the time of the crossing.
-    fn change<T>(&self, system: &T, surface: S) -> f64
+    /// The value of a guard before the rounding of the time of the crossing, and the change within it.
+    ///
+    /// The smaller one of the changes over two neighbouring stretches of time counts: a jump is in one of them only, and its
+    /// height is no error.
+    fn earlier<T>(&self, system: &T, surface: S) -> (f64, f64)
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
-        let lookback = LOOKBACK * self.time_error;
+        let lookback = LOOKBACK * self.time_rounding;
+        let value = |state: &X| system.guard_value(surface, state);
+        let now = value(&self.before);
         if lookback == 0.0 {
-            return 0.0;
+            return (now, 0.0);
         }
-        let earlier = match system.vector_field(self.mode, &self.before) {
+        let field = system.vector_field(self.mode, &self.before);
+        let [earlier, before_that] = [lookback, 2.0 * lookback].map(|lookback| match &field {
             Some(field) => {
                 let mut earlier = self.before.clone();
-                earlier.add_scaled(-lookback, &field);
-                earlier
+                earlier.add_scaled(-lookback, field);
+                value(&earlier)
             }
-            None => system.flow(self.mode, &self.start, (self.duration - lookback).max(0.0)),
-        };
-        let value = |state: &X| system.guard_value(surface, state);
-        (value(&earlier) - value(&self.before)).abs()
+            None => {
+                let earlier = (self.duration - lookback).max(0.0);
+                value(&system.flow(self.mode, &self.start, earlier))
+            }
+        });
+        (earlier, (earlier - now).abs().min((before_that - earlier).abs()))
     }
 
     /// This surface is no longer one that was reached at the same instant: its event has happened.

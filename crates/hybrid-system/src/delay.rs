@@ -26,8 +26,8 @@ const SAME_INSTANT: f64 = 4.0 * f64::EPSILON;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Delay<const C: usize> {
     pub(crate) delay: RowSVector<f64, C>,
-    /// The error of the time of the event.
-    pub(crate) time_error: f64,
+    /// The rounding of the time of the event.
+    pub(crate) time_rounding: f64,
 }
 
 /// ∂τ of the event that ends an arc; `None` for a touch, or a second event at one instant, that changes nothing. `by_guard` gives it for a crossing. `before` is that of the
@@ -64,7 +64,7 @@ where
                 return Ok(Some(*own));
             }
             if event.kind == EventKind::AtStart
-                && is_beyond(system, arc.mode, event, before.time_error)
+                && is_beyond(system, arc.mode, event, before.time_rounding)
             {
                 return Ok(Some(before.delay));
             }
@@ -82,7 +82,7 @@ fn is_beyond<T, const N: usize>(
     system: &T,
     mode: T::Mode,
     event: &Event<T::Mode, T::Surface, State<N>>,
-    time_error: f64,
+    time_rounding: f64,
 ) -> bool
 where
     T: HybridSystem<State = State<N>>,
@@ -90,7 +90,7 @@ where
     let value = |state: &State<N>| system.guard_value(event.surface, state);
     let moved = system
         .vector_field(mode, &event.before)
-        .map_or(0.0, |field| value(&(event.before + field * time_error)) - value(&event.before));
+        .map_or(0.0, |field| value(&(event.before + field * time_rounding)) - value(&event.before));
     // The error counts for both events, in both directions.
     let stated = system.guard_error(event.surface, &event.before);
     let error = stated_or_measured(stated, &event.before, value) + 4.0 * moved.abs();

@@ -1,5 +1,7 @@
 //! The errors of this crate.
 
+use crate::lands_beyond::LandsBeyond;
+use crate::looked::Looked;
 use crate::number::{Number, Numbers};
 use thiserror::Error;
 
@@ -90,15 +92,16 @@ pub enum Error {
     /// A guard starts at zero and is beyond its surface a little later. The guard may have crossed at once, or it may
     /// have left to the other side and come back, within a sampling interval or within rounding.
     #[error(
-        "guard {surface} is zero at the start and beyond its surface {interval} later: sample more often, or \
-         solve this crossing in the model",
-        interval = Number(*.interval)
+        "guard {surface} is zero at the start and beyond its surface {interval} later: {advice}",
+        interval = Number(*.interval), advice = looked.advice()
     )]
     UndecidedStart {
         /// Name of the guard's surface.
         surface: String,
         /// The sampling interval, or the time up to which rounding hides the guard.
         interval: f64,
+        /// How the guard was looked at.
+        looked: Looked,
     },
     /// A guard under bounds starts at zero, and rounding hides to which side it leaves: lower derivatives that may be
     /// zero could outweigh the first derivative that is not zero.
@@ -364,6 +367,12 @@ pub enum Error {
         /// The reason.
         reason: &'static str,
     },
+    /// A reset leads to the far side of a surface, and the guard does not say what that means.
+    #[error(transparent)]
+    LandsBeyond(#[from] LandsBeyond),
+    /// `contact` or `crossing` of a model without a guard before it.
+    #[error("`contact` and `crossing` declare the guard that was added last: add a guard before")]
+    NothingDeclared,
     /// Two guards of one mode have the same surface: their events could not be told apart.
     #[error("surface {surface} has two guards in one mode: give each of them a name of its own")]
     SurfaceTwice {

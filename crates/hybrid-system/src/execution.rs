@@ -82,19 +82,22 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         match found {
             NextEvent::Crossing(crossing) => {
                 // The `first_crossing` of a model may return any time.
-                if !(crossing.time >= 0.0) || !(crossing.time_error >= 0.0) {
-                    let what = "the time of a crossing, or its error,";
+                let rounding = crossing.time_rounding;
+                if !(crossing.time >= 0.0)
+                    || !(rounding >= 0.0)
+                    || !(crossing.time_error >= rounding)
+                {
+                    let what = "the time of a crossing, its rounding or its error,";
                     return Err(Error::BadLimit { what, value: crossing.time });
                 }
-                if crossing.time > horizon + crossing.time_error {
+                if crossing.time > horizon + rounding {
                     let certainty = crossing.certainty;
                     return self.arc_without_event(horizon, None, certainty);
                 }
                 // A crossing that takes no time, or only the error of its own time, is at once as well.
                 let at_once = crossing.kind == EventKind::AtStart
                     || crossing.kind == EventKind::Crossing
-                        && crossing.time
-                            <= crossing.time_error.max(f64::EPSILON * self.at.time.value());
+                        && crossing.time <= rounding.max(f64::EPSILON * self.at.time.value());
                 if at_once && let Some(sliding) = self.sliding(crossing.surface) {
                     return Ok(self.sliding_arc(sliding));
                 }

@@ -40,15 +40,25 @@ impl Direction {
 /// The part that a guard plays in its mode.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Role {
-    /// The surface bounds the flow of the mode: no state beyond it can flow. A start beyond it is an error; a jump to a
-    /// state beyond it is an event at once.
+    /// An event where the flow crosses the surface, and the author has not said what a state beyond it means. A jump to such
+    /// a state is the error [`LandsBeyond`](crate::Error::LandsBeyond), which names both words: a contact and a crossing.
     Switch,
-    /// The guard only watches, for example a Poincaré section. States on both sides can flow. A start on the surface or
-    /// beyond it is no event.
-    Observer,
+    /// A contact that holds, such as a floor: the surface bounds the flow of the mode, and no state beyond it can flow. A
+    /// jump to a state beyond it is an event at once; an initial state beyond it is an error.
+    Contact,
+    /// An event only where the flow crosses the surface, such as a Poincaré section, or the touchdown of a leg that takes off
+    /// below the height of its touchdown. States on both sides can flow: a start on the surface or beyond it is no event.
+    Crossing,
     /// The events happen at preset times, see [`HybridSystem::next_time`](crate::HybridSystem::next_time). The value of the
     /// guard is not used.
     Clock,
+}
+
+impl Role {
+    /// True if the mode flows on one side of the surface only.
+    pub(crate) fn bounds_flow(self) -> bool {
+        matches!(self, Role::Switch | Role::Contact)
+    }
 }
 
 /// What happens where a guard touches its surface: it comes within rounding of zero and goes back to the side from which
@@ -101,10 +111,16 @@ impl<S> Guard<S> {
 }
 
 impl<S: Copy> Guard<S> {
-    /// The same guard as an observer: it watches, and the mode flows on both sides of the surface.
+    /// The same guard as a contact that holds: a jump to a state beyond the surface is an event at once.
     #[must_use]
-    pub const fn observer(mut self) -> Self {
-        self.role = Role::Observer;
+    pub const fn contact(mut self) -> Self {
+        self.role = Role::Contact;
+        self
+    }
+    /// The same guard as a crossing: an event only where the flow crosses the surface. The mode flows on both sides of it.
+    #[must_use]
+    pub const fn crossing(mut self) -> Self {
+        self.role = Role::Crossing;
         self
     }
     /// The same guard with this treatment of touches.

@@ -101,7 +101,9 @@ mod durations;
 mod error;
 mod execution;
 mod guard;
+mod lands_beyond;
 mod limits;
+mod looked;
 mod missed;
 mod model;
 mod next_event;
@@ -133,7 +135,9 @@ pub use error::Error;
 pub use execution::Execution;
 pub use guard::{Direction, Guard, Role, Touch};
 pub use interval_arithmetic::Enclosure;
+pub use lands_beyond::LandsBeyond;
 pub use limits::{Limits, Stop};
+pub use looked::Looked;
 pub use model::{
     Family, Model, gradient_by_differences, jacobian_by_differences, reset_by_differences,
 };

@@ -7,7 +7,6 @@
 use crate::arrival::Arrival;
 use crate::crossing::GuardedFlow;
 use crate::error::Error;
-use crate::guard::Role;
 use crate::residues::Residues;
 use crate::system::{FlowFrom, HybridSystem};
 
@@ -25,11 +24,11 @@ pub(crate) fn check_missed<T: HybridSystem>(
     residues: &Residues<T::Surface>,
     crossed: Option<T::Surface>,
     end: &T::State,
-    (duration, time_error): (f64, f64),
+    (duration, time_rounding): (f64, f64),
 ) -> Result<(), Error> {
     for guard in arc.guards() {
         let surface = guard.surface;
-        if guard.role != Role::Switch || Some(surface) == crossed {
+        if !guard.role.bounds_flow() || Some(surface) == crossed {
             continue;
         }
         let value = arc.guard_value(surface, end);
@@ -37,8 +36,8 @@ pub(crate) fn check_missed<T: HybridSystem>(
             continue;
         }
         // Two surfaces may be reached at the same instant, within the error of the time.
-        let time_error = time_error.max(TIME_ULPS * f64::EPSILON * duration);
-        let arrival = Arrival::new(arc, None, end, (duration, time_error));
+        let time_rounding = time_rounding.max(TIME_ULPS * f64::EPSILON * duration);
+        let arrival = Arrival::new(arc, None, end, (duration, time_rounding));
         let next = FlowFrom { system: arc.system, mode: arc.mode, start: end };
         let error = arc.rounding_at(surface, end)
             + arrival.error_after(&next, surface).max(residues.error(surface));

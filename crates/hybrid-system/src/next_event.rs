@@ -4,8 +4,9 @@ use crate::crossing::{Crossing, EventKind, NextEvent, Search};
 use crate::error::Error;
 use crate::execution::Execution;
 use crate::guard::Role;
+use crate::lands_beyond::LandsBeyond;
 use crate::point::Point;
-use crate::start_rule::{LeavingGuards, Start, start_of_arc};
+use crate::start_rule::{LeavingGuards, Start, Undeclared, start_of_arc};
 use crate::system::{FlowFrom, HybridSystem};
 
 impl<T: HybridSystem> Execution<'_, T> {
@@ -19,10 +20,23 @@ impl<T: HybridSystem> Execution<'_, T> {
         let mut leaving = LeavingGuards::new();
         let times = (horizon, self.limits.sampling_interval);
         let start = start_of_arc(&flow, arrival.as_ref(), residues, initial, times, &mut leaving)?;
-        if let Start::Event { surface, certainty } = start {
+        if let Start::Event { surface, certainty, undeclared } = start {
+            if let Some(Undeclared { value, rounding, on_surface }) = undeclared
+                && self.sliding(surface).is_none()
+            {
+                return Err(Error::LandsBeyond(LandsBeyond {
+                    mode: format!("{mode:?}"),
+                    surface: format!("{surface:?}"),
+                    time: time.value(),
+                    value,
+                    rounding,
+                    on_surface,
+                }));
+            }
             return Ok(NextEvent::Crossing(Crossing {
                 surface,
                 time: 0.0,
+                time_rounding: 0.0,
                 time_error: 0.0,
                 state: state.clone(),
                 kind: EventKind::AtStart,
@@ -46,6 +60,7 @@ impl<T: HybridSystem> Execution<'_, T> {
             ) => Ok(NextEvent::Crossing(Crossing {
                 surface,
                 time: until,
+                time_rounding: 0.0,
                 time_error: 0.0,
                 state: end.unwrap_or_else(|| flow_to(&flow, until)),
                 kind: EventKind::Clock,

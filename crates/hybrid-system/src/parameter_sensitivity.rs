@@ -185,7 +185,7 @@ where
     let by_parameters = family.reset_by_parameters(arc.mode, event.surface, &event.before);
     let jump = field(system, mode, &after)? - reset * field(system, arc.mode, &event.before)?;
     let change = finite(reset * change + by_parameters - jump * delay, arc.time)?;
-    Ok((change, Some(Delay { delay, time_error: event.time_error })))
+    Ok((change, Some(Delay { delay, time_rounding: event.time_rounding })))
 }
 
 /// ∂τ/∂p of an event; `None` if it changes nothing, and needs none.

@@ -11,7 +11,7 @@
 //!
 //! Then the guard is zero within the error of that first event, and this is no new event.
 
-use crate::guard::{Direction, Guard, Role};
+use crate::guard::{Direction, Guard};
 use smallvec::SmallVec;
 
 /// Surfaces that are kept without allocating.
@@ -36,8 +36,8 @@ impl<S: Copy + PartialEq> Residues<S> {
         let is_left_behind = match (guard.role, guard.direction) {
             (_, Direction::Either) => value != 0.0,
             // The flow goes on at the side from which it came.
-            (Role::Switch, direction) => direction.is_beyond(value),
-            (Role::Observer | Role::Clock, direction) => direction.is_beyond(-value),
+            (role, direction) if role.bounds_flow() => direction.is_beyond(value),
+            (_, direction) => direction.is_beyond(-value),
         };
         if is_left_behind {
             self.0.push((guard.surface, value));

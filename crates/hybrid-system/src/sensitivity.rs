@@ -143,7 +143,7 @@ where
     // shorter by δτ after it.
     let jump = field(system, mode, &after)? - reset * field(system, arc.mode, &event.before)?;
     let change = reset * along - jump * delay;
-    Ok((change, Some(Delay { delay, time_error: event.time_error })))
+    Ok((change, Some(Delay { delay, time_rounding: event.time_rounding })))
 }
 
 /// The matrices from a small change of the start of `arc` to the change of the state right after the event that

@@ -2,26 +2,30 @@
 //!
 //! The start is the initial state of an execution, or the state after a jump. For each guard:
 //!
-//! | value of the guard at the start | switch | observer |
-//! |---|---|---|
-//! | zero within its error, leaves to the side of the event | an event at once | no event |
-//! | zero within its error, leaves to the side of the flow, or stays zero | no event | no event |
-//! | zero within its error, the side is hidden by rounding | an error | an error |
-//! | beyond the surface | an event at once; an error at the initial state | no event |
-//! | on the side of the flow | no event | no event |
+//! | value of the guard at the start | contact | switch | crossing |
+//! |---|---|---|---|
+//! | zero within its error, leaves to the side of the event, after a jump that moves the state | an event at once | an error | no event |
+//! | the same, after a change of the mode alone, or at the initial state | an event at once | an event at once | no event |
+//! | zero within its error, leaves to the side of the flow, or stays zero | no event | no event | no event |
+//! | zero within its error, the side is hidden by rounding | an error | an error | an error |
+//! | beyond the surface, after a jump | an event at once | an error | no event |
+//! | beyond the surface, at the initial state | an error | an error | no event |
+//! | on the side of the flow | no event | no event | no event |
+//!
+//! A switch whose surface both fields point at is no error: the state slides.
 //!
 //! After a touch the guard goes back to the side of the flow, although its rate at the time of the touch may still lead
 //! to the surface.
 //!
-//! A guard that counts both ways has no side beyond its surface. Where it leaves to is no event, with one exception, also
-//! for observers: if the surface was reached at the same instant as the surface of the last event, and the reset of that
-//! event lets the state pass through, that is an event. No crossing is lost between two resets.
+//! For guards of all roles: if the flow has reached the surface at the same instant as the surface of the last event, and the
+//! reset of that event lets the state pass through, that is an event. No crossing is lost between two resets.
 
 use crate::arrival::Arrival;
 use crate::crossing::{Certainty, Departure, GuardedFlow, Leaving, departure, is_far};
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role};
 use crate::residues::Residues;
+use crate::sliding::is_unchanged;
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
 use smallvec::SmallVec;
@@ -36,9 +40,19 @@ pub(crate) type LeavingGuards<S> = SmallVec<[Leaving<S>; FEW]>;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Start<S> {
     /// With an event at once.
-    Event { surface: S, certainty: Certainty },
+    Event { surface: S, certainty: Certainty, undeclared: Option<Undeclared> },
     /// The mode flows.
     Flows,
+}
+
+/// An event at once of a guard that says neither that it is a contact nor that it is a crossing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Undeclared {
+    /// The value of the guard, and its rounding.
+    pub(crate) value: f64,
+    pub(crate) rounding: f64,
+    /// The value is rounding, and the flow leads beyond the surface.
+    pub(crate) on_surface: bool,
 }
 
 /// The start of an arc: an event at once, or a flow. `leaving` becomes the list of the guards on whose surfaces it starts.
@@ -68,7 +82,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             return Err(Error::NotFinite { at: 0.0, value: now });
         }
         let reached = arrival.and_then(|arrival| arrival.came_from(surface));
-        let switch = role == Role::Switch;
+        let switch = role.bounds_flow();
         // The usual case: far from the surface, on a side where the mode flows.
         let beyond = switch && direction.is_beyond(now);
         // The crossed surface itself may be farther than that, by the error of the time of the crossing.
@@ -79,9 +93,11 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             continue;
         }
         let rounding = flow.rounding_at(surface, flow.start);
-        // An exact zero, to which a reset has moved the state, has no error by time.
+        // An exact zero, to which a reset has moved the state, has no error by time. A guard that the flow has moved to its
+        // other side has crossed it.
+        let crossed_by_flow = reached.is_some_and(|from| from * now < 0.0);
         let by_time = arrival
-            .filter(|_| now != 0.0)
+            .filter(|_| now != 0.0 && !crossed_by_flow)
             .map_or(0.0, |arrival| arrival.error_after(flow, surface));
         let error = rounding + by_time.max(residue);
         let on_surface = now.abs() <= error;
@@ -118,7 +134,19 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
                     rounding: error,
                 });
             }
-            return Ok(Start::Event { surface, certainty });
+            // A surface that the flow has reached is crossed. A jump through it, or beyond it, may mean two things. A reset
+            // that only changes the mode is no jump on the surface: the flow has brought the state there.
+            let moved = || {
+                let before = arrival.map(Arrival::before);
+                before.is_some_and(|before| !is_unchanged(before, flow.start))
+            };
+            let jumped = !initial && !passes && (!on_surface || moved());
+            let undeclared = (jumped && role == Role::Switch).then_some(Undeclared {
+                value: now,
+                rounding: error,
+                on_surface,
+            });
+            return Ok(Start::Event { surface, certainty, undeclared });
         }
         if on_surface {
             leaving.push(Leaving { surface, side });

@@ -72,7 +72,9 @@ fn events_at_one_instant() {
         [x[0] + t * x[3], x[1] + t * x[4], x[2] + t * x[5], x[3], x[4], x[5]]
     })
     .falling((), |x| x[1] - x[0], |x| ((), [x[0], x[1], x[2], x[4], x[3], x[5]]))
+    .contact()
     .falling((), |x| x[2] - x[1], |x| ((), [x[0], x[1], x[2], x[3], x[5], x[4]]))
+    .contact()
     .signal(0, |(), x| Some(QuasiPolynomial::polynomial(&[x[1] - x[0], x[4] - x[3]])))
     .signal(1, |(), x| Some(QuasiPolynomial::polynomial(&[x[2] - x[1], x[5] - x[4]])));
     let start = State::from([-1.0, 0.0, 0.0, 1.0, 0.0, 0.0]);

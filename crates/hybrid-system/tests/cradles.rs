@@ -13,8 +13,12 @@ const BALLS: usize = 5;
 const MASSES: [[f64; BALLS]; 4] =
     [[1.0; BALLS], [1.0, 2.0, 1.0, 2.0, 1.0], [2.0, 1.0, 0.5, 1.0, 2.0], [1.0, 0.3, 0.1, 3.0, 7.0]];
 
-const PAIRS: &[Guard<u8>] =
-    &[Guard::falling(0), Guard::falling(1), Guard::falling(2), Guard::falling(3)];
+const PAIRS: &[Guard<u8>] = &[
+    Guard::falling(0).contact(),
+    Guard::falling(1).contact(),
+    Guard::falling(2).contact(),
+    Guard::falling(3).contact(),
+];
 
 const CRADLE: Scene<{ 2 * BALLS }> = Scene {
     field: |_, x| {

@@ -46,7 +46,7 @@ impl HybridSystem for Oscillator {
         Vector2::new(position, decay * omega * (slope * cos - x[0] * sin) - GAMMA * position)
     }
     fn guards(&self, (): ()) -> &[Guard<()>] {
-        const { &[Guard::either(()).observer()] }
+        const { &[Guard::either(()).crossing()] }
     }
     fn guard_value(&self, (): (), x: &State<2>) -> f64 {
         x[0] - 0.0625

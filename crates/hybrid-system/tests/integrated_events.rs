@@ -74,7 +74,7 @@ fn both_events_of_the_test_suite_of_scipy_are_found() {
     let values = |surface: usize, x: &State<3>| {
         if surface == 0 { x[1] - x[2].powf(0.7) } else { x[2].powf(0.6) - x[1] }
     };
-    let guards = [Guard::rising(0).observer(), Guard::falling(1).observer()];
+    let guards = [Guard::rising(0).crossing(), Guard::falling(1).crossing()];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     let start = Vector3::new(5.0, 1.0 / 3.0, 2.0 / 9.0);
     let found = events(&system, start, 3.0);
@@ -85,7 +85,7 @@ fn both_events_of_the_test_suite_of_scipy_are_found() {
     assert!((times[1].1 - 7.5487766624669276).abs() < 1e-12, "{times:?}");
     assert!(found.iter().all(|event| event.certainty == Certainty::Interpolated));
     // In the opposite direction of each guard there is no event.
-    let guards = [Guard::falling(0).observer(), Guard::rising(1).observer()];
+    let guards = [Guard::falling(0).crossing(), Guard::rising(1).crossing()];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     assert!(events(&system, start, 3.0).is_empty());
 }
@@ -101,7 +101,7 @@ fn the_lorenz_system_returns_to_its_section_at_the_known_time() {
         )
     };
     let values = |_: usize, x: &State<3>| x[2] - 27.0;
-    let guards = [Guard::falling(0).observer()];
+    let guards = [Guard::falling(0).crossing()];
     let system = Watched { field, values, guards: &guards, tolerances: TIGHT };
     let start = Vector3::new(-2.1473674741633753, 2.0780481172873415, 27.0);
     let found = events(&system, start, 1.0);
@@ -197,7 +197,7 @@ fn sciml_647_two_masses_on_a_spring() {
     .guard(false, Guard::falling("landing"), |x| x[0], |x| (true, [0.0, x[1], 0.0, x[3]]))
     .guard(
         true,
-        Guard::falling("lift-off"),
+        Guard::falling("lift-off").contact(),
         |x| GRAVITY - STIFFNESS * (x[1] - x[0] - 1.0),
         |x| (false, *x),
     )

@@ -66,7 +66,7 @@ fn crossings(
     interval: f64,
 ) -> Vec<f64> {
     // The events do not change the state: the guard is an observer.
-    let clock = Clock { guard, guards: [watch.observer()] };
+    let clock = Clock { guard, guards: [watch.crossing()] };
     let limits = Limits::sampled(until, 100, interval);
     Execution::new(&clock, (), Vector1::new(0.0), limits)
         .filter_map(|arc| arc.unwrap().event().map(|event| event.before[0]))
@@ -192,7 +192,7 @@ fn samples_report_no_crossing_at_a_touch() {
     let ignored = Guard::either(Surface).touch(Touch::Ignore);
     assert!(crossings(touch, ignored, 1.0, 0.25).is_empty());
     // A sample that is exactly zero shows the touch.
-    let clock = Clock { guard: touch, guards: [Guard::either(Surface).observer()] };
+    let clock = Clock { guard: touch, guards: [Guard::either(Surface).crossing()] };
     let limits = Limits::sampled(1.0, 100, 0.25);
     let first = Execution::new(&clock, (), Vector1::new(0.0), limits).next().unwrap();
     assert!(matches!(first, Err(Error::Grazing { time: 0.5, .. })), "{first:?}");

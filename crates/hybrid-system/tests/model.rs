@@ -121,7 +121,7 @@ fn terminal_guards_observers_and_parameters() {
     .signal("floor", |(), x| Some(QuasiPolynomial::polynomial(&[x[0], x[1], -gravity / 2.0])))
     .observer(Guard::falling("top"), |x| x[1])
     .signal("top", |(), x| Some(QuasiPolynomial::polynomial(&[x[1], -gravity])))
-    .terminal((), Guard::rising("slow"), |x| 0.3 - x[0] - x[1] * x[1] / (2.0 * gravity))
+    .terminal((), Guard::rising("slow").contact(), |x| 0.3 - x[0] - x[1] * x[1] / (2.0 * gravity))
     .signal("slow", |(), x| {
         Some(QuasiPolynomial::polynomial(&[0.3 - x[0] - x[1] * x[1] / (2.0 * gravity)]))
     });

@@ -103,7 +103,7 @@ fn all_crossings_are_found<G: Fn(&State<2>) -> f64>(guard_of: impl Fn([f64; 3]) 
         let Some(crossings) = count(guard_of([a, b, c]), start) else { continue };
         for integrated in [false, true] {
             let guard = guard_of([a, b, c]);
-            let system = Circle { guard, guards: [Guard::either(()).observer()], integrated };
+            let system = Circle { guard, guards: [Guard::either(()).crossing()], integrated };
             let limits = Limits::sampled(LENGTH, 1000, 0.02);
             let first = Vector2::new(start.cos(), start.sin());
             let arcs: Result<Vec<_>, Error> = Execution::new(&system, (), first, limits).collect();
@@ -189,7 +189,7 @@ impl<G: Fn(f64) -> f64> HybridSystem for Line<G> {
 
 /// The states at the events of an observer.
 fn watched(guard: impl Fn(f64) -> f64 + Copy, start: f64, time: f64, integrated: bool) -> Vec<f64> {
-    let system = Line { guard, guards: [Guard::either(()).observer()], integrated };
+    let system = Line { guard, guards: [Guard::either(()).crossing()], integrated };
     let limits = Limits::sampled(time, 10_000, 1e-3);
     Execution::new(&system, (), Vector1::new(start), limits)
         .filter_map(|arc| {

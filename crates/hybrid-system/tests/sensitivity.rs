@@ -114,6 +114,7 @@ fn a_grazing_has_no_derivative() {
     let event = Event {
         surface: Middle,
         time: 1.0,
+        time_rounding: 0.0,
         time_error: 0.0,
         at_time_limit: false,
         kind: EventKind::Crossing,

@@ -121,11 +121,21 @@ fn a_landing_at_the_end_is_flagged_by_all_means() {
     for means in ALL_MEANS {
         for (count, end) in [(1, 3.0), (2, 9.0), (3, 15.0)] {
             let (events, stop) = landings(means, end);
-            assert_eq!(
-                (events.len(), stop),
-                (count, Some(Stop::TimeLimit)),
-                "{means:?} {events:?}"
-            );
+            assert_eq!(stop, Some(Stop::TimeLimit), "{means:?} {events:?}");
+            // The computed landing of an integrated flow may come just after the limit. Then it is no event, and a run that
+            // goes on until the stated error has passed has it.
+            let (events, end) = match means {
+                Means::Integrated(_) if events.len() + 1 == count => {
+                    let (events, _) = landings(means, end + 1e-3);
+                    let late = events[count - 1];
+                    assert!(
+                        late.time > end && late.time - end <= 10.0 * count as f64 * late.time_error
+                    );
+                    (events, f64::NAN)
+                }
+                _ => (events, end),
+            };
+            assert_eq!(events.len(), count, "{means:?} {events:?}");
             for (event, exact) in events.iter().zip([3.0, 9.0, 15.0]) {
                 let accumulated = 10.0 * event.time_error * count as f64 + 1e-13;
                 assert!((event.time - exact).abs() <= accumulated, "{means:?} {event:?}");

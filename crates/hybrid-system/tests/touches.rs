@@ -103,7 +103,7 @@ const HIDDEN: f64 = 1e-5;
 #[test]
 fn touches_are_errors_unless_declared() {
     for known in ALL {
-        let error = events(Guard::either(()).observer(), known).unwrap_err();
+        let error = events(Guard::either(()).crossing(), known).unwrap_err();
         let Error::Grazing { time, .. } = error else { panic!("{known:?}: {error}") };
         assert!((time - 1.0).abs() < HIDDEN, "{known:?}: {time}");
     }
@@ -112,7 +112,7 @@ fn touches_are_errors_unless_declared() {
 #[test]
 fn ignored_touches_are_passed() {
     for known in ALL {
-        let found = events(Guard::either(()).observer().touch(Touch::Ignore), known).unwrap();
+        let found = events(Guard::either(()).crossing().touch(Touch::Ignore), known).unwrap();
         let [(EventKind::Crossing, time)] = found[..] else { panic!("{known:?}: {found:?}") };
         assert!((time - 3.0).abs() < 1e-12, "{known:?}: {time}");
     }
@@ -121,7 +121,7 @@ fn ignored_touches_are_passed() {
 #[test]
 fn touches_are_events_of_their_own_kind_and_happen_once() {
     for known in ALL {
-        let found = events(Guard::either(()).observer().touch(Touch::Event), known).unwrap();
+        let found = events(Guard::either(()).crossing().touch(Touch::Event), known).unwrap();
         let kinds: Vec<_> = found.iter().map(|(kind, _)| *kind).collect();
         assert_eq!(kinds, [EventKind::Touch, EventKind::Touch, EventKind::Crossing], "{known:?}");
         for ((_, time), known_time) in found.iter().zip([1.0, 2.0, 3.0]) {

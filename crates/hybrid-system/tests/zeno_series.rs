@@ -21,7 +21,7 @@ impl<F: Fn(f64) -> f64> HybridSystem for Flights<F> {
         *x
     }
     fn guards(&self, _: ()) -> &[Guard<()>] {
-        const { &[Guard::rising(()).observer()] }
+        const { &[Guard::rising(()).crossing()] }
     }
     fn guard_value(&self, _: (), _: &State<1>) -> f64 {
         -1.0
@@ -260,7 +260,7 @@ fn periods_of_up_to_four_events_are_recognised() {
             *x
         }
         fn guards(&self, _: ()) -> &[Guard<()>] {
-            const { &[Guard::rising(()).observer()] }
+            const { &[Guard::rising(()).crossing()] }
         }
         fn guard_value(&self, _: (), _: &State<2>) -> f64 {
             -1.0

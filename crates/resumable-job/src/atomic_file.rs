@@ -4,6 +4,9 @@
 //! renamed. The temporary name contains the number of the process and a counter, and is created new each time.
 //! Therefore no two writers share it. The writer locks its temporary file: a temporary file without a lock belongs to a
 //! writer that has ended.
+//!
+//! A name that is a link is written through: the file to which it leads is replaced, and the link stays. A named pipe or a
+//! device cannot be replaced, and is refused.
 
 use crate::error::Error;
 use crate::open_file::is_named;
@@ -15,6 +18,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// The ending of every temporary name.
 const SUFFIX: &str = ".partial.tmp";
 
+/// Links that are followed one after the other: as many as Linux follows.
+const MOST_LINKS: usize = 40;
+
 /// Temporary files that this process has begun.
 static BEGUN: AtomicU64 = AtomicU64::new(0);
 
@@ -23,7 +29,10 @@ static BEGUN: AtomicU64 = AtomicU64::new(0);
 pub struct AtomicFile {
     file: BufWriter<File>,
     temporary: PathBuf,
+    /// The name that the caller gave.
     path: PathBuf,
+    /// The file that gets the bytes: that of the name, or the one to which it leads.
+    destination: PathBuf,
     has_its_name: bool,
 }
 
@@ -31,17 +40,30 @@ impl AtomicFile {
     /// Begins a file that will be named `path`, in a folder that exists.
     ///
     /// # Errors
-    /// [`Error::File`] if the file cannot be created, or if `path` is a folder, which no file can replace.
+    /// [`Error::File`] if the file cannot be created, or if `path` is, or leads to, a folder, a named pipe or a device, which no
+    /// file can replace.
     pub fn create(path: &Path) -> Result<Self, Error> {
-        if path.is_dir() && !path.is_symlink() {
-            let reason = "this is a folder, and a file is to have this name; remove it, or give another folder";
-            return Err(Error::at(path)(std::io::Error::new(ErrorKind::IsADirectory, reason)));
+        let destination = destination(path)?;
+        let old = std::fs::metadata(&destination).ok();
+        if let Some(old) = old.as_ref().filter(|old| !old.is_file()) {
+            let (kind, reason) = if old.is_dir() {
+                (
+                    ErrorKind::IsADirectory,
+                    "this is a folder, and a file is to have this name; remove it, or give another folder",
+                )
+            } else {
+                (
+                    ErrorKind::InvalidInput,
+                    "this is a named pipe or a device, and a file is written whole or not at all; give a file",
+                )
+            };
+            return Err(Error::at(path)(std::io::Error::new(kind, reason)));
         }
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let name = destination.file_name().unwrap_or_default().to_string_lossy().into_owned();
         loop {
             let count = BEGUN.fetch_add(1, Ordering::Relaxed);
-            let temporary =
-                path.with_file_name(format!("{name}.{}-{count}{SUFFIX}", std::process::id()));
+            let temporary = destination
+                .with_file_name(format!("{name}.{}-{count}{SUFFIX}", std::process::id()));
             let new = OpenOptions::new().read(true).write(true).create_new(true).open(&temporary);
             let file = match new {
                 Ok(file) => file,
@@ -59,9 +81,12 @@ impl AtomicFile {
                 Err(TryLockError::Error(_)) => true,
             };
             if ours {
-                let path = path.to_path_buf();
-                let file = BufWriter::new(file);
-                return Ok(AtomicFile { file, temporary, path, has_its_name: false });
+                if let Some(old) = &old {
+                    // The new file is as open to others as the one that it replaces. Where that cannot be, it is its owner's.
+                    let _ = file.set_permissions(old.permissions());
+                }
+                let (path, file) = (path.to_path_buf(), BufWriter::new(file));
+                return Ok(AtomicFile { file, temporary, path, destination, has_its_name: false });
             }
         }
     }
@@ -89,9 +114,9 @@ impl AtomicFile {
         });
         flushed.map_err(Error::at(&self.path))?;
         check(self.file.get_mut())?;
-        std::fs::rename(&self.temporary, &self.path).map_err(Error::at(&self.path))?;
+        std::fs::rename(&self.temporary, &self.destination).map_err(Error::at(&self.path))?;
         self.has_its_name = true;
-        sync_folder_of(&self.path);
+        sync_folder_of(&self.destination);
         Ok(())
     }
 }
@@ -103,6 +128,28 @@ impl Drop for AtomicFile {
             let _ = std::fs::remove_file(&self.temporary);
         }
     }
+}
+
+/// The file that gets the bytes for a name: that name, or the one to which it leads by links, whether it exists or not.
+///
+/// # Errors
+/// [`Error::File`] for links that cannot be read, or that lead in a circle.
+pub fn destination(path: &Path) -> Result<PathBuf, Error> {
+    let mut destination = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        match std::fs::read_link(&destination) {
+            // A link is relative to the folder in which it lies.
+            Ok(next) => destination = destination.with_file_name("").join(next),
+            Err(error) if matches!(error.kind(), ErrorKind::InvalidInput | ErrorKind::NotFound) => {
+                return Ok(destination);
+            }
+            // An existing file of another kind, on systems with other answers.
+            Err(_) if !destination.is_symlink() => return Ok(destination),
+            Err(error) => return Err(Error::at(path)(error)),
+        }
+    }
+    let reason = "this link leads to another one, and so on without end; remove it";
+    Err(Error::at(path)(std::io::Error::new(ErrorKind::InvalidInput, reason)))
 }
 
 /// Writes a whole file: a reader finds either the old bytes or the new ones.
@@ -211,6 +258,47 @@ mod tests {
         let error = AtomicFile::create(&folder).unwrap_err().to_string();
         assert!(error.contains("is_folder") && error.contains("this is a folder"), "{error}");
         assert_eq!(names(&folder), [""; 0]);
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_link_is_written_through() {
+        use std::os::unix::fs::{PermissionsExt, symlink};
+        let folder = folder("link");
+        std::fs::create_dir(folder.join("there")).unwrap();
+        let target = folder.join("there/target");
+        symlink("there/target", folder.join("b")).unwrap();
+        symlink("b", folder.join("a")).unwrap();
+        // The link leads to no file yet.
+        for bytes in [b"first", b"again"] {
+            write_atomically(&folder.join("a"), bytes).unwrap();
+            assert_eq!(std::fs::read(&target).unwrap(), bytes);
+            assert!(folder.join("a").is_symlink() && !target.is_symlink());
+        }
+        // The mode of the file stays.
+        std::fs::set_permissions(&target, std::fs::Permissions::from_mode(0o600)).unwrap();
+        write_atomically(&folder.join("a"), b"third").unwrap();
+        assert_eq!(std::fs::metadata(&target).unwrap().permissions().mode() & 0o777, 0o600);
+        assert_eq!(names(&folder.join("there")), ["target"]);
+        symlink("circle", folder.join("circle")).unwrap();
+        let error = write_atomically(&folder.join("circle"), b"").unwrap_err().to_string();
+        assert!(error.contains("without end"), "{error}");
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_pipe_is_refused_with_the_reason() {
+        let folder = folder("pipe");
+        let pipe = folder.join("pipe");
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        std::os::unix::fs::symlink("/dev/null", folder.join("null")).unwrap();
+        for name in ["pipe", "null"] {
+            let error = write_atomically(&folder.join(name), b"").unwrap_err().to_string();
+            assert!(error.contains("named pipe") && error.contains(name), "{error}");
+        }
+        assert_eq!(names(&folder), ["null", "pipe"]);
         std::fs::remove_dir_all(&folder).unwrap();
     }
 

@@ -4,6 +4,7 @@ use crate::atomic_file::{remove_leftovers, write_atomically};
 use crate::error::Error;
 use crate::lock::Lock;
 use crate::pieces::is_piece_name;
+use crate::regular_file::{Contents, read_regular};
 use std::io::ErrorKind;
 use std::path::Path;
 
@@ -93,19 +94,17 @@ fn is_folder(path: &Path) -> bool {
 
 /// The description in a file; `None` if there is no file.
 fn read(path: &Path) -> Result<Option<String>, Error> {
-    // Asked before the file is opened: opening a named pipe would wait for a writer.
-    match std::fs::metadata(path) {
-        Ok(data) if data.is_file() && data.len() <= LONGEST => {}
-        Ok(_) => {
+    match read_regular(path)? {
+        Contents::Bytes(bytes) if bytes.len() as u64 <= LONGEST => {
+            Ok(Some(String::from_utf8_lossy(&bytes).trim_end().to_owned()))
+        }
+        Contents::Missing => Ok(None),
+        Contents::Bytes(_) | Contents::NoFile => {
             let reason =
                 "this is no file with the description of a job; remove it, or give another folder";
-            return Err(Error::at(path)(std::io::Error::new(ErrorKind::InvalidData, reason)));
+            Err(Error::at(path)(std::io::Error::new(ErrorKind::InvalidData, reason)))
         }
-        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(Error::at(path)(error)),
     }
-    let bytes = std::fs::read(path).map_err(Error::at(path))?;
-    Ok(Some(String::from_utf8_lossy(&bytes).trim_end().to_owned()))
 }
 
 /// The names in a folder, in order.

@@ -94,8 +94,9 @@ mod open_file;
 mod part;
 mod pieces;
 mod progress;
+mod regular_file;
 
-pub use atomic_file::{AtomicFile, make_folder, remove_leftovers, write_atomically};
+pub use atomic_file::{AtomicFile, destination, make_folder, remove_leftovers, write_atomically};
 pub use claim::{claim, is_claimed, remove_results};
 pub use digest::{digest, file_digest, program_digest};
 pub use error::{Error, UnusablePiece};
@@ -104,3 +105,4 @@ pub use npy::{Element, Order, npy_header};
 pub use part::Part;
 pub use pieces::{Found, Pieces};
 pub use progress::{Pace, Place, Progress};
+pub use regular_file::{Contents, read_regular};

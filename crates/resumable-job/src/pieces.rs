@@ -9,8 +9,11 @@
 use crate::atomic_file::{make_folder, remove_leftovers, write_atomically};
 use crate::digest::digest;
 use crate::error::{Error, UnusablePiece};
+use crate::regular_file::{Contents, read_regular};
+use std::fs::OpenOptions;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 const MAGIC: &[u8; 8] = b"JOBPIECE";
 /// Bytes of a digest in hexadecimal digits.
@@ -32,12 +35,27 @@ pub(crate) fn is_piece_name(name: &str) -> bool {
 ///
 /// Two processes that write the same piece at once do no harm, but waste work. A [`crate::Lock`] on a part avoids this.
 /// [`Pieces::assemble`] and [`Pieces::remove`] need the lock on the whole job.
-#[derive(Debug, Clone)]
+#[derive(Clone)]
 pub struct Pieces {
     folder: PathBuf,
     /// Digest of the description.
     job: [u8; DIGEST],
     description: String,
+    is_payload: Option<Arc<IsPayload>>,
+}
+
+/// Whether bytes can be the payload of the piece with this number.
+type IsPayload = dyn Fn(usize, &[u8]) -> bool + Send + Sync;
+
+impl std::fmt::Debug for Pieces {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Pieces { folder, description, .. } = self;
+        formatter
+            .debug_struct("Pieces")
+            .field("folder", folder)
+            .field("description", description)
+            .finish_non_exhaustive()
+    }
 }
 
 /// What a folder has of a piece.
@@ -63,7 +81,19 @@ impl Pieces {
         remove_leftovers(folder);
         let mut job = [0; DIGEST];
         job.copy_from_slice(digest(description.as_bytes()).as_bytes());
-        Ok(Pieces { folder: folder.to_path_buf(), job, description: description.to_owned() })
+        let (folder, description) = (folder.to_path_buf(), description.to_owned());
+        Ok(Pieces { folder, job, description, is_payload: None })
+    }
+
+    /// The same pieces, of which only those count whose payload `is_payload` accepts: mostly those of the right length. A
+    /// file with another payload is [`Found::Unusable`].
+    #[must_use]
+    pub fn holding(
+        mut self,
+        is_payload: impl Fn(usize, &[u8]) -> bool + Send + Sync + 'static,
+    ) -> Self {
+        self.is_payload = Some(Arc::new(is_payload));
+        self
     }
 
     pub(crate) fn description(&self) -> &str {
@@ -81,26 +111,23 @@ impl Pieces {
     /// [`Error::File`] if the file cannot be read.
     pub fn find(&self, piece: usize) -> Result<Found, Error> {
         let path = self.path(piece);
-        // Asked before the file is opened: opening a named pipe would wait for a writer.
-        match std::fs::metadata(&path) {
-            Ok(data) if data.is_file() => {}
-            Ok(_) => {
+        let mut bytes = match read_regular(&path)? {
+            Contents::Bytes(bytes) => bytes,
+            Contents::Missing => return Ok(Found::Missing),
+            Contents::NoFile => {
                 let reason = "it is no regular file";
                 return Err(Error::Piece(UnusablePiece { path, reason }));
             }
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Found::Missing),
-            Err(source) => return Err(Error::File { path, source }),
-        }
-        let mut bytes = match std::fs::read(&path) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(Found::Missing),
-            Err(source) => return Err(Error::File { path, source }),
         };
         if let Some(reason) = self.defect(piece, &bytes) {
             return Ok(Found::Unusable(UnusablePiece { path, reason }));
         }
         bytes.truncate(bytes.len() - DIGEST);
         bytes.drain(..HEAD);
+        if self.is_payload.as_ref().is_some_and(|is_payload| !is_payload(piece, &bytes)) {
+            let reason = "its contents have not the length of this piece";
+            return Ok(Found::Unusable(UnusablePiece { path, reason }));
+        }
         Ok(Found::Finished(bytes))
     }
 
@@ -131,8 +158,12 @@ impl Pieces {
     /// Notes that the job is done in so many parts, so that [`numbers_of_parts`](Self::numbers_of_parts) can tell later.
     pub fn note_parts(&self, of: usize) -> Result<(), Error> {
         let path = self.folder.join(format!("{PARTS}{of}"));
-        // A file of no bytes is never half written.
-        std::fs::write(&path, b"").map_err(Error::at(&path))
+        // A file of no bytes is never half written. One that is here is the note, whoever made it: nothing is written into
+        // it, nor to where it may lead.
+        match OpenOptions::new().write(true).create_new(true).open(&path) {
+            Err(error) if error.kind() != ErrorKind::AlreadyExists => Err(Error::at(&path)(error)),
+            _ => Ok(()),
+        }
     }
 
     /// The numbers of parts that processes have noted, in increasing order: mostly one, as many as there were different calls.
@@ -260,6 +291,32 @@ mod tests {
         std::fs::rename(&path, kept.path(1)).unwrap();
         assert!(reason(&kept, 1).contains("another piece"));
         kept.remove(2).unwrap();
+    }
+
+    #[test]
+    fn a_payload_of_another_length_is_told() {
+        let folder = folder("length");
+        Pieces::open(&folder, "a job").unwrap().write(0, b"some bytes").unwrap();
+        let of = |length| {
+            let kept = Pieces::open(&folder, "a job").unwrap();
+            kept.holding(move |piece, bytes| piece == 0 && bytes.len() == length)
+        };
+        assert_eq!(found(&of(10), 0), Found::Finished(b"some bytes".to_vec()));
+        assert!(reason(&of(9), 0).contains("length"));
+        of(9).remove(1).unwrap();
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn a_note_of_parts_empties_no_file_to_which_it_leads() {
+        let folder = folder("note");
+        let kept = Pieces::open(&folder, "a job").unwrap();
+        let target = folder.join("target");
+        std::fs::write(&target, b"bytes").unwrap();
+        std::os::unix::fs::symlink(&target, folder.join("parts_of_2")).unwrap();
+        kept.note_parts(2).unwrap();
+        assert_eq!(std::fs::read(&target).unwrap(), b"bytes");
+        std::fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -61,7 +61,7 @@ impl HybridSystem for Oscillator {
     }
 
     fn guards(&self, _: ()) -> &[Guard<Surface>] {
-        const { &[Guard::rising(Surface::Wall), Guard::rising(Surface::Period).observer()] }
+        const { &[Guard::rising(Surface::Wall), Guard::rising(Surface::Period).crossing()] }
     }
 
     fn guard_value(&self, surface: Surface, x: &State<3>) -> f64 {

@@ -46,7 +46,7 @@ impl HybridSystem for Lorenz {
         integrated_flow(self, mode, x, t, TOLERANCES)
     }
     fn guards(&self, _: ()) -> &[Guard<()>] {
-        const { &[Guard::falling(()).observer()] }
+        const { &[Guard::falling(()).crossing()] }
     }
     fn guard_value(&self, _: (), x: &State<3>) -> f64 {
         x[2] - 27.0

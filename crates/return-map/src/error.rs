@@ -8,11 +8,14 @@ use thiserror::Error;
 pub enum Error {
     /// The execution ended before it returned to the section.
     #[error(
-        "no return to the section: the execution stopped ({stop:?}) after {time} time units and {events} events"
+        "no return to the section: the execution stopped ({stop:?}{at}) after {time} time units and {events} events",
+        at = surface.as_ref().map_or(String::new(), |surface| format!(" at {surface}"))
     )]
     NoReturn {
         /// Why the execution ended.
         stop: hybrid_system::Stop,
+        /// The surface of the event that ended it, for [`Stop::Terminal`](hybrid_system::Stop::Terminal).
+        surface: Option<String>,
         /// Time from the start to the end of the execution.
         time: f64,
         /// Number of events until then.

@@ -3,9 +3,10 @@
 use crate::error::Error;
 use crate::section::{Section, SmoothSection};
 use hybrid_system::{
-    ArcEnd, Differentiable, Execution, HybridSystem, Limits, State, Stop, event_sensitivity,
+    ArcEnd, Differentiable, Event, Execution, HybridSystem, Limits, State, Stop, event_sensitivity,
 };
 use nalgebra::{RowSVector, SMatrix, SVector};
+use std::fmt::Debug;
 
 /// The map from a section to the next event on it, along executions of a hybrid system.
 #[derive(Debug, Clone, Copy)]
@@ -16,6 +17,9 @@ pub struct ReturnMap<'a, T, C, const N: usize> {
     pub section: &'a C,
     /// Limits on the time and the events of one return.
     pub limits: Limits,
+    /// Whether an event on the section at the start itself, after no time, is a return. Default: false, so that a start on
+    /// the surface of its own section never returns at once.
+    pub counts_at_once: bool,
 }
 
 /// A return to the section, with its derivatives.
@@ -46,10 +50,15 @@ where
 {
     /// The map of `system` on `section`; `limits` bound each return.
     pub fn new(system: &'a T, section: &'a C, limits: Limits) -> Self {
-        ReturnMap { system, section, limits }
+        ReturnMap { system, section, limits, counts_at_once: false }
     }
 
-    /// Follows the execution from `coordinates` to its next event on the section.
+    /// True if an event is after no time: at the start itself, within the rounding of its time.
+    fn is_at_once<M, S, X>(&self, event: &Event<M, S, X>) -> bool {
+        !self.counts_at_once && event.time <= event.time_rounding
+    }
+
+    /// Follows the execution from `coordinates` to its next event on the section. An event at the start itself is none.
     ///
     /// # Errors
     /// [`Error::NoReturn`] if the execution ends before it returns; [`Error::Execution`] if it fails.
@@ -59,18 +68,20 @@ where
     {
         let (mode, state) = self.section.point(coordinates);
         let mut execution = Execution::new(self.system, mode, state, self.limits);
-        let (mut time, mut events) = (0.0, 0);
+        let (mut time, mut events, mut surface) = (0.0, 0, None);
         for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
             let Some(event) = arc.event() else { continue };
-            events += 1;
+            (events, surface) = (events + 1, Some(event.surface));
+            if self.is_at_once(event) {
+                continue;
+            }
             if let Some(coordinates) = self.section.coordinates(event) {
                 return Ok(Return { coordinates, time, events });
             }
         }
-        let stop = execution.stop().unwrap_or(Stop::Failed);
-        Err(Error::NoReturn { stop, time, events })
+        Err(no_return(execution.stop(), surface, time, events))
     }
 
     /// The next return, with the derivatives of image and return time.
@@ -93,7 +104,7 @@ where
         let mut change = self.section.point_jacobian(coordinates);
         let mut time_derivative = RowSVector::zeros();
         let mut execution = Execution::new(self.system, mode, state, self.limits);
-        let (mut time, mut events) = (0.0, 0);
+        let (mut time, mut events, mut surface) = (0.0, 0, None);
         for arc in execution.by_ref() {
             let arc = arc?;
             time = arc.time + arc.duration;
@@ -101,8 +112,8 @@ where
                 return Err(hybrid_system::Error::NoSensitivity { time: arc.time }.into());
             }
             let Some(event) = arc.event() else { continue };
-            events += 1;
-            let back = self.section.coordinates(event);
+            (events, surface) = (events + 1, Some(event.surface));
+            let back = self.section.coordinates(event).filter(|_| !self.is_at_once(event));
             // A terminal event off the section: the execution ends, and this loop ends too.
             if back.is_none() && event.after.is_none() {
                 continue;
@@ -116,8 +127,7 @@ where
                 return Ok(SmoothReturn { to, derivative, time_derivative });
             }
         }
-        let stop = execution.stop().unwrap_or(Stop::Failed);
-        Err(Error::NoReturn { stop, time, events })
+        Err(no_return(execution.stop(), surface, time, events))
     }
 
     /// The image of a point of a one-dimensional section; `None` if the execution ends without a return.
@@ -142,4 +152,11 @@ where
             Err(error) => Err(error),
         }
     }
+}
+
+/// The error of an execution that ended before its return, after the last event on this surface.
+fn no_return<S: Debug>(stop: Option<Stop>, last: Option<S>, time: f64, events: usize) -> Error {
+    let stop = stop.unwrap_or(Stop::Failed);
+    let surface = last.filter(|_| stop == Stop::Terminal).map(|surface| format!("{surface:?}"));
+    Error::NoReturn { stop, surface, time, events }
 }

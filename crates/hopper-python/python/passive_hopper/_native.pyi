@@ -231,7 +231,7 @@ class Guard:
         direction: Literal["rising", "falling", "either"],
         *,
         reset: _Reset | None = None,
-        role: Literal["switch", "observer", "terminal"] = "switch",
+        role: Literal["switch", "contact", "crossing", "observer", "terminal"] = "switch",
         touch: Literal["error", "event", "ignore"] = "error",
         modes: Sequence[_Mode] | None = None,
         signal: Callable[[_Mode, _State], QuasiPolynomial | None] | None = None,
@@ -255,6 +255,7 @@ class Event:
     surface: str
     time: float
     time_error: float
+    time_rounding: float
     at_time_limit: bool
     jump: int
     before: _State

@@ -21,6 +21,8 @@ pub(crate) struct Event {
     time: f64,
     /// The error of the duration of the arc before it: a bound for closed forms, an estimate for integrated flows.
     time_error: f64,
+    /// How far the zero of the guard along the computed trajectory may be, by rounding.
+    time_rounding: f64,
     /// Whether the limit on time lies within time_error of the event.
     at_time_limit: bool,
     /// The number of events before this one.
@@ -139,6 +141,7 @@ impl HybridArc {
             surface: self.model.event_name(event.surface),
             time: event.time,
             time_error: event.time_error,
+            time_rounding: event.time_rounding,
             at_time_limit: event.at_time_limit,
             jump: event.jump,
             before: copied(py, &event.before),

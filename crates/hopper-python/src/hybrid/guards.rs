@@ -23,8 +23,9 @@ pub(crate) enum After {
 /// name names its events. value(x) is g. direction is "rising" (g goes from negative to positive), "falling" or "either".
 /// reset(mode, x) returns the next mode and state as a pair, or None to end the execution.
 ///
-/// role is "switch": the mode flows on one side only, and a reset is needed. "observer": the guard only watches. "terminal": its event ends
-/// the execution. touch says what happens where g comes within rounding of zero and goes back: "error", "event" or "ignore".
+/// role is "switch": an event where the flow crosses the surface, with a reset. If a jump can lead to the far side, the guard must say
+/// what that means: "contact", a floor that holds, where the event is at once; or "crossing", which counts only when the flow crosses it.
+/// "observer": a crossing without a reset. "terminal": its event ends the execution. touch says what happens where g comes within rounding of zero and goes back: "error", "event" or "ignore".
 /// modes is a list of the modes that have the guard; None for all.
 ///
 /// Two optional functions make its crossings certain: signal(mode, x) returns g along the flow from x as a QuasiPolynomial, or None;
@@ -70,12 +71,13 @@ impl Guard {
         callable(py, "enclosure", enclosure.as_ref())?;
         let (role, after) = match (role, reset) {
             ("switch", Some(reset)) => (Role::Switch, After::Reset(reset)),
-            ("observer", None) => (Role::Observer, After::Nothing),
-            ("observer", Some(reset)) => (Role::Observer, After::Reset(reset)),
+            ("contact", Some(reset)) => (Role::Contact, After::Reset(reset)),
+            ("crossing" | "observer", Some(reset)) => (Role::Crossing, After::Reset(reset)),
+            ("observer", None) => (Role::Crossing, After::Nothing),
             ("terminal", None) => (Role::Switch, After::End),
-            ("switch", None) => {
+            ("switch" | "contact" | "crossing", None) => {
                 return Err(PyValueError::new_err(format!(
-                    "guard {name:?} is a switch and needs reset=; a guard without one is role='observer' or role='terminal'"
+                    "guard {name:?} is a {role} and needs reset=; a guard without one is role='observer' or role='terminal'"
                 )));
             }
             ("terminal", Some(_)) => {
@@ -85,7 +87,7 @@ impl Guard {
             }
             (other, _) => {
                 return Err(PyValueError::new_err(format!(
-                    "a role is 'switch', 'observer' or 'terminal', not {other:?}"
+                    "a role is 'switch', 'contact', 'crossing', 'observer' or 'terminal', not {other:?}"
                 )));
             }
         };

@@ -3,14 +3,17 @@
 use crate::basins::call::{Call, Work};
 use crate::error::Error;
 use resumable_job::{
-    AtomicFile, Lock, Part, Pieces, claim, file_digest, is_claimed, make_folder, remove_leftovers,
-    remove_results, write_atomically,
+    AtomicFile, Contents, Lock, Part, Pieces, claim, digest, file_digest, is_claimed, make_folder,
+    read_regular, remove_leftovers, remove_results, write_atomically,
 };
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The lock of all jobs of this command: a folder has one job.
 const LOCK: &str = "basins";
+
+/// The beginning of the last line of a list of digests.
+const SEAL: &str = "all of this job: ";
 
 /// The folders with finished pieces.
 const PIECES: [&str; 4] = ["tiles", "tiles_hops", "columns", "frames"];
@@ -122,6 +125,18 @@ impl JobFolder {
         Ok(JobFolder { path: out.to_path_buf(), description, share, lock })
     }
 
+    /// The pieces of one layer of this job. The layer belongs to the identity of a piece: one of another layer is of another
+    /// job.
+    ///
+    /// # Errors
+    /// [`Error::Job`] if their folder cannot be made.
+    pub(crate) fn pieces(&self, work: &Work) -> Result<Pieces, Error> {
+        let description = format!("{}; {}", self.description, work.folder);
+        let payload = work.payload;
+        let kept = Pieces::open(&self.path.join(work.folder), &description)?;
+        Ok(kept.holding(move |at, bytes| payload.holds(at, bytes)))
+    }
+
     /// Makes sure that no other process works on the same part.
     ///
     /// # Errors
@@ -150,11 +165,25 @@ impl JobFolder {
         call: &mut Call<'_>,
     ) -> Result<Option<Value>, Error> {
         // Without the digests, which are written last, the call was killed before its end.
-        let Ok(digests) = std::fs::read_to_string(self.path.join(results.digests)) else {
-            return Ok(None);
+        let digests = match read_regular(&self.path.join(results.digests))? {
+            Contents::Bytes(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
+            Contents::Missing | Contents::NoFile => return Ok(None),
         };
+        // The last line has the digest of the job and of the lines before: a list of another job, or one that was cut, is
+        // none of this one.
+        let own = digests
+            .trim_end()
+            .rsplit_once('\n')
+            .is_some_and(|(lines, last)| last == self.seal(&format!("{lines}\n")));
+        if !own {
+            call.note(&format!(
+                "{}: it is damaged, or of another version; the results are computed again",
+                self.place_of(results.digests)
+            ));
+            return Ok(None);
+        }
         let mut has_summary = false;
-        for line in digests.lines() {
+        for line in digests.lines().filter(|line| !line.starts_with(SEAL)) {
             let (digest, name) = line.split_once("  ").unwrap_or_default();
             let path = self.path.join(name);
             has_summary |= name == results.summary;
@@ -166,8 +195,10 @@ impl JobFolder {
                 return Ok(None);
             }
         }
-        let summary = std::fs::read(self.path.join(results.summary)).ok();
-        let summary = summary.and_then(|text| serde_json::from_slice(&text).ok());
+        let summary = match read_regular(&self.path.join(results.summary))? {
+            Contents::Bytes(text) => serde_json::from_slice(&text).ok(),
+            Contents::Missing | Contents::NoFile => None,
+        };
         let Some(summary) = summary.filter(|_| has_summary) else {
             call.note(&format!(
                 "{}: it is damaged; the results are computed again",
@@ -182,7 +213,7 @@ impl JobFolder {
         let pieces = self.path.join(work.folder);
         if !matches!(self.share, Share::Part(_)) && pieces.is_dir() {
             // A call was killed while it removed its pieces.
-            Pieces::open(&pieces, &self.description)?.remove(work.count)?;
+            self.pieces(work)?.remove(work.count)?;
         }
         Ok(Some(summary))
     }
@@ -207,11 +238,17 @@ impl JobFolder {
         for name in others.iter().chain(&[results.summary]) {
             digests += &format!("{}  {name}\n", file_digest(&self.path.join(name))?);
         }
+        digests += &format!("{}\n", self.seal(&digests));
         self.write(results.digests, digests.as_bytes())?;
         kept.remove(count)?;
         // Another call that was refused, and killed before, leaves its trial file.
         remove_leftovers(&self.path);
         Ok(())
+    }
+
+    /// The last line of a list of digests.
+    fn seal(&self, lines: &str) -> String {
+        format!("{SEAL}{}", digest(format!("{}\n{lines}", self.description).as_bytes()))
     }
 
     /// Rows of the table of files.

@@ -40,6 +40,14 @@ pub(crate) struct Names {
 }
 
 impl Layer {
+    /// Bytes of an element of the array.
+    pub(crate) fn element_size(self) -> usize {
+        match self {
+            Layer::Label => size_of::<u16>(),
+            Layer::Hops => size_of::<u64>(),
+        }
+    }
+
     pub(crate) fn names(self) -> Names {
         match self {
             Layer::Label => Names {

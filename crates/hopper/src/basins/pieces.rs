@@ -36,7 +36,7 @@ pub(crate) fn compute(
     call: &mut Call<'_>,
     piece: impl Fn(usize) -> Result<Vec<u8>, Error> + Sync,
 ) -> Result<Finished, Error> {
-    let kept = Pieces::open(&job.path.join(work.folder), &job.description)?;
+    let kept = job.pieces(work)?;
     let wanted: Vec<usize> = match job.share {
         Share::Part(part) => {
             kept.note_parts(part.of())?;

@@ -3,7 +3,7 @@
 //! A call that is killed leaves its finished tiles, and the next call computes the others. The array is written from the
 //! tiles and compared with them. The tiles are removed only after this comparison.
 
-use crate::basins::call::{Call, Work};
+use crate::basins::call::{Call, Payload, Work};
 use crate::basins::job_folder::{JobFolder, Share};
 use crate::basins::layer::{Layer, TILE};
 use crate::basins::pieces::compute;
@@ -50,7 +50,9 @@ fn one_layer(
     let names = layer.names();
     let tiles = grid.columns.div_ceil(TILE);
     let pixels = TILE.min(grid.columns) * grid.rows;
-    let work = Work { folder: names.tiles, unit: names.unit, count: tiles, pixels };
+    let (columns, rows) = (grid.columns, grid.rows);
+    let payload = Payload::Tile { width: TILE, columns, rows, element: layer.element_size() };
+    let work = Work { folder: names.tiles, unit: names.unit, count: tiles, pixels, payload };
     let summary = match job.complete(&names.results, &work, call)? {
         Some(summary) => summary,
         None => {

@@ -3,7 +3,7 @@
 //!
 //! A run that is killed leaves its finished columns, and the next run computes the others.
 
-use crate::basins::call::{Call, Work};
+use crate::basins::call::{Call, Payload, Work};
 use crate::basins::column_bytes;
 use crate::basins::job_folder::{JobFolder, Results, Share};
 use crate::basins::options::Options;
@@ -83,7 +83,8 @@ pub(crate) fn run(
     let job = JobFolder::open(place, description, &[PICTURE_FILE, LEGEND, RESULTS.digests])?;
     let mut tables = Tables::default();
     let count = grid.columns;
-    let work = Work { folder: COLUMNS, unit: COLUMNS, count, pixels: grid.rows };
+    let payload = Payload::Column { rows: grid.rows, may_be_blank: edges.is_some() };
+    let work = Work { folder: COLUMNS, unit: COLUMNS, count, pixels: grid.rows, payload };
     let legend = match job.complete(&RESULTS, &work, call)? {
         Some(legend) => legend,
         None => {

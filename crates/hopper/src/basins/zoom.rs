@@ -2,7 +2,7 @@
 //!
 //! A run that is killed leaves its finished frames, and the next run computes the others.
 
-use crate::basins::call::{Call, Work};
+use crate::basins::call::{Call, Payload, Work};
 use crate::basins::job_folder::{JobFolder, Results, Share};
 use crate::basins::pieces::compute;
 use crate::basins::tables::{self, Tables};
@@ -78,7 +78,9 @@ pub(crate) fn run(
     let job =
         JobFolder::open(place, description, &[OVERVIEW, ANIMATION, SUMMARY, RESULTS.digests])?;
     let mut tables = Tables::default();
-    let work = Work { folder: FRAMES, unit: FRAMES, count: frames, pixels: columns * rows };
+    let payload = Payload::Frame { rows, columns };
+    let work =
+        Work { folder: FRAMES, unit: FRAMES, count: frames, pixels: columns * rows, payload };
     let summary = match job.complete(&RESULTS, &work, call)? {
         Some(summary) => summary,
         None => {

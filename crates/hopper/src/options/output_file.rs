@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::options::form::OutputOptions;
 use crate::refusal::shortened;
 use crate::streams::Streams;
-use resumable_job::{AtomicFile, write_atomically};
+use resumable_job::{AtomicFile, destination, write_atomically};
 use std::path::{Path, PathBuf};
 
 /// The format of a file.
@@ -67,9 +67,10 @@ fn read(text: &str, formats: &[Format]) -> Result<OutputFile, String> {
 }
 
 impl OutputFile {
-    /// The path with its folder resolved: the same for `a.svg` and `./a.svg`.
+    /// The file that gets the bytes, with its folder resolved: the same for `a.svg`, `./a.svg` and a link to it.
     fn place(&self) -> Option<PathBuf> {
         let path = self.path.as_ref()?;
+        let path = &destination(path).unwrap_or_else(|_| path.clone());
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         let folder = std::fs::canonicalize(folder.unwrap_or(Path::new(".")));
         // A folder that does not exist is refused when the file is tried.

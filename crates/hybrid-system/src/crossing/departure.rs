@@ -17,6 +17,7 @@ use super::guard_rate::guard_rate;
 use super::guard_rounding::rounding_of_state;
 use super::guarded_flow::GuardedFlow;
 use crate::error::Error;
+use crate::looked::Looked;
 use crate::state::StateVector;
 
 /// The first of the times after the start at which a guard is evaluated if the model gives no derivatives, relative to
@@ -116,6 +117,7 @@ pub(crate) fn departure<F: GuardedFlow>(
                 return Err(Error::UndecidedStart {
                     surface: format!("{surface:?}"),
                     interval: time,
+                    looked: Looked::ByFlow,
                 });
             }
             return Ok(to(value, Certainty::Sampled { interval: time }));

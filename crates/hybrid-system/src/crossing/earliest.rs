@@ -97,5 +97,8 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
         }
     };
     let state = flow.state(time);
-    Ok(NextEvent::Crossing(Crossing { surface, time, time_error: error, state, kind, certainty }))
+    // The computed trajectory is the model's own solution: its rounding is the only error.
+    let (time_rounding, time_error) = (error, error);
+    let crossing = Crossing { surface, time, time_rounding, time_error, state, kind, certainty };
+    Ok(NextEvent::Crossing(crossing))
 }

@@ -2,7 +2,7 @@
 
 use crate::state::StateVector;
 
-/// The state is moved along the field by this distance, relative to its size, to compute the rate of a guard. The distance
+/// The state is moved along the field by this distance, relative to its components, to compute the rate of a guard. The distance
 /// is about √ε, as for finite differences: the rounding of the difference is 1e-8 of it, and so is the effect of the
 /// guard's second derivative.
 const DIFFERENCE_REACH: f64 = 1e-8;
@@ -21,7 +21,25 @@ pub(crate) fn guard_rate<X: StateVector>(
     rounding: f64,
     guard: impl Fn(&X) -> f64,
 ) -> Option<f64> {
-    let reach = DIFFERENCE_REACH * (1.0 + state.largest()) / field.largest();
+    // The shortest reach first: on a longer one a component that is large, and moves slowly, would carry the others far.
+    let by_component = state.components().iter().zip(field.components());
+    let shortest = by_component
+        .map(|(component, rate)| (1.0 + component.abs()) / rate.abs())
+        .fold(f64::INFINITY, f64::min);
+    let longest = (1.0 + state.largest()) / field.largest();
+    [shortest, longest]
+        .into_iter()
+        .find_map(|reach| rate_over(state, field, DIFFERENCE_REACH * reach, rounding, &guard))
+}
+
+/// The same by a difference over this time on both sides.
+fn rate_over<X: StateVector>(
+    state: &X,
+    field: &X,
+    reach: f64,
+    rounding: f64,
+    guard: impl Fn(&X) -> f64,
+) -> Option<f64> {
     let at = |distance: f64| {
         let mut moved = state.clone();
         moved.add_scaled(distance, field);

@@ -18,6 +18,10 @@ use crate::state::StateVector;
 /// zero.
 const COMPONENT_ULPS: f64 = 2.0;
 
+/// The second distance, in units of the first: a power of two, so that the difference of both is exact for a straight guard. A
+/// larger number would take a bend of the guard for rounding.
+const FARTHER: f64 = 8.0;
+
 /// Factor on the sum of the changes, for the interplay of the components. It is an estimate, not a bound.
 const ROOM: f64 = 2.0;
 
@@ -34,8 +38,10 @@ const RANDOM_MOVES: u32 = 4;
 /// even in a guard sin(1000 t) at t = 10⁸. The second is used only where the first does not change the value at all.
 const COMPONENT_DISTANCES: [f64; 2] = [256.0 * f64::EPSILON, 4_194_304.0 * f64::EPSILON];
 
-/// The distance if neither of these changes the value, relative to the largest component: 4096 ulps. It shows the
-/// rounding in a guard that uses only components that are much smaller than the others.
+/// The distance if neither of these changes the value: 4096 ulps, relative to the value of the guard, then to its square
+/// root beside the largest component, then to the largest component. It shows the rounding in a guard whose own terms are
+/// much larger than the components that it uses. The shortest distance that changes the value is taken, so that a large
+/// component does not hide a guard on another one.
 const LARGEST_DISTANCE: f64 = 4096.0 * f64::EPSILON;
 
 /// The scatter in units of the largest third difference. A third difference of errors up to e is 2.6 e in the mean; one
@@ -78,6 +84,21 @@ pub(crate) fn stated_or_measured<X: StateVector>(
     }
 }
 
+/// The rounding of the guard's own operations at a zero: as the model has `stated` it, or as it is measured before and behind
+/// the zero. At the zero itself a jump of the guard would count as rounding.
+pub(crate) fn rounding_beside_zero<X: StateVector>(
+    stated: Option<f64>,
+    beside: [&X; 2],
+    guard: impl Fn(&X) -> f64,
+) -> f64 {
+    stated.unwrap_or_else(|| {
+        let [before, behind] = beside.map(|state| scatter(state, &guard));
+        // `min` drops NaN.
+        let least = before.min(behind);
+        if least.is_finite() { least } else { 0.0 }
+    })
+}
+
 /// An estimate of the error of `guard` at `state` by the rounding of the state. The components of `size` are |state| for a
 /// state that is given, and larger for a state that was computed from larger numbers.
 pub(crate) fn rounding_of_state<X: StateVector>(
@@ -86,7 +107,10 @@ pub(crate) fn rounding_of_state<X: StateVector>(
     guard: impl Fn(&X) -> f64,
 ) -> f64 {
     let reach = |axis: usize| COMPONENT_ULPS * f64::EPSILON * size.components()[axis].abs();
-    let sum = ROOM * change_by_components(state, reach, guard);
+    let near = change_by_components(state, reach, &guard);
+    let far = change_by_components(state, |axis| FARTHER * reach(axis), &guard);
+    // The change of a smooth guard grows with the reach, and that of a jump does not: its height is no error.
+    let sum = ROOM * (far - near).abs() / (FARTHER - 1.0);
     if sum.is_finite() { sum } else { 0.0 }
 }
 
@@ -195,9 +219,11 @@ fn random_sign(axis: usize, joint: u32) -> f64 {
 
 /// The scatter of the guard's values around a smooth function, at five states on a line from `state`.
 fn scatter<X: StateVector>(state: &X, guard: impl Fn(&X) -> f64) -> f64 {
-    let largest = LARGEST_DISTANCE * state.largest();
+    let (value, largest) = (guard(state).abs(), state.largest());
     let by_component = COMPONENT_DISTANCES.map(|distance| (distance, 0.0));
-    for (relative, absolute) in by_component.into_iter().chain([(0.0, largest)]) {
+    let by_size = [value.min(largest), (value * largest).sqrt().min(largest), largest]
+        .map(|size| (0.0, LARGEST_DISTANCE * size));
+    for (relative, absolute) in by_component.into_iter().chain(by_size) {
         let values: [f64; 5] = std::array::from_fn(|k| {
             let along = |axis: usize| {
                 let component = state.components()[axis];

@@ -19,6 +19,7 @@ mod bounded;
 mod bracketed_root;
 mod candidate;
 mod certainty;
+mod clear_distance;
 mod departure;
 mod earliest;
 mod enclosure_search;
@@ -39,8 +40,6 @@ mod rounded;
 mod same_instant;
 mod sampled;
 mod search_request;
-#[cfg(feature = "ode")]
-mod step_past_root;
 mod under_bounds;
 mod zero_search;
 mod zero_test;
@@ -48,7 +47,11 @@ mod zero_test;
 #[cfg(feature = "ode")]
 pub(crate) use bounded::{Bounded, Leave};
 pub use bracketed_root::bracketed_root;
+#[cfg(feature = "ode")]
+pub(crate) use bracketed_root::root_beyond;
 pub use certainty::Certainty;
+#[cfg(feature = "ode")]
+pub(crate) use clear_distance::clear_distance;
 pub(crate) use departure::{Departure, departure};
 pub(crate) use earliest::earliest_crossing;
 pub use first_crossing::FirstCrossing;
@@ -57,7 +60,9 @@ pub(crate) use found::Found;
 pub use golden_section::golden_section_minimum;
 pub(crate) use guard_rate::guard_rate;
 #[cfg(feature = "ode")]
-pub(crate) use guard_rounding::{change_by_components, rounding_of_state, side_of_surface};
+pub(crate) use guard_rounding::{
+    change_by_components, rounding_beside_zero, rounding_of_state, side_of_surface,
+};
 pub(crate) use guard_rounding::{guard_rounding, is_far, spread, stated_or_measured};
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
@@ -66,8 +71,6 @@ pub use quasi_polynomial::QuasiPolynomial;
 pub(crate) use same_instant::sooner;
 pub(crate) use search_request::MOST_INTERVALS;
 pub use search_request::{Leaving, Search};
-#[cfg(feature = "ode")]
-pub(crate) use step_past_root::step_to_sign;
 #[cfg(feature = "ode")]
 pub(crate) use zero_search::ZeroSearch;
 #[cfg(feature = "ode")]

@@ -23,7 +23,11 @@ pub struct Crossing<S, X> {
     pub surface: S,
     /// Time since the start of the arc.
     pub time: f64,
-    /// The error of `time`: a bound for closed forms, an estimate from the tolerances for integrated flows.
+    /// How far `time` may be from the zero of the guard along the *computed* trajectory, by rounding: a few ulps, or more
+    /// where rounding hides the guard. The order of events follows from it alone.
+    pub time_rounding: f64,
+    /// How far `time` may be from the event of the *true* trajectory: at least `time_rounding`; a bound for closed forms,
+    /// an estimate from the tolerances for integrated flows. It is stated, and decides nothing.
     pub time_error: f64,
     /// The state on the surface, before any reset. A model that solves its crossings may know this state more
     /// accurately than its flow gives it at the rounded time.
@@ -40,6 +44,7 @@ impl<S, X> Crossing<S, X> {
         Crossing {
             surface,
             time,
+            time_rounding: 2.0 * f64::EPSILON * time,
             time_error: 2.0 * f64::EPSILON * time,
             state,
             kind: EventKind::Crossing,

@@ -2,10 +2,13 @@
 
 use super::bracketed_root::root_beyond;
 use super::candidate::Candidate;
+use super::clear_distance::clear_distance;
+use super::guard_rounding::{rounding_beside_zero, rounding_of_state};
 use super::guarded_flow::GuardedFlow;
 use super::search_request::Search;
 use crate::error::Error;
-use crate::guard::{Guard, Role, Touch};
+use crate::guard::{Guard, Touch};
+use crate::looked::Looked;
 use std::fmt::Debug;
 
 /// Most samples of one search, unless the budget of steps is smaller: a limit for a search that would take days. At some
@@ -13,9 +16,9 @@ use std::fmt::Debug;
 /// smaller number would end searches that a user is willing to wait for.
 const MOST_SAMPLES: u64 = 1_000_000_000;
 
-/// Half of the width over which the slope at a crossing is taken, relative to the sampling interval. The guard is nearly
-/// straight over it. A smaller width would lose the slope in the rounding of the guard.
-const SLOPE_REACH: f64 = 1e-4;
+/// The rounding of a guard's own arithmetic is measured this far from a zero, in units of the sampling interval: far enough
+/// that a jump at the zero does not count, and near enough that the guard has terms of the same size.
+const BESIDE: f64 = 1e-4;
 
 /// Most halvings of the first sampling interval, down to 2⁻⁵² of it. They look for a time in a flight that starts on the
 /// surface and ends before the first sample. A larger number would find shorter flights. A guard of ordinary rate and bend
@@ -132,17 +135,23 @@ fn crossing<F: GuardedFlow>(
     let value = |time: f64| flow.guard_at(surface, time);
     let Some(((left, at_left), (right, at_right))) = bracket(flow, surface, (left, right), side)
     else {
-        return Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval });
+        let looked = Looked::Sampled;
+        return Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval, looked });
     };
     let time = root_beyond(value, (left, at_left), (right, at_right))?;
-    let reach = SLOPE_REACH * (right - left);
-    let (before, after) = ((time - reach).max(left), (time + reach).min(right));
-    let slope = (value(after) - value(before)).abs() / (after - before);
-    let state = flow.state(time);
-    let rounding = flow.rounding_at(surface, &state);
-    // One ulp between the two doubles at the root. NaN for 0/0 is dropped by `min`.
-    let error = (rounding / slope).min(right - left) + f64::EPSILON * time;
-    Ok((time, error))
+    let guard = |state: &F::State| flow.guard_value(surface, state);
+    let reach = BESIDE * (right - left);
+    let beside = [flow.state((time - reach).max(left)), flow.state((time + reach).min(right))];
+    let stated = flow.guard_error(surface, &flow.state(time));
+    let own = rounding_beside_zero(stated, [&beside[0], &beside[1]], guard);
+    let clear_at = |moved: f64| {
+        let state = flow.state(moved);
+        let rounding = own + rounding_of_state(&state, &state, guard);
+        // An end of the bracket is farther away than the zero, whatever its rounding.
+        moved <= left || flow.guard_value(surface, &state).abs() > rounding
+    };
+    let clear = |distance: f64| clear_at(time - distance) && clear_at(time + distance);
+    Ok((time, clear_distance(f64::EPSILON * time, right - left, clear)))
 }
 
 /// Two times with their values: on `side` at the first, and no longer at the second.
@@ -252,8 +261,9 @@ impl<S: Copy + Debug> SampledGuard<S> {
         let (zero, since) = (self.zero.take(), std::mem::replace(&mut self.since, time));
         let Guard { surface, direction, touch, role } = self.guard;
         match self.side.replace(now) {
-            None if role == Role::Switch && direction.is_beyond(value) => {
-                Err(Error::UndecidedStart { surface: format!("{surface:?}"), interval })
+            None if role.bounds_flow() && direction.is_beyond(value) => {
+                let (surface, looked) = (format!("{surface:?}"), Looked::Sampled);
+                Err(Error::UndecidedStart { surface, interval, looked })
             }
             Some(side)
                 if direction.admits(side, now) && zero.is_some_and(|zero| zero.0 < zero.1) =>

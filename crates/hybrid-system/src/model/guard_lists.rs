@@ -13,6 +13,10 @@ pub(super) struct GuardLists<M, S> {
     elsewhere: Vec<Guard<S>>,
     /// Surfaces that have several guard functions, in different modes.
     repeated: Vec<S>,
+    /// The guard that was added last: its mode, or `None` for all modes, and its surface.
+    last: Option<(Option<M>, S)>,
+    /// A role was declared before any guard.
+    nothing_declared: bool,
     /// The first surface with two guards in one mode.
     doubled: Option<S>,
     /// The first clock that has a guard function instead of times.
@@ -25,6 +29,8 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
             modes: Vec::new(),
             elsewhere: Vec::new(),
             repeated: Vec::new(),
+            last: None,
+            nothing_declared: false,
             doubled: None,
             timeless: None,
         }
@@ -32,6 +38,7 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
 
     /// Adds a guard to one mode, or to all modes for `None`.
     pub(super) fn add(&mut self, mode: Option<M>, guard: Guard<S>) {
+        self.last = Some((mode, guard.surface));
         let known = self.surfaces().any(|surface| surface == guard.surface);
         if known && !self.repeated.contains(&guard.surface) {
             self.repeated.push(guard.surface);
@@ -59,7 +66,26 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
     /// Adds an observer to all modes.
     pub(super) fn add_observer(&mut self, guard: Guard<S>) {
         self.note_clock(guard);
-        self.add(None, guard.observer());
+        self.add(None, guard.crossing());
+    }
+
+    /// Gives the guard that was added last this role.
+    pub(super) fn declare_last(&mut self, role: Role) {
+        let Some((mode, surface)) = self.last else {
+            self.nothing_declared = true;
+            return;
+        };
+        let lists = self
+            .modes
+            .iter_mut()
+            .filter(|(listed, _)| mode.is_none_or(|mode| mode == *listed))
+            .map(|(_, list)| list);
+        let elsewhere = mode.is_none().then_some(&mut self.elsewhere);
+        for guard in lists.chain(elsewhere).flatten() {
+            if guard.surface == surface && guard.role != Role::Clock {
+                guard.role = role;
+            }
+        }
     }
 
     /// A clock has times, and no function.
@@ -94,6 +120,9 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
     #[inline]
     pub(super) fn check(&self) -> Result<(), Error> {
         let name = |surface: S| format!("{surface:?}");
+        if self.nothing_declared {
+            return Err(Error::NothingDeclared);
+        }
         match (self.doubled, self.timeless) {
             (Some(surface), _) => Err(Error::SurfaceTwice { surface: name(surface) }),
             (None, Some(surface)) => Err(Error::ClockWithoutTimes { surface: name(surface) }),

@@ -11,7 +11,7 @@ use super::outcome::Outcome;
 use super::part::Part;
 use crate::crossing::QuasiPolynomial;
 use crate::execution::Execution;
-use crate::guard::Guard;
+use crate::guard::{Guard, Role};
 use crate::limits::Limits;
 #[cfg(feature = "ode")]
 use crate::ode::Tolerances;
@@ -63,6 +63,7 @@ use std::marker::PhantomData;
 /// |---|---|
 /// | [`closed_form`](Self::closed_form), `integrated` | the motion |
 /// | [`rising`](Self::rising), [`falling`](Self::falling), [`either`](Self::either) | a guard of one mode, with a number |
+/// | [`contact`](Self::contact), [`crossing`](Self::crossing) | what a state beyond the surface of the last guard means |
 /// | [`guard`](Self::guard), [`guard_everywhere`](Self::guard_everywhere) | a guard with a name, of one mode or of all |
 /// | [`terminal`](Self::terminal), [`observer`](Self::observer) | a guard that ends the execution, or only watches |
 /// | [`clock`](Self::clock), [`clock_everywhere`](Self::clock_everywhere) | events at preset times |
@@ -242,6 +243,23 @@ where
     {
         self.guards.add_watched(Some(mode), watched);
         self.with(Jump { mode, surface: watched.surface, guard, reset })
+    }
+
+    /// Declares the guard that was added last a contact that holds, such as a floor: the mode flows on one side of it, and a
+    /// jump to a state beyond it is an event at once.
+    ///
+    /// Without this word, and without [`crossing`](Self::crossing), such a jump is the error
+    /// [`LandsBeyond`](crate::Error::LandsBeyond).
+    pub fn contact(mut self) -> Self {
+        self.guards.declare_last(Role::Contact);
+        self
+    }
+
+    /// Declares the guard that was added last a crossing: an event only where the flow crosses its surface, such as the
+    /// touchdown of a leg that takes off below the height of its touchdown. The mode flows on both sides.
+    pub fn crossing(mut self) -> Self {
+        self.guards.declare_last(Role::Crossing);
+        self
     }
 
     /// Adds a guard of all modes. The reset takes the mode before the event, and the state.

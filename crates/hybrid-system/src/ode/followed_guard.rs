@@ -1,7 +1,7 @@
 //! One guard along one step of an integrated flow: a source of the search for zeros.
 
 use super::chebyshev::{CHEBYSHEV, NODES};
-use super::polynomial_test::{is_jump, largest, scatter, side_after_zero, zero_test};
+use super::polynomial_test::{is_broken, largest, scatter, side_after_zero, zero_test};
 use crate::crossing::{Bounded, Leave, ZeroTest};
 use crate::error::Error;
 use interval_arithmetic::Enclosure;
@@ -11,6 +11,10 @@ use std::cell::{Cell, OnceCell};
 /// 2⁻⁶⁰ of its size on the step. What else its values show is the rounding of its own arithmetic. On longer intervals
 /// a kink or a narrow bump could be taken for rounding. Shorter ones would take more halvings to the same result.
 const STRAIGHT: f64 = 1.0 / 1_073_741_824.0;
+
+/// On intervals shorter than this many ulps of time the nodes are rounded, and neighbouring ones may be the same time: what
+/// the values show is the rounding of the time. A larger number would hide rounding of guards on short steps.
+const NODE_ULPS: f64 = 1024.0;
 
 /// A guard that is not a number somewhere on an interval is searched on shorter ones, down to this part of the step:
 /// 2⁻⁴⁰. So a crossing before a region without values is found. A shorter interval would find a crossing closer to that
@@ -122,9 +126,10 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<A, R> {
             error = self.error_on(left, right);
             found = zero_test(&values, error);
         }
-        let short = right - left < STRAIGHT * (self.to - self.from);
-        // A jump of the guard is halved down to the rounding of the time, and says nothing about the values elsewhere.
-        if matches!(found, ZeroTest::Undecided) && short && !is_jump(&values) {
+        let short = right - left < STRAIGHT * (self.to - self.from)
+            && right - left > NODE_ULPS * f64::EPSILON * right;
+        // A jump or a kink is halved down to the rounding of the time, and says nothing about the values elsewhere.
+        if matches!(found, ZeroTest::Undecided) && short && !is_broken(&values) {
             self.own.set(self.own.get().max(scatter(&values)));
             if largest(&values) <= 2.0 * error.max(self.own.get()) {
                 return Ok(ZeroTest::Hidden);

@@ -77,11 +77,35 @@ pub(super) fn scatter(values: &[f64; NODES]) -> f64 {
     SCATTER * c[FIRST_ROUNDED..].iter().map(|c| c * c).sum::<f64>().sqrt()
 }
 
-/// True if most of the change of the values happens between two neighbouring nodes: the guard jumps there. Rounding changes
-/// the values between all nodes, so that the largest of 15 differences is a small part of their sum.
-pub(super) fn is_jump(values: &[f64; NODES]) -> bool {
-    let changes = || values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
-    2.0 * changes().fold(0.0, f64::max) > changes().sum()
+/// True if the guard jumps or has a kink among the nodes, on an interval on which a smooth guard is a straight line.
+///
+/// The distances of the values from the straight lines through their neighbours tell: at a jump or a kink most of their sum
+/// belongs to three neighbouring nodes, and the lines before and behind them differ. Rounding moves all values; if it
+/// moves only one, the lines are the same.
+pub(super) fn is_broken(values: &[f64; NODES]) -> bool {
+    let nodes = &CHEBYSHEV.nodes;
+    let line = |a: usize, b: usize, at: usize| {
+        values[a] + (values[b] - values[a]) * (nodes[at] - nodes[a]) / (nodes[b] - nodes[a])
+    };
+    let distances: [f64; NODES] = std::array::from_fn(|k| match k {
+        0 => 0.0,
+        k if k == NODES - 1 => 0.0,
+        k => (values[k] - line(k - 1, k + 1, k)).abs(),
+    });
+    let around = |k: usize| distances[k - 1] + distances[k] + distances[k + 1];
+    let Some(middle) = (1..NODES - 1).max_by(|a, b| around(*a).total_cmp(&around(*b))) else {
+        return false;
+    };
+    if 2.0 * around(middle) <= distances.iter().sum() {
+        return false;
+    }
+    // Near an end of the interval one of the lines is not known. Shorter intervals decide.
+    if middle < 3 || middle > NODES - 4 {
+        return true;
+    }
+    let differs =
+        |at: usize| 2.0 * (line(0, middle - 2, at) - values[at]).abs() > distances[middle];
+    differs(middle + 2) || differs(NODES - 1)
 }
 
 /// True if the polynomial through the values is zero at the left end, within `noise`.

@@ -2,15 +2,16 @@
 
 use super::followed_guard::GuardOnStep;
 use super::integration::Integration;
-use super::polish::{Accuracy, polished, rate, time_error};
+use super::polish::{Accuracy, CorrectedStep, polished, rate};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
     Certainty, Crossing, EventKind, Found, NextEvent, Search, ZeroSearch, guard_rate,
-    rounding_of_state, side_of_surface, sooner, stated_or_measured,
+    rounding_beside_zero, rounding_of_state, side_of_surface, sooner, stated_or_measured,
 };
 use crate::error::Error;
 use crate::guard::{Guard, Role, Touch};
+use crate::looked::Looked;
 use crate::state::StateVector;
 use crate::system::HybridSystem;
 use smallvec::SmallVec;
@@ -153,7 +154,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let accuracy = Accuracy { tolerances: self.tolerances, steps };
             let kind = match found {
                 _ if leaving => {
-                    return Err(Error::UndecidedStart { surface: name(), interval: time });
+                    let (surface, looked) = (name(), Looked::OnSteps);
+                    return Err(Error::UndecidedStart { surface, interval: time, looked });
                 }
                 Found::Touch { value, .. } | Found::Undecided { value, .. }
                     if followed.guard.touch == Touch::Error =>
@@ -163,19 +165,19 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 Found::Touch { .. } | Found::Undecided { .. } => EventKind::Touch,
                 _ => EventKind::Crossing,
             };
-            let (time, state) = match found {
+            let (time, on_step) = match found {
                 Found::Crossing { error, .. } => {
                     polished(&mut integration, &step, (time, error), until, value)?
                 }
-                _ => (time, step.state(time)),
+                _ => (time, CorrectedStep::uncorrected(&step)),
             };
+            // On the step itself the polished values show how long rounding hides the guard.
             let hidden = match found {
-                Found::Touch { error, .. } | Found::Crossing { error, hidden: true, .. } => error,
+                Found::Touch { error, .. } => error,
+                Found::Crossing { error, hidden: true, .. } if time - error < step.from => error,
                 _ => 0.0,
             };
-            let time_error = time_error(&step, (time, hidden), &state, value, accuracy);
-            let certainty = Certainty::Interpolated;
-            let crossing = Crossing { surface, time, time_error, state, kind, certainty };
+            let crossing = self.crossing(&on_step, (time, hidden), (surface, kind), accuracy);
             return Ok(Outcome::Finished(NextEvent::Crossing(crossing)));
         }
         self.at_horizon(&followed, integration, steps).map(Outcome::Finished)
@@ -263,9 +265,9 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 match followed.search.advance(&on_step, until, horizon, budget) {
                     Ok(Found::Touch { .. } | Found::Undecided { .. })
                         if guard.touch == Touch::Ignore => {}
-                    // An observer that leaves its surface has no event.
+                    // A crossing that leaves its surface has no event.
                     Ok(Found::Crossing { .. })
-                        if followed.search.left_hidden() && guard.role == Role::Observer => {}
+                        if followed.search.left_hidden() && guard.role == Role::Crossing => {}
                     other => break other,
                 }
             };
@@ -313,23 +315,50 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         stated: f64,
     ) -> GuardOnStep<impl Fn(f64) -> f64, impl Fn(f64, f64) -> f64> {
         let value = move |state: &T::State| self.system.guard_value(surface, state);
-        // The largest of three places stands for the interval: at one of them a guard may have a rate of zero.
+        // The middle one of three places stands for the interval: at one of them a guard may have a rate of zero, and at
+        // another one it may jump.
         let rounding = move |left: f64, right: f64| {
             let magnitude = step.magnitude();
             let size = magnitude.filled(|axis| INTERPOLANT_ROUNDING * magnitude.components()[axis]);
             let middle = left + 0.5 * (right - left);
-            [left, middle, right]
-                .map(|time| stated + rounding_of_state(&step.state(time), &size, value))
-                .into_iter()
-                .fold(0.0, f64::max)
+            let mut roundings = [left, middle, right]
+                .map(|time| stated + rounding_of_state(&step.state(time), &size, value));
+            roundings.sort_by(f64::total_cmp);
+            roundings[1]
         };
         let along = move |time: f64| value(&step.state(time));
         let checked = self.tolerances.check_interval;
         GuardOnStep::new(along, rounding, (step.from, step.to), checked)
     }
 
-    /// No event before the horizon. A guard on its way to the surface that is nearer to it than its error has its event on
-    /// the horizon: the field is not evaluated beyond.
+    /// The event of a surface at a time of a step, with both errors of its time.
+    fn crossing(
+        &self,
+        on_step: &CorrectedStep<T::State>,
+        (time, hidden): (f64, f64),
+        (surface, kind): (T::Surface, EventKind),
+        accuracy: Accuracy,
+    ) -> Crossing<T::Surface, T::State> {
+        let value = |state: &T::State| self.system.guard_value(surface, state);
+        let stated = self.system.guard_error(surface, &on_step.state(time));
+        let [before, behind] = on_step.beside(time);
+        let own = rounding_beside_zero(stated, [&before, &behind], value);
+        let rounding = |state: &T::State| own + rounding_of_state(state, state, value);
+        let time_rounding = on_step.time_rounding((time, hidden), value, rounding);
+        let time_error = on_step.time_error((time, time_rounding), value, accuracy);
+        Crossing {
+            surface,
+            time,
+            time_rounding,
+            time_error,
+            state: on_step.state(time),
+            kind,
+            certainty: Certainty::Interpolated,
+        }
+    }
+
+    /// No event before the horizon. A guard on its way to the surface that is nearer to it than its rounding has its event
+    /// on the horizon: the field is not evaluated beyond.
     fn at_horizon<F>(
         &self,
         followed: &[Followed<T::Surface>],
@@ -348,7 +377,8 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             let value = |state: &T::State| self.system.guard_value(surface, state);
             if !guard.direction.admits(side, -side)
                 || integration.at_rest()
-                || !(value(&state).abs() <= accuracy.guard_error(&state, value))
+                || !(value(&state).abs()
+                    <= stated_or_measured(self.system.guard_error(surface, &state), &state, value))
             {
                 continue;
             }
@@ -357,10 +387,10 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 continue;
             }
             let time = step.to;
-            let time_error = time_error(&step, (time, 0.0), &state, value, accuracy);
+            let on_step = CorrectedStep::uncorrected(&step);
             let kind = EventKind::Crossing;
-            let crossing = Crossing { surface, time, time_error, state, kind, certainty };
-            return Ok(NextEvent::Crossing(crossing));
+            let crossing = self.crossing(&on_step, (time, 0.0), (surface, kind), accuracy);
+            return Ok(NextEvent::Crossing(Crossing { state, ..crossing }));
         }
         Ok(NextEvent::None { state: Some(state), certainty })
     }

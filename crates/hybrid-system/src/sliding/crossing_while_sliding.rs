@@ -56,13 +56,13 @@ pub(super) fn after_crossing<T: HybridSystem>(
     let own = [sides.surface, partner];
     // The mode of the other side may have a name of its own for the same surface. Its guard is crossed as well.
     let by_place = |guard: &&Guard<T::Surface>| {
-        guard.role == Role::Switch
+        guard.role.bounds_flow()
             && !own.contains(&guard.surface)
             && same_surface(system, other, guard.surface, state)
                 .is_some_and(|scale| admits(guard, rate / scale))
     };
     let is_switch = |mode: T::Mode| {
-        system.guards(mode).iter().any(|guard| guard.surface == other && guard.role == Role::Switch)
+        system.guards(mode).iter().any(|guard| guard.surface == other && guard.role.bounds_flow())
     };
     let is_place = is_switch(sides.below) || is_switch(sides.above);
     let after = |mode: T::Mode| {

@@ -15,7 +15,7 @@ use super::rates::guard_rates;
 use super::sliding_field::sliding_field;
 use super::sliding_point::Sliding;
 use crate::crossing::stated_or_measured;
-use crate::guard::{Direction, Role};
+use crate::guard::Direction;
 use crate::state::StateVector;
 use crate::system::{HybridSystem, Reset};
 
@@ -111,7 +111,7 @@ fn leads_to<T: HybridSystem>(
 }
 
 /// True if no component differs by more than roundings: of its own size, and of the largest component.
-pub(super) fn is_unchanged<X: StateVector>(before: &X, after: &X) -> bool {
+pub(crate) fn is_unchanged<X: StateVector>(before: &X, after: &X) -> bool {
     let of_state = f64::EPSILON * before.largest();
     let mut components = before.components().iter().zip(after.components());
     components.all(|(before, after)| {
@@ -128,7 +128,7 @@ fn fires_towards<T: HybridSystem>(
 ) -> bool {
     system.guards(mode).iter().any(|guard| {
         guard.surface == surface
-            && guard.role == Role::Switch
+            && guard.role.bounds_flow()
             && guard.direction != Direction::Either
             && guard.direction.leads_to(side)
     })

@@ -275,6 +275,7 @@ fn next_of_model<M, S, X>(next: NextEvent<S, X>) -> NextEvent<FilippovSurface<M,
         NextEvent::Crossing(crossing) => NextEvent::Crossing(Crossing {
             surface: FilippovSurface::Model(crossing.surface),
             time: crossing.time,
+            time_rounding: crossing.time_rounding,
             time_error: crossing.time_error,
             state: crossing.state,
             kind: crossing.kind,

@@ -35,7 +35,7 @@ mod filippov_system;
 #[cfg(feature = "ode")]
 mod projection;
 
-pub(crate) use detection::{AtOnce, sliding_point};
+pub(crate) use detection::{AtOnce, is_unchanged, sliding_point};
 #[cfg(feature = "ode")]
 pub use filippov::Filippov;
 #[cfg(feature = "ode")]

@@ -51,10 +51,10 @@ impl<const N: usize> HybridSystem for TwoSided<N> {
             (Side::Below, false) => const { &[Guard::rising(Switch)] },
             (Side::Above, false) => const { &[Guard::falling(Switch)] },
             (Side::Below, true) => {
-                const { &[Guard::rising(Switch), Guard::rising(Section).observer()] }
+                const { &[Guard::rising(Switch), Guard::rising(Section).crossing()] }
             }
             (Side::Above, true) => {
-                const { &[Guard::falling(Switch), Guard::rising(Section).observer()] }
+                const { &[Guard::falling(Switch), Guard::rising(Section).crossing()] }
             }
         }
     }
