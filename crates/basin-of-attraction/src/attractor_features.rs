@@ -8,8 +8,8 @@
 use crate::error::Error;
 use crate::feature_groups::{FeatureGroups, check_feature_count};
 use crate::label::Label;
-use crate::recurrences::{Unmatched, UnmatchedReason};
 use crate::split_mix::SplitMix64;
+use crate::unmatched::{Unmatched, UnmatchedReason};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 

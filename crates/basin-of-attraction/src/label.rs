@@ -7,12 +7,13 @@ use std::fmt;
 ///
 /// ```text
 ///   basin n       the point belongs to basin n
+///   escaped       the orbit leaves for good: a fate that is known, and no basin of an attractor
 ///   undecided     the fate of the point is not known; no tool of this crate counts it as a basin
 ///   outside       the point is outside the region of interest; no tool of this crate counts it at all
 /// ```
 ///
 /// A label takes two bytes. In files it is its [`code`](Self::code): basin n has the code n; 65535, 65533 and 65532 are undecided,
-/// for three reasons; 65530 is outside. The other codes above 65530 are free for basins.
+/// for three reasons; 65530 is outside, and 65529 escaped. The other codes above 65529 are free for basins.
 ///
 /// ```
 /// use basin_of_attraction::Label;
@@ -35,21 +36,24 @@ impl Label {
     /// The point is outside the region of interest.
     pub const OUTSIDE: Label = Label(u16::MAX - 5);
 
-    /// Basin `number`; `None` for the four codes that are no basins: 65530, 65532, 65533 and 65535.
+    /// The orbit leaves for good. Boundaries, fractions and entropies count it as a fate of its own; it has no number of a basin.
+    pub const ESCAPED: Label = Label(u16::MAX - 6);
+
+    /// Basin `number`; `None` for the five codes that are no basins: 65529, 65530, 65532, 65533 and 65535.
     ///
     /// Numbers up to 255 need no `Option`: `Label::from(3)`, and `Label::from(x > 0.0)` for 0 and 1. For larger constants
     /// see [`numbered`](Self::numbered).
     pub const fn basin(number: u16) -> Option<Label> {
         let label = Label(number);
-        if label.is_basin() { Some(label) } else { None }
+        if label.basin_number().is_some() { Some(label) } else { None }
     }
 
     /// Basin `NUMBER`, a constant. A number that is no basin does not compile.
     ///
     /// ```
     /// use basin_of_attraction::Label;
-    /// const ESCAPED: Label = Label::numbered::<65_000>();
-    /// assert_eq!(ESCAPED.basin_number(), Some(65_000));
+    /// const LAST: Label = Label::numbered::<65_000>();
+    /// assert_eq!(LAST.basin_number(), Some(65_000));
     /// ```
     ///
     /// ```compile_fail
@@ -57,7 +61,7 @@ impl Label {
     /// ```
     pub const fn numbered<const NUMBER: u16>() -> Label {
         // Evaluated by the compiler: the code of no basin is an index beyond the array, which does not compile.
-        const { [Label(NUMBER)][!Label(NUMBER).is_basin() as usize] }
+        const { [Label(NUMBER)][Label(NUMBER).basin_number().is_none() as usize] }
     }
 
     /// The label of a fate that is undecided for this reason.
@@ -79,14 +83,19 @@ impl Label {
         matches!(self, Self::OUTSIDE)
     }
 
-    /// Whether the point belongs to a basin.
+    /// Whether the orbit leaves for good.
+    pub const fn is_escaped(self) -> bool {
+        matches!(self, Self::ESCAPED)
+    }
+
+    /// Whether the fate is known: a basin, or an escape.
     pub const fn is_basin(self) -> bool {
         !self.is_undecided() && !self.is_outside()
     }
 
-    /// The number of the basin; `None` if the point is undecided, or outside.
+    /// The number of the basin; `None` if the point is undecided, escaped or outside.
     pub const fn basin_number(self) -> Option<u16> {
-        if self.is_basin() { Some(self.0) } else { None }
+        if self.is_basin() && !self.is_escaped() { Some(self.0) } else { None }
     }
 
     /// The number that stands for this label in files.
@@ -121,6 +130,7 @@ impl fmt::Display for Label {
             Self::UNDECIDED_PRECISION => f.pad("undecided: precision"),
             Self::UNDECIDED_MAP => f.pad("undecided: map"),
             Self::OUTSIDE => f.pad("outside"),
+            Self::ESCAPED => f.pad("escaped"),
             Label(number) => f.pad(&format!("basin {number}")),
         }
     }
@@ -137,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_code_is_a_basin_or_undecided_or_outside() {
+    fn every_code_is_a_basin_or_undecided_or_escaped_or_outside() {
         assert_eq!(size_of::<Label>(), 2);
         let mut others = Vec::new();
         for code in 0..=u16::MAX {
@@ -149,7 +159,7 @@ mod tests {
                 None => others.push(code),
             }
         }
-        assert_eq!(others, [65_530, 65_532, 65_533, 65_535]);
+        assert_eq!(others, [65_529, 65_530, 65_532, 65_533, 65_535]);
     }
 
     #[test]

@@ -2,121 +2,56 @@
 //!
 //! The idea is that of G. Datseris and A. Wagemakers (Chaos 32, 023104, 2022; `AttractorsViaRecurrences` of Attractors.jl): an
 //! orbit that visits only cells that it visited before has come to an attractor. A slow passage does the same. Here the cells
-//! are a candidate only, which is tested before it is called an attractor; an orbit without a tested attractor is reported.
+//! are a candidate only. It is followed for long (`followed_orbit`), and tested before it is called an attractor; an orbit without a
+//! tested attractor is reported.
 
 use crate::error::Error;
+use crate::followed_orbit::{End, Orbit, Settled, drift};
 use crate::hyperrectangle::Hyperrectangle;
+use crate::known_cells::KnownCells;
 use crate::label::Label;
+use crate::recurrence_limits::RecurrenceLimits;
 use crate::split_mix::SplitMix64;
 use crate::state_grid::StateGrid;
+use crate::unmatched::{Remedy, Unmatched, UnmatchedReason, remedy};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
-
-/// How attractors are searched.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RecurrenceLimits {
-    /// Cells along every side of the region. Attractors less than three cells apart are not separated.
-    pub cells: usize,
-    /// Consecutive steps to cells that the orbit has visited, after which these cells are a candidate.
-    pub recurrences: usize,
-    /// Steps that a candidate is followed before its cells are taken, and steps without a new cell after which all are taken. An orbit
-    /// of a test must visit the candidate within as many steps, three times, after as many others.
-    pub locate: usize,
-    /// Most steps of an orbit.
-    pub budget: usize,
-    /// Consecutive steps outside the region, after which an orbit is given up.
-    pub lost: usize,
-    /// Orbits that test a candidate.
-    pub tests: usize,
-    /// A distance from the origin, in the largest coordinate, from where the caller knows that no orbit returns. Such an orbit has
-    /// the label [`Attractors::ESCAPED`]. `None` if there is none.
-    pub escape: Option<f64>,
-}
-
-impl Default for RecurrenceLimits {
-    /// A hundred cells a side, a hundred recurrences, 1000 steps of location, 10⁵ steps in all, 1000 outside, and 200 tests.
-    ///
-    /// More cells separate closer attractors, and take longer to be visited again by chaotic orbits. Fewer recurrences take more
-    /// transients for candidates, which the tests then refuse.
-    fn default() -> Self {
-        RecurrenceLimits {
-            cells: 100,
-            recurrences: 100,
-            locate: 1000,
-            budget: 100_000,
-            lost: 1000,
-            tests: 200,
-            escape: None,
-        }
-    }
-}
-
-/// Why the orbit of a start belongs to no attractor.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum UnmatchedReason {
-    /// The budget of steps was used up.
-    Budget,
-    /// The features of the orbit are beside those of too few others, or of two groups.
-    NoGroup,
-    /// The orbit stayed outside the region.
-    LeftRegion,
-    /// The map has no value at a point of the orbit, or one that is not finite.
-    Stopped,
-    /// The orbit keeps to a few cells, but orbits that start in or beside these cells do not come to them and stay: the cells are a slow
-    /// passage, or the attractor is too close to the boundary of its basin for this grid. The same for a group of features and orbits from
-    /// beside it.
-    NoTrap,
-}
-
-/// A start whose orbit belongs to no attractor.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Unmatched {
-    /// The start.
-    pub start: Vec<f64>,
-    /// The reason.
-    pub reason: UnmatchedReason,
-}
 
 /// An attractor, located to the cells of a grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attractor {
     /// Its label: basin 1 for the first that was found, and so on.
     pub label: Label,
-    /// Successive points of an orbit on it, as many as the limits locate.
+    /// Successive points of an orbit on it, as many as the limits locate, and then one point of each other cell.
     pub points: Vec<Vec<f64>>,
-    /// The cells that contain them.
-    cells: BTreeSet<u64>,
 }
 
 /// The attractors of a map in a region, and the orbits that belong to none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attractors {
-    grid: StateGrid,
+    known: KnownCells,
     limits: RecurrenceLimits,
     attractors: Vec<Attractor>,
     unmatched: Vec<Unmatched>,
 }
 
-/// The end of an orbit.
-enum End {
-    Known(Label),
-    Unmatched(UnmatchedReason),
-    /// The orbit recurs from this point on.
-    Recurs(Vec<f64>),
-}
-
 impl Attractors {
-    /// The label of orbits that pass [`RecurrenceLimits::escape`].
-    pub const ESCAPED: Label = Label::numbered::<0>();
+    /// The label of orbits that pass [`RecurrenceLimits::escape`]: [`Label::ESCAPED`], which is no basin's number.
+    pub const ESCAPED: Label = Label::ESCAPED;
 
     /// Searches attractors by the orbits of `starts`, in their order.
     ///
     /// `map` is a step: a map, a return map, or a flow over some time; `None` if it has no value. It may have more variables than
     /// are of interest: starts on a plane are points of the whole state space.
     ///
-    /// A candidate is tested by orbits that start in its cells and in the cells beside them, at random points. Each must come to the cells of the
-    /// candidate, and after [`RecurrenceLimits::locate`] steps visit them in each of three stretches of as many steps. So an attractor is a trap at the scale of the grid, as far as the
+    /// An orbit that recurs is followed ten times as long as it took to recur. It is a candidate only if its cells are then visited
+    /// again. A candidate is tested by orbits that start in its cells and in the cells beside them, at random points: each must
+    /// come to the cells, and visit them in each of three stretches of [`RecurrenceLimits::locate`] steps. So an attractor is a trap at the scale of a grid, as far as the
     /// tests see: a part of its neighbourhood from which orbits leave is missed with n tests if it is smaller than 3/n, in 5 of 100 cases.
+    /// Grids of up to 16 times as many cells are tried before a candidate is refused.
+    ///
+    /// Attractors whose orbits enter each other are one. Each start that belongs to none is [unmatched](Self::unmatched), with the
+    /// reason; if no attractor is found, [`remedy`](Self::remedy) says what would help.
     ///
     /// ```
     /// use basin_of_attraction::{Attractors, Hyperrectangle, Interval, Label, RecurrenceLimits};
@@ -146,30 +81,67 @@ impl Attractors {
         starts: &[Vec<f64>],
         limits: RecurrenceLimits,
     ) -> Result<Attractors, Error> {
-        let grid = StateGrid::new(region, limits.cells)?;
+        let known = KnownCells::new(&region, limits.cells)?;
         if let Some(value) = limits.escape.filter(|escape| !(*escape > 0.0 && escape.is_finite())) {
             let (name, remedy) = ("a distance of escape", "; give none if there is none");
             return Err(Error::BadSearch { name, value, remedy });
         }
-        let mut found = Attractors { grid, limits, attractors: Vec::new(), unmatched: Vec::new() };
+        let mut found = Attractors { known, limits, attractors: Vec::new(), unmatched: Vec::new() };
+        // The end of the orbit that found each attractor, and for each unmatched start the attractors that were known.
+        let (mut ends, mut known_then) = (Vec::new(), Vec::new());
         for start in starts {
-            let (expected, dimension) = (found.grid.dimension(), start.len());
+            let (expected, dimension) = (found.known.dimension(), start.len());
             if dimension != expected {
                 return Err(Error::WrongDimension { dimension, expected });
             }
-            let reason = match found.follow(map, start) {
-                End::Known(_) => continue,
-                End::Unmatched(reason) => reason,
-                End::Recurs(from) => {
-                    if found.add_attractor(map, from)? {
-                        continue;
-                    }
-                    UnmatchedReason::NoTrap
-                }
-            };
-            found.unmatched.push(Unmatched { start: start.clone(), reason });
+            if let Some(reason) = found.search_from(map, start, &mut ends)? {
+                found.unmatched.push(Unmatched { start: start.clone(), reason });
+                known_then.push(found.attractors.len());
+            }
         }
+        let last = found.attractors.len();
+        found.merge(map, &ends);
+        // An attractor that was found later may be that of an earlier start.
+        let still_unmatched: Vec<bool> = found
+            .unmatched
+            .iter()
+            .zip(known_then)
+            .map(|(own, then)| then == last || found.label(map, &own.start).is_undecided())
+            .collect();
+        let mut still = still_unmatched.into_iter();
+        found.unmatched.retain(|_| still.next().unwrap_or(true));
         Ok(found)
+    }
+
+    /// Follows one start, and adds its attractor if it is new. Returns the reason if it belongs to none.
+    fn search_from(
+        &mut self,
+        map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
+        start: &[f64],
+        ends: &mut Vec<Vec<f64>>,
+    ) -> Result<Option<UnmatchedReason>, Error> {
+        let mut orbit = Orbit::new(start);
+        loop {
+            return Ok(match orbit.follow(&self.known, &self.limits, map) {
+                End::Known(_) | End::Escaped => None,
+                End::Unmatched(reason) => Some(reason),
+                End::Budget => {
+                    let drift = drift(map, &orbit.at, self.limits.locate);
+                    Some(UnmatchedReason::NotSettled { drift })
+                }
+                End::Settled(settled) => {
+                    if self.add_attractor(map, &settled)? {
+                        ends.push(orbit.at);
+                        None
+                    } else if settled.drifts {
+                        // A slow passage: the search goes on from its end.
+                        continue;
+                    } else {
+                        Some(UnmatchedReason::NoTrap)
+                    }
+                }
+            });
+        }
     }
 
     /// The attractors, in the order in which they were found.
@@ -188,117 +160,107 @@ impl Attractors {
         &self.unmatched
     }
 
+    /// What would help if no attractor was found: a larger region, more cells, or longer orbits, by the reason of most starts. `None`
+    /// if there is an attractor, or if no start has such a reason.
+    pub fn remedy(&self) -> Option<Remedy> {
+        let finest = self.known.grids().last().map_or(0, StateGrid::cells) as usize;
+        let none = self.attractors.is_empty();
+        none.then(|| remedy(&self.unmatched, self.limits.budget, finest)).flatten()
+    }
+
     /// The label of the attractor to which the orbit of a point comes; undecided if it comes to none of them.
     ///
     /// The label is the same for each call: no attractor is added. So the points of a raster or of a sample can be labelled in
     /// parallel: `|x| attractors.label(&map, x)`. A point of another dimension is undecided.
     pub fn label(&self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>, start: &[f64]) -> Label {
-        match self.follow(map, start) {
-            End::Known(label) => label,
-            End::Unmatched(UnmatchedReason::Stopped) => Label::UNDECIDED_MAP,
-            End::Unmatched(_) | End::Recurs(_) => Label::UNDECIDED,
+        if start.len() != self.known.dimension() {
+            return Label::UNDECIDED;
+        }
+        let mut orbit = Orbit::new(start);
+        loop {
+            return match orbit.follow(&self.known, &self.limits, map) {
+                End::Known(own) => self.attractors[own].label,
+                End::Escaped => Label::ESCAPED,
+                End::Unmatched(UnmatchedReason::Stopped) => Label::UNDECIDED_MAP,
+                // It moves on, and may come to an attractor.
+                End::Settled(Settled { drifts: true, .. }) => continue,
+                End::Unmatched(_) | End::Budget | End::Settled(_) => Label::UNDECIDED,
+            };
         }
     }
 
-    /// Follows an orbit until it comes to a cell of an attractor, recurs, or ends.
-    fn follow(&self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>, start: &[f64]) -> End {
-        let limits = &self.limits;
-        let mut visited: BTreeSet<u64> = BTreeSet::new();
-        let (mut recurrences, mut outside) = (0, 0);
-        let mut at = start.to_vec();
-        for _ in 0..limits.budget {
-            if at.iter().any(|x| !x.is_finite()) {
-                return End::Unmatched(UnmatchedReason::Stopped);
-            }
-            if limits.escape.is_some_and(|escape| at.iter().any(|x| x.abs() > escape)) {
-                return End::Known(Self::ESCAPED);
-            }
-            if let Some(cell) = self.grid.cell(&at) {
-                outside = 0;
-                let own = self.attractors.iter().find(|attractor| attractor.cells.contains(&cell));
-                if let Some(attractor) = own {
-                    return End::Known(attractor.label);
-                }
-                recurrences = if visited.insert(cell) { 0 } else { recurrences + 1 };
-                if recurrences >= limits.recurrences {
-                    return End::Recurs(at);
-                }
-            } else {
-                (outside, recurrences) = (outside + 1, 0);
-                if outside > limits.lost {
-                    return End::Unmatched(UnmatchedReason::LeftRegion);
-                }
-            }
-            let Some(next) = map(&at) else { return End::Unmatched(UnmatchedReason::Stopped) };
-            at = next;
-        }
-        End::Unmatched(UnmatchedReason::Budget)
-    }
-
-    /// Locates and tests a candidate; `false` if the test refuses it.
+    /// Locates and tests a candidate, on one grid after the other; `false` if the tests refuse it on all of them.
     fn add_attractor(
         &mut self,
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
-        from: Vec<f64>,
+        settled: &Settled,
     ) -> Result<bool, Error> {
-        // The first points may still approach the attractor, and their cells are no part of it.
-        let Some(mut at) = self.after(map, from, self.limits.locate) else { return Ok(false) };
-        let (mut points, mut cells) = (VecDeque::new(), BTreeSet::new());
-        let mut known = 0;
-        // A chaotic orbit visits new cells for long. It is followed until it visits none in `locate` steps, or to the budget: on a
-        // fine grid some cells of the attractor remain unknown.
-        for _ in 0..self.limits.budget.max(self.limits.locate) {
-            if known >= self.limits.locate {
-                break;
+        for grid in 0..self.known.grids().len() {
+            let Some((cells, last)) = self.visited(map, grid, settled) else { return Ok(false) };
+            let own: BTreeSet<u64> = cells.keys().copied().collect();
+            if !self.is_trap(map, &self.known.grids()[grid], &own, settled.pace) {
+                continue;
             }
-            let Some(cell) = self.grid.cell(&at) else { return Ok(false) };
-            known = if cells.insert(cell) { 0 } else { known + 1 };
-            if points.len() >= self.limits.locate {
-                points.pop_front();
-            }
-            let Some(next) = map(&at) else { return Ok(false) };
-            points.push_back(std::mem::replace(&mut at, next));
+            let index = self.attractors.len();
+            let label = label_of(index)?;
+            let of_grid = &self.known.grids()[grid];
+            let seen: BTreeSet<u64> = last.iter().filter_map(|point| of_grid.cell(point)).collect();
+            let others = cells.into_iter().filter(|(cell, _)| !seen.contains(cell));
+            let points = Vec::from(last).into_iter().chain(others.map(|(_, point)| point));
+            self.attractors.push(Attractor { label, points: points.collect() });
+            self.known.add(grid, own.into_iter(), index);
+            return Ok(true);
         }
-        let points: Vec<Vec<f64>> = points.into();
-        if !self.is_trap(map, &cells) {
-            return Ok(false);
-        }
-        let number =
-            u16::try_from(self.attractors.len() + 1).ok().filter(|&n| n <= MOST_ATTRACTORS);
-        let Some(label) = number.and_then(Label::basin) else {
-            return Err(Error::TooManyAttractors { most: usize::from(MOST_ATTRACTORS) });
-        };
-        self.attractors.push(Attractor { label, points, cells });
-        Ok(true)
+        Ok(false)
     }
 
-    /// The point after some steps; `None` if the orbit stops before.
-    fn after(
+    /// The cells of a grid that the orbit visits in the second half of its confirmation, each with its first point, and the last
+    /// points. `None` if it leaves the region or stops.
+    fn visited(
         &self,
         map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
-        from: Vec<f64>,
-        steps: usize,
-    ) -> Option<Vec<f64>> {
-        (0..steps).try_fold(from, |at, _| map(&at))
+        grid: usize,
+        settled: &Settled,
+    ) -> Option<(BTreeMap<u64, Vec<f64>>, VecDeque<Vec<f64>>)> {
+        /// Half of the confirmation.
+        const PACES: usize = 5;
+        let (grid, most) = (&self.known.grids()[grid], self.limits.locate.max(1));
+        let (mut cells, mut last) = (BTreeMap::new(), VecDeque::new());
+        let mut at = settled.half.clone();
+        for _ in 0..settled.pace.saturating_mul(PACES) {
+            cells.entry(grid.cell(&at)?).or_insert_with(|| at.clone());
+            if last.len() >= most {
+                last.pop_front();
+            }
+            let next = map(&at)?;
+            last.push_back(std::mem::replace(&mut at, next));
+        }
+        Some((cells, last))
     }
 
     /// Whether orbits from random points of the cells and of the cells beside them come to the cells, and come back to them.
     fn is_trap(
         &self,
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
+        grid: &StateGrid,
         cells: &BTreeSet<u64>,
+        pace: usize,
     ) -> bool {
         /// Seed of the points. Another one tests other points.
         const SEED: u64 = 1;
-        /// Stretches of `locate` steps in each of which an orbit must visit the cells. A passage that is left within some
-        /// thousand steps shows itself in one of three. More would take longer.
+        /// Successive stretches of `locate` steps in each of which an orbit must visit the cells. A passage that is left within
+        /// some thousand steps shows itself in one of three. More would take longer.
         const STRETCHES: usize = 3;
+        /// The time that an orbit may take to come to the cells, in units of the time that the candidate took to be found.
+        const PACES: usize = 4;
         let mut near: BTreeSet<u64> = cells.clone();
-        near.extend(cells.iter().flat_map(|&cell| self.grid.neighbours(cell)));
+        near.extend(cells.iter().flat_map(|&cell| grid.neighbours(cell)));
         let beside: Vec<u64> = near.difference(cells).copied().collect();
         let inside: Vec<u64> = cells.iter().copied().collect();
         let random = SplitMix64::from_seed(SEED);
-        let dimension = self.grid.dimension() as u64;
+        let dimension = grid.dimension() as u64;
+        let stretch = self.limits.locate.max(1);
+        let most = STRETCHES + pace.saturating_mul(PACES).div_ceil(stretch);
         let stays = |test: usize| {
             // Every second point is beside the cells: from there a slow passage shows itself first.
             let among =
@@ -306,22 +268,89 @@ impl Attractors {
             let first = test as u64 * (dimension + 1);
             let pick = (random.uniform(first) * among.len() as f64) as usize;
             let Some(&cell) = among.get(pick) else { return false };
-            let start = self.grid.point(cell, |k| random.uniform(first + 1 + k));
+            let start = grid.point(cell, |k| random.uniform(first + 1 + k));
             // A map may expand before it contracts: excursions are allowed at first.
-            let Some(mut at) = self.after(map, start, self.limits.locate) else { return false };
-            (0..STRETCHES).all(|_| {
+            let Some(mut at) = (0..stretch).try_fold(start, |at, _| map(&at)) else { return false };
+            let mut visits = 0;
+            for _ in 0..most {
                 let mut comes = false;
-                for _ in 0..self.limits.locate {
-                    comes |= self.grid.cell(&at).is_some_and(|cell| cells.contains(&cell));
+                for _ in 0..stretch {
+                    comes |= grid.cell(&at).is_some_and(|cell| cells.contains(&cell));
                     let Some(next) = map(&at) else { return false };
                     at = next;
                 }
-                comes
-            })
+                visits = if comes { visits + 1 } else { 0 };
+                if visits >= STRETCHES {
+                    return true;
+                }
+            }
+            false
         };
         (0..self.limits.tests.max(1)).into_par_iter().all(stays)
+    }
+
+    /// Makes one of attractors whose orbits enter each other, and gives the labels again. `ends` are points of their orbits.
+    fn merge(&mut self, map: &impl Fn(&[f64]) -> Option<Vec<f64>>, ends: &[Vec<f64>]) {
+        if self.attractors.len() < 2 {
+            return;
+        }
+        let enters: Vec<Option<usize>> =
+            ends.iter().enumerate().map(|(own, end)| self.entered(map, own, end)).collect();
+        // The first attractor that was found stands for all that are one with it.
+        let mut first: Vec<usize> = (0..ends.len()).collect();
+        for (own, other) in
+            enters.iter().enumerate().filter_map(|(own, other)| Some((own, (*other)?)))
+        {
+            let (one, two) = (first[own].min(first[other]), first[own].max(first[other]));
+            first.iter_mut().filter(|class| **class == two).for_each(|class| *class = one);
+        }
+        let mut classes = first.clone();
+        classes.sort_unstable();
+        classes.dedup();
+        let index: Vec<usize> =
+            first.iter().map(|class| classes.partition_point(|other| other < class)).collect();
+        let kept = classes.iter().enumerate().map(|(at, &class)| {
+            // The orbit that enters no other one has come to the attractor.
+            let members = || (0..first.len()).filter(|&own| first[own] == class);
+            let own = members().find(|&own| enters[own].is_none()).unwrap_or(class);
+            let points = self.attractors[own].points.clone();
+            Attractor { label: self.attractors[at].label, points }
+        });
+        self.attractors = kept.collect();
+        self.known.renumber(&index);
+    }
+
+    /// The attractor that the orbit of another one enters within the budget.
+    fn entered(
+        &self,
+        map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
+        own: usize,
+        end: &[f64],
+    ) -> Option<usize> {
+        let (mut at, mut anchor) = (end.to_vec(), end.to_vec());
+        for step in 1..=self.limits.budget {
+            if let Some(other) = self.known.owner(&at).filter(|other| *other != own) {
+                return Some(other);
+            }
+            at = map(&at)?;
+            // An orbit that repeats itself to the last bit enters nothing more.
+            if at == anchor {
+                return None;
+            }
+            if step.is_power_of_two() {
+                anchor.clone_from(&at);
+            }
+        }
+        None
     }
 }
 
 /// Attractors beyond this number would take labels that mean other things.
 const MOST_ATTRACTORS: u16 = 65_000;
+
+/// The label of the attractor with this index.
+fn label_of(index: usize) -> Result<Label, Error> {
+    let number = u16::try_from(index + 1).ok().filter(|&number| number <= MOST_ATTRACTORS);
+    let most = usize::from(MOST_ATTRACTORS);
+    number.and_then(Label::basin).ok_or(Error::TooManyAttractors { most })
+}

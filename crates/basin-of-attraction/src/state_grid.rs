@@ -2,6 +2,7 @@
 
 use crate::error::Error;
 use crate::hyperrectangle::Hyperrectangle;
+use crate::unmatched::Border;
 
 /// Cells of a region, by number.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,6 +42,29 @@ impl StateGrid {
             // The right end of the region belongs to the last cell.
             number * self.cells + (at as u64).min(self.cells - 1)
         }))
+    }
+
+    /// Cells along a side.
+    pub(crate) fn cells(&self) -> u64 {
+        self.cells
+    }
+
+    /// Where a point is farthest outside the region, in lengths of its sides; `None` inside.
+    pub(crate) fn beyond(&self, point: &[f64]) -> Option<Border> {
+        let sides = self.region.sides();
+        let excess =
+            |own: &Border| (own.reached - own.border).abs() / sides[own.coordinate].length();
+        let outside =
+            |(coordinate, (&reached, side)): (usize, (&f64, &crate::interval::Interval))| {
+                let border = match reached {
+                    x if x < side.left => side.left,
+                    x if x > side.right => side.right,
+                    _ => return None,
+                };
+                Some(Border { coordinate, border, reached })
+            };
+        let all = point.iter().zip(sides).enumerate().filter_map(outside);
+        all.max_by(|a, b| excess(a).total_cmp(&excess(b)))
     }
 
     /// The cells that share at least a corner with a cell.
@@ -93,6 +117,9 @@ mod tests {
         }
         assert_eq!(grid.cell(&[2.0, 2.0, 2.0]), Some(63));
         assert_eq!(grid.cell(&[2.1, 0.0, 0.0]), None);
+        let border = Border { coordinate: 2, border: -1.0, reached: -3.0 };
+        assert_eq!(grid.beyond(&[2.5, 0.0, -3.0]), Some(border));
+        assert_eq!(grid.beyond(&[2.0, 0.0, -1.0]), None);
         assert_eq!(grid.cell(&[f64::NAN, 0.0, 0.0]), None);
         let wide = Hyperrectangle::new(vec![Interval { left: 0.0, right: 1.0 }; 10]).unwrap();
         assert!(StateGrid::new(wide.clone(), 100).is_err() && StateGrid::new(wide, 0).is_err());

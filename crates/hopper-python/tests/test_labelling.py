@@ -15,6 +15,7 @@ def checkerboard(side=64, cell=8):
 
 def test_the_codes_are_those_of_the_library():
     assert (labelling.UNDECIDED, labelling.UNDECIDED_PRECISION, labelling.UNDECIDED_MAP, labelling.OUTSIDE) == (65535, 65533, 65532, 65530)
+    assert labelling.ESCAPED == 65529
 
 
 def test_boxes_of_a_checkerboard():

@@ -73,6 +73,10 @@ impl<T: HybridSystem> Execution<'_, T> {
         });
         let arc = self.new_arc(duration, end);
         self.remember((kind, surface), &state, (duration, time_rounding), time_passes);
+        if let Some((_, after)) = &after {
+            // A reset that moves a guard off its surface leaves no residue.
+            self.forget_residues(None, after);
+        }
         let same = |(mode, after): &(T::Mode, T::State)| *mode == self.at.mode && *after == state;
         let changes_nothing = after.as_ref().is_some_and(same);
         self.at.time = time;
@@ -108,9 +112,9 @@ impl<T: HybridSystem> Execution<'_, T> {
         self.forget_residues(passed, state);
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
         let arrival = |surface, rounding| Arrival::new(&flow, surface, state, (duration, rounding));
+        let guard = flow.guards().iter().find(|guard| guard.surface == surface);
         match kind {
             EventKind::Crossing => {
-                let guard = flow.guards().iter().find(|guard| guard.surface == surface);
                 if let Some(guard) = guard {
                     self.at.residues.push(guard, flow.guard_value(surface, state));
                 }
@@ -122,7 +126,15 @@ impl<T: HybridSystem> Execution<'_, T> {
             // A guard that is on its surface at the preset time, before it has passed through it, must not lose its event.
             EventKind::Clock if duration > 0.0 => self.at.arrival = Some(arrival(None, 0.0)),
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
-                Some(arrival) if !time_passes => arrival.passed(surface),
+                Some(arrival) if !time_passes => {
+                    // The flow has moved the state beyond this surface, too, by rounding.
+                    if arrival.came_from(surface).is_some()
+                        && let Some(guard) = guard
+                    {
+                        self.at.residues.push(guard, flow.guard_value(surface, state));
+                    }
+                    arrival.passed(surface);
+                }
                 arrival => *arrival = None,
             },
         }

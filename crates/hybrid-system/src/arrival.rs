@@ -168,7 +168,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             return (now, 0.0);
         }
         let field = system.vector_field(self.mode, &self.before);
-        let [earlier, before_that] = [lookback, 2.0 * lookback].map(|lookback| match &field {
+        let at = |lookback: f64| match &field {
             Some(field) => {
                 let mut earlier = self.before.clone();
                 earlier.add_scaled(-lookback, field);
@@ -178,8 +178,13 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
                 let earlier = (self.duration - lookback).max(0.0);
                 value(&system.flow(self.mode, &self.start, earlier))
             }
-        });
-        (earlier, (earlier - now).abs().min((before_that - earlier).abs()))
+        };
+        let (earlier, change) = (at(lookback), |a: f64, b: f64| (a - b).abs());
+        // In a shorter arc there is no second stretch.
+        if field.is_none() && self.duration < 2.0 * lookback {
+            return (earlier, change(earlier, now));
+        }
+        (earlier, change(earlier, now).min(change(at(2.0 * lookback), earlier)))
     }
 
     /// This surface is no longer one that was reached at the same instant: its event has happened.

@@ -51,7 +51,9 @@ fn events_at_one_surface_have_the_derivatives_of_differences() {
     let model = Model::integrated(|mode: u8, _: &V| [f64::from(mode + 1), 1.0])
         .tolerance(1e-12)
         .rising(0, |x| x[0] - 1.0, |x: &V| (1, [x[0], 2.0 * x[1]]))
-        .rising(1, |x| x[0] - 1.0, |x: &V| (2, [x[0], x[1] + 3.0 * x[0] * x[0]]));
+        .contact()
+        .rising(1, |x| x[0] - 1.0, |x: &V| (2, [x[0], x[1] + 3.0 * x[0] * x[0]]))
+        .contact();
     let start = V::new(0.2, 0.3);
     let arcs = arcs_of(&model, 0, start, 2.0);
     assert_eq!(arcs.len(), 3);
@@ -73,6 +75,7 @@ fn beyond(speed: f64) -> impl Differentiable<2, Mode = u8, Surface = usize> {
     })
     .rising(0, |x| x[0] - 1.0, move |x: &V| (1, [x[0], x[1] + 5.0 * x[0] * speed]))
     .rising(1, |x| x[1] - 2.0, |x: &V| (2, [x[0] + 0.1 * x[1] * x[1], x[1]]))
+    .contact()
     .signal(0, move |_, x| Some(QuasiPolynomial::polynomial(&[x[0] - 1.0, speed])))
     .signal(1, |_, x| Some(QuasiPolynomial::polynomial(&[x[1] - 2.0, 4.0])))
 }
@@ -99,6 +102,7 @@ fn an_event_at_once_beyond_a_surface_has_derivatives_by_parameters() {
         .tolerance(1e-12)
         .rising(0, |x| x[0] - 1.0, move |x: &V| (1, [x[0], x[1] + 5.0 * x[0] * speed]))
         .rising(1, |x| x[1] - 2.0, |x: &V| (2, [x[0] + 0.1 * x[1] * x[1], x[1]]))
+        .contact()
     };
     let start = V::new(0.2, 0.3);
     let family = Family::new([1.25], |[speed]| make(speed));

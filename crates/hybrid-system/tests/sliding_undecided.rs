@@ -41,8 +41,8 @@ impl HybridSystem for Plane {
     }
     fn guards(&self, side: Side) -> &[Guard<()>] {
         match side {
-            Side::Below => const { &[Guard::rising(())] },
-            Side::Above => const { &[Guard::falling(())] },
+            Side::Below => const { &[Guard::rising(()).contact()] },
+            Side::Above => const { &[Guard::falling(()).contact()] },
         }
     }
     fn guard_value(&self, _: (), x: &State<2>) -> f64 {
@@ -176,8 +176,8 @@ impl HybridSystem for Beyond {
     }
     fn guards(&self, side: Side) -> &[Guard<Zero>] {
         match side {
-            Side::Below => const { &[Guard::rising(Zero::Rising)] },
-            Side::Above => const { &[Guard::rising(Zero::Falling)] },
+            Side::Below => const { &[Guard::rising(Zero::Rising).contact()] },
+            Side::Above => const { &[Guard::rising(Zero::Falling).contact()] },
         }
     }
     fn guard_value(&self, surface: Zero, x: &State<1>) -> f64 {

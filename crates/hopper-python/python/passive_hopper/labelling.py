@@ -1,7 +1,8 @@
 """Basins of any labelling, and the attractors of any map.
 
 A labelling is a vectorised function: from arrays of coordinates to an array of integers. Basin n has the label n. The codes of the other labels are
-those of all files and figures of this package: :data:`UNDECIDED`, :data:`UNDECIDED_PRECISION`, :data:`UNDECIDED_MAP`, :data:`OUTSIDE`.
+those of all files and figures of this package: :data:`UNDECIDED`, :data:`UNDECIDED_PRECISION`, :data:`UNDECIDED_MAP`, :data:`OUTSIDE`,
+:data:`ESCAPED`.
 
 >>> import numpy as np
 >>> from passive_hopper.labelling import label_image, region_fractions
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Attractors",
     "BoxCount",
+    "ESCAPED",
     "Interval",
     "LabelImage",
     "OUTSIDE",
@@ -55,6 +57,8 @@ UNDECIDED_PRECISION = _CODES["UNDECIDED_PRECISION"]
 UNDECIDED_MAP = _CODES["UNDECIDED_MAP"]
 #: The point is outside the region of interest. No measure counts it.
 OUTSIDE = _CODES["OUTSIDE"]
+#: The orbit leaves for good: a known fate, and no basin of an attractor.
+ESCAPED = _CODES["ESCAPED"]
 
 #: Pixels that a labelling gets at a time: some megabytes of coordinates.
 _PIXELS_AT_A_TIME = 1 << 18

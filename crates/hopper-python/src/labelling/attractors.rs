@@ -5,7 +5,7 @@ use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background};
 use crate::whole::whole;
 use basin_of_attraction::{
-    Error, Hyperrectangle, Interval, Label, RecurrenceLimits, UnmatchedReason,
+    Error, Hyperrectangle, Interval, Label, RecurrenceLimits,
 };
 use numpy::PyArray1;
 use pyo3::prelude::*;
@@ -65,10 +65,11 @@ impl PythonMap {
 ///
 /// map(x) is a step: a map, a return map, or a flow over some time. It takes an array, and returns a list, a tuple or an array, or
 /// None where it has no value. region has the ends of each coordinate; starts is an array with one start a row. The basins have the labels 1, 2, … in
-/// the order in which the attractors are found; 0 is an orbit that passes the distance `escape` from the origin.
+/// the order in which the attractors are found; ESCAPED is the label of an orbit that passes the distance `escape` from the origin.
 ///
-/// cells along every side of the region locate an attractor; an orbit of `recurrences` steps within visited cells is a candidate, which
-/// `tests` random orbits test. No orbit is longer than `budget` steps.
+/// cells along every side of the region locate an attractor; an orbit of `recurrences` steps within visited cells is a candidate, which is
+/// followed ten times as long as it took to be found, and which `tests` random orbits test. No orbit takes more than `budget` steps to a
+/// candidate. If no attractor is found, `remedy` says what would help.
 ///
 /// >>> from passive_hopper.labelling import Attractors
 /// >>> newton = lambda x: (x - (x ** 2 - 2) / (2 * x)) if x[0] else None
@@ -134,18 +135,18 @@ impl Attractors {
         self.found.positions().into_iter().map(rows).collect()
     }
 
-    /// The starts whose orbits belong to no attractor, each with the reason: "budget", "left the region", "stopped" or "no trap".
+    /// The starts whose orbits belong to no attractor, each with the reason: "left the region: …", "cut by the region: …", "stopped",
+    /// "not settled: …" with the drift a step, or "no trap".
     #[getter]
-    fn unmatched(&self) -> Vec<(Vec<f64>, &'static str)> {
-        let reason = |reason| match reason {
-            UnmatchedReason::Budget => "budget",
-            UnmatchedReason::LeftRegion => "left the region",
-            // Features only, which this package does not offer; the library has one list for both.
-            UnmatchedReason::NoGroup => "no group",
-            UnmatchedReason::Stopped => "stopped",
-            UnmatchedReason::NoTrap => "no trap",
-        };
-        self.found.unmatched().iter().map(|own| (own.start.clone(), reason(own.reason))).collect()
+    fn unmatched(&self) -> Vec<(Vec<f64>, String)> {
+        let own = self.found.unmatched().iter();
+        own.map(|own| (own.start.clone(), own.reason.to_string())).collect()
+    }
+
+    /// What would help if no attractor was found: a larger region, more cells, or a larger budget; None if one was found.
+    #[getter]
+    fn remedy(&self) -> Option<String> {
+        self.found.remedy().map(|remedy| remedy.to_string())
     }
 
     /// The labels of starts, one a row: an array of uint16. A start that comes to no attractor is undecided.
@@ -169,7 +170,10 @@ impl Attractors {
 
     fn __repr__(&self) -> String {
         let (count, unmatched) = (self.found.attractors().len(), self.found.unmatched().len());
-        format!("Attractors({count} found, {unmatched} starts unmatched)")
+        match self.found.remedy() {
+            Some(remedy) => format!("Attractors(none found, {unmatched} starts unmatched; try {remedy})"),
+            None => format!("Attractors({count} found, {unmatched} starts unmatched)"),
+        }
     }
 }
 
@@ -181,6 +185,7 @@ pub(crate) fn label_codes() -> BTreeMap<&'static str, u16> {
         ("UNDECIDED_PRECISION", Label::UNDECIDED_PRECISION),
         ("UNDECIDED_MAP", Label::UNDECIDED_MAP),
         ("OUTSIDE", Label::OUTSIDE),
+        ("ESCAPED", Label::ESCAPED),
     ];
     codes.into_iter().map(|(name, label)| (name, label.code())).collect()
 }
