@@ -59,8 +59,17 @@ impl KnownCells {
 
     /// The attractor in one of whose cells a point lies.
     pub(crate) fn owner(&self, point: &[f64]) -> Option<usize> {
+        self.owners_of(point).next()
+    }
+
+    /// The same for another attractor than this one: cells of two grids may overlap.
+    pub(crate) fn other_owner(&self, point: &[f64], own: usize) -> Option<usize> {
+        self.owners_of(point).find(|other| *other != own)
+    }
+
+    fn owners_of(&self, point: &[f64]) -> impl Iterator<Item = usize> {
         let known = self.owners.iter().zip(&self.grids).filter(|(owners, _)| !owners.is_empty());
-        known.into_iter().find_map(|(owners, grid)| owners.get(&grid.cell(point)?).copied())
+        known.filter_map(move |(owners, grid)| owners.get(&grid.cell(point)?).copied())
     }
 
     /// The cells of one grid belong to an attractor.

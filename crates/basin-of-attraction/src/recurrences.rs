@@ -329,7 +329,7 @@ impl Attractors {
     ) -> Option<usize> {
         let (mut at, mut anchor) = (end.to_vec(), end.to_vec());
         for step in 1..=self.limits.budget {
-            if let Some(other) = self.known.owner(&at).filter(|other| *other != own) {
+            if let Some(other) = self.known.other_owner(&at, own) {
                 return Some(other);
             }
             at = map(&at)?;
