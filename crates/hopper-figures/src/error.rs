@@ -37,6 +37,14 @@ pub enum Error {
         /// The largest number that is drawn.
         most: u64,
     },
+    /// Samples that are no motion.
+    #[error("sample {index} is none of a motion: {reason}")]
+    NoMotion {
+        /// The number of the sample, from 0.
+        index: usize,
+        /// The reason.
+        reason: &'static str,
+    },
     /// A motion with more samples than are kept.
     #[error(
         "the motion lasts {duration:?}/ω and would need more than {most} samples; take fewer hops, or a slower start"

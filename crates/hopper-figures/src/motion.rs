@@ -118,6 +118,33 @@ impl Motion {
         Ok(motion)
     }
 
+    /// A motion from samples of another source: a part of a motion, or one that was changed. It has no events.
+    ///
+    /// # Errors
+    /// [`Error::NoMotion`] for no samples, times that fall, or a number that is not finite; [`Error::TooLong`] for more than a million.
+    pub fn from_samples(mass_ratio: MassRatio, samples: Vec<Sample>) -> Result<Self, Error> {
+        let reason = |index: usize, reason: &'static str| Error::NoMotion { index, reason };
+        if samples.is_empty() {
+            return Err(reason(0, "there are no samples"));
+        }
+        if samples.len() > MOST_SAMPLES {
+            let duration = samples[samples.len() - 1].time;
+            return Err(Error::TooLong { duration, most: MOST_SAMPLES });
+        }
+        for (index, Sample { time, state, .. }) in samples.iter().enumerate() {
+            let HopperState { upper_position, upper_velocity, lower_position, lower_velocity } =
+                state;
+            let numbers = [time, upper_position, upper_velocity, lower_position, lower_velocity];
+            if !numbers.into_iter().all(|x| x.is_finite()) {
+                return Err(reason(index, "a number is not finite"));
+            }
+            if index > 0 && *time < samples[index - 1].time {
+                return Err(reason(index, "its time is before that of the sample before"));
+            }
+        }
+        Ok(Motion { mass_ratio, samples, events: Vec::new(), grounded: false })
+    }
+
     /// Adds the samples of an arc that begins at `start`.
     fn sample(
         &mut self,
@@ -137,6 +164,11 @@ impl Motion {
             self.samples.push(Sample { time, hop, phase, state });
         }
         Ok(())
+    }
+
+    /// The time of the first sample.
+    pub fn start(&self) -> f64 {
+        self.samples.first().map_or(0.0, |sample| sample.time)
     }
 
     /// The time of the last sample.

@@ -36,12 +36,13 @@ const BLOCKS: f64 = 76.0;
 /// # Errors
 /// [`Error::TooManyFrames`] for more than a minute.
 pub fn frame_times(motion: &Motion) -> Result<Vec<f64>, Error> {
-    let (duration, step) = (motion.duration(), TAU / FRAMES_A_PERIOD);
+    let (start, step) = (motion.start(), TAU / FRAMES_A_PERIOD);
+    let duration = motion.duration() - start;
     let frames = (duration / step).ceil().max(1.0);
     if !(frames <= MOST_FRAMES as f64) {
         return Err(Error::TooManyFrames { duration, frames: frames as usize, most: MOST_FRAMES });
     }
-    Ok((0..=frames as usize).map(|k| (k as f64 * step).min(duration)).collect())
+    Ok((0..=frames as usize).map(|k| start + (k as f64 * step).min(duration)).collect())
 }
 
 /// The frame of a motion at a time: the hopper on the left, the curves with a cursor on the right.

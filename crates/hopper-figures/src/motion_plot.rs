@@ -2,7 +2,7 @@
 
 use crate::motion::{Motion, Sample};
 use journal_figures::{Anchor, Frame, Pen, Svg, ticks};
-use passive_hopper::Phase;
+use passive_hopper::{HopperState, Phase};
 
 /// The pens of the upper and the lower mass.
 pub(crate) const UPPER: Pen = Pen::solid("#10386e", 1.2);
@@ -31,10 +31,17 @@ pub fn draw_motion(motion: &Motion) -> Svg {
     svg
 }
 
-/// The mass ratio and the lift-off speed, as markup.
+/// The mass ratio, and the lift-off speed of a motion that begins with a lift-off, as markup.
 pub(crate) fn title(motion: &Motion) -> String {
-    let alpha = motion.samples.first().map_or(0.0, |sample| sample.state.upper_velocity);
-    format!("$M$ = {}, $α$ = {}", short(motion.mass_ratio.value()), short(alpha))
+    let ratio = format!("$M$ = {}", short(motion.mass_ratio.value()));
+    let lift_off = motion.samples.first().filter(|sample| {
+        sample.phase == Phase::Flight
+            && sample.state == HopperState::lift_off(sample.state.upper_velocity)
+    });
+    match lift_off {
+        Some(sample) => format!("{ratio}, $α$ = {}", short(sample.state.upper_velocity)),
+        None => ratio,
+    }
 }
 
 /// A number of at most six digits for a picture.
@@ -62,7 +69,8 @@ pub(crate) fn axes(motion: &Motion, (left, top, width, height): (f64, f64, f64, 
     let (upper, lower) = (motion.range(|s| s.upper_position), motion.range(|s| s.lower_position));
     let (low, high) = (upper.0.min(lower.0), upper.1.max(lower.1));
     let margin = 0.05 * (high - low).max(1e-9 * high.abs()).max(f64::MIN_POSITIVE);
-    let x = (0.0, motion.duration().max(f64::MIN_POSITIVE));
+    // A motion of one instant has an axis, too.
+    let x = (motion.start(), motion.duration().max(motion.start().next_up()));
     Frame::linear(left, top, width, height, x, (low - margin, high + margin))
 }
 

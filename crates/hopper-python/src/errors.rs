@@ -1,7 +1,7 @@
 //! Errors of the libraries as Python's exceptions.
 
-use pyo3::exceptions::{PyArithmeticError, PyValueError};
-use pyo3::{PyErr, create_exception};
+use pyo3::exceptions::{PyArithmeticError, PyRuntimeError, PyStopIteration, PyValueError};
+use pyo3::{PyErr, Python, create_exception};
 
 create_exception!(
     passive_hopper,
@@ -23,4 +23,15 @@ pub(crate) fn map_error(error: passive_hopper::Error) -> PyErr {
         Undecided { .. } | SuddenLiftOffBudget { .. } => UndecidedError::new_err(error.to_string()),
         other => value_error(other),
     }
+}
+
+/// The exception of a function of the user. StopIteration would end a loop over the results as if they were complete: it becomes a
+/// RuntimeError with it as its cause, as in a generator (PEP 479).
+pub(crate) fn of_callback(py: Python<'_>, what: &str, error: PyErr) -> PyErr {
+    if !error.is_instance_of::<PyStopIteration>(py) {
+        return error;
+    }
+    let own = PyRuntimeError::new_err(format!("the function {what} raised StopIteration"));
+    own.set_cause(py, Some(error));
+    own
 }

@@ -25,6 +25,12 @@ pub(crate) struct Fate {
 }
 
 impl Fate {
+    /// The fate of a hopper that is on the ground already.
+    pub(crate) fn grounded() -> Self {
+        let label = HopperFate::GROUNDED;
+        Fate { label: label.code(), name: HopperFate::label_name(label), hops: 0 }
+    }
+
     /// The fate of a speed. Ctrl-C ends the call at once, also where the orbit is long.
     pub(crate) fn of(py: Python<'_>, fates: &Arc<Fates>, alpha: f64) -> PyResult<Self> {
         let (fate, hops) = py.detach(|| fates.fate_within(alpha, QUICK)).map_err(value_error)?;

@@ -1,10 +1,12 @@
 //! Long computations that Ctrl-C ends soon, and during which other Python threads run.
 
+use crate::errors::of_callback;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// Time between two looks for Ctrl-C, and between two reports of progress. More looks would cost more than they give; fewer would
@@ -77,6 +79,38 @@ impl Watch {
     }
 }
 
+/// How often this process was forked from one that had loaded the package: its generation.
+static GENERATION: AtomicU64 = AtomicU64::new(0);
+
+/// The threads of a forked process, with its generation. It is locked only by a thread that is attached to the interpreter, and
+/// so never while another one forks.
+static POOL: Mutex<Option<(u64, Arc<ThreadPool>)>> = Mutex::new(None);
+
+/// To be called in the child after a fork: of the threads of the parent none is there.
+#[pyfunction]
+pub(crate) fn after_fork() {
+    GENERATION.fetch_add(1, Ordering::Relaxed);
+}
+
+/// The threads of a forked process; `None` in a process that was not forked, which has rayon's own.
+fn pool_of_child(_: Python<'_>) -> PyResult<Option<Arc<ThreadPool>>> {
+    let generation = GENERATION.load(Ordering::Relaxed);
+    if generation == 0 {
+        return Ok(None);
+    }
+    let mut pool = POOL.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some((own, pool)) = pool.as_ref()
+        && *own == generation
+    {
+        return Ok(Some(Arc::clone(pool)));
+    }
+    let new = ThreadPoolBuilder::new().build();
+    let new = Arc::new(new.map_err(|error| PyRuntimeError::new_err(error.to_string()))?);
+    // Threads of the parent's pool never end: dropping it would wait for them.
+    std::mem::forget(pool.replace((generation, Arc::clone(&new))));
+    Ok(Some(new))
+}
+
 /// The result of `work`, which runs in a thread of its own. `report` gets the number of finished parts whenever it has grown.
 ///
 /// After Ctrl-C or an error of `report` this function returns at once. The thread ends as soon as it looks at the [`Watch`], and
@@ -90,15 +124,24 @@ pub(crate) fn in_background<T: Send + 'static, E: Send + 'static>(
     let watch = Arc::new(Watch::default());
     let (sender, mut receiver) = channel();
     let own = Arc::clone(&watch);
-    // The receiver is gone if the result is no longer wanted.
-    std::thread::spawn(move || drop(sender.send(work(&own))));
+    let pool = pool_of_child(py)?;
+    let run = move || {
+        let found = match pool {
+            Some(pool) => pool.install(|| work(&own)),
+            None => work(&own),
+        };
+        // The receiver is gone if the result is no longer wanted.
+        drop(sender.send(found));
+    };
+    let thread = std::thread::Builder::new().spawn(run);
+    thread.map_err(|error| PyRuntimeError::new_err(format!("no thread can be had: {error}")))?;
     let mut told = 0;
     let mut look = || {
         py.check_signals()?;
         let done = watch.done.load(Ordering::Relaxed);
         if done > told {
             told = done;
-            report(done)?;
+            report(done).map_err(|error| of_callback(py, "progress", error))?;
         }
         Ok(())
     };

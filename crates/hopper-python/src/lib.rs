@@ -24,6 +24,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     drop(numpy::PyArray1::<f64>::from_slice(module.py(), &[]));
     module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
+    module.add_function(wrap_pyfunction!(interruptible::after_fork, module)?)?;
     module.add_class::<map::LiftOffMap>()?;
     module.add_class::<hop::Hop>()?;
     module.add_class::<hop::Landing>()?;

@@ -6,7 +6,7 @@ use crate::fates::Fate;
 use crate::hop::Hop;
 use crate::interruptible::{Pace, Watch, in_background};
 use crate::whole::whole;
-use hopper_basin::Fates;
+use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{HopStatus, MassRatio};
 use pyo3::prelude::*;
 use std::sync::{Arc, OnceLock};
@@ -143,13 +143,17 @@ impl LiftOffMap {
         shaped(py, speeds, &[count])
     }
 
-    /// The fate of the orbit from α, with the number of hops until it is known.
+    /// The fate of the orbit from α, with the number of hops until it is known. NaN, which the map gives for a grounded hopper, is
+    /// grounded.
     fn fate(&self, py: Python<'_>, alpha: f64) -> PyResult<Fate> {
+        if alpha.is_nan() {
+            return Ok(Fate::grounded());
+        }
         let fates = py.detach(|| self.stored_fates()).map_err(value_error)?;
         Fate::of(py, fates, alpha)
     }
 
-    /// The labels of many speeds, as an array of uint16; label_name names them.
+    /// The labels of many speeds, as an array of uint16; label_name names them. NaN is grounded.
     fn fates<'py>(&self, py: Python<'py>, alpha: Numbers) -> PyResult<Bound<'py, PyAny>> {
         let Numbers { values: speeds, shape } = alpha;
         let fates = Arc::clone(self.stored_fates().map_err(value_error)?);
@@ -159,17 +163,36 @@ impl LiftOffMap {
                 if watch.is_stopped() {
                     break;
                 }
-                codes.extend(fates.labels(piece)?.iter().map(|label| label.code()));
+                // NaN is what the map gives for a grounded hopper, and it stays grounded.
+                let known: Vec<f64> = piece.iter().copied().filter(|speed| !speed.is_nan()).collect();
+                let labels = fates.labels(&known)?;
+                let mut labels = labels.iter();
+                codes.extend(piece.iter().map(|speed| {
+                    let label = if speed.is_nan() { None } else { labels.next() };
+                    label.copied().unwrap_or(HopperFate::GROUNDED).code()
+                }));
             }
             Ok::<_, hopper_basin::Error>(codes)
         };
         shaped(py, in_background(py, label, value_error, |_| Ok(()))?, &shape)
     }
 
-    /// The derivatives (∂α′/∂α, ∂α′/∂M); None if the hopper is grounded.
+    /// The derivatives (∂α′/∂α, ∂α′/∂M); None if the hopper is grounded, and for NaN.
     fn slopes(&self, alpha: f64) -> PyResult<Option<(f64, f64)>> {
+        if alpha.is_nan() {
+            return Ok(None);
+        }
         let slopes = self.map.slopes(alpha).map_err(map_error)?;
         Ok(slopes.map(|slopes| (slopes.by_speed, slopes.by_mass_ratio)))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        let other = other.cast::<LiftOffMap>();
+        other.is_ok_and(|other| other.get().mass_ratio().to_bits() == self.mass_ratio().to_bits())
+    }
+
+    fn __hash__(&self) -> u64 {
+        self.mass_ratio().to_bits()
     }
 
     fn __repr__(&self) -> String {

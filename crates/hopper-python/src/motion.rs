@@ -4,8 +4,10 @@ use crate::arrays::shaped;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background, progress_function};
 use crate::whole::whole;
-use hopper_figures::{AnimationForm, MotionEvent, animation, frame_png, frame_times};
-use passive_hopper::{MassRatio, Phase};
+use hopper_figures::{
+    AnimationForm, Motion, MotionEvent, Sample, animation, frame_png, frame_times,
+};
+use passive_hopper::{HopperState, MassRatio, Phase};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -63,16 +65,39 @@ pub(crate) fn motion_event_names() -> Vec<(u8, &'static str)> {
 }
 
 /// The animation of a motion as the bytes of a file; `form` is "gif" or "apng". `progress(done, all)` counts the frames.
+///
+/// The motion is given by its samples: times, numbers of hops, whether the lower mass is on the ground, and states with the columns
+/// y₁, ẏ₁, y₂, ẏ₂, as motion_arrays gives them.
 #[pyfunction]
-#[pyo3(signature = (alpha, mass_ratio, hops = 3, form = "gif", progress = None))]
+#[pyo3(signature = (mass_ratio, times, hops, contact, states, form = "gif", progress = None))]
+#[expect(clippy::too_many_arguments, reason = "they are the arrays of motion_arrays")]
 pub(crate) fn animation_bytes<'py>(
     py: Python<'py>,
-    alpha: f64,
     mass_ratio: f64,
-    #[pyo3(from_py_with = whole)] hops: usize,
+    times: Vec<f64>,
+    hops: Vec<usize>,
+    contact: Vec<bool>,
+    states: Vec<[f64; 4]>,
     form: &str,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyBytes>> {
+    let count = times.len();
+    if [hops.len(), contact.len(), states.len()] != [count; 3] {
+        return Err(PyValueError::new_err(format!(
+            "the samples of a motion have one length: {count} times, {} hops, {} contacts and {} states",
+            hops.len(),
+            contact.len(),
+            states.len()
+        )));
+    }
+    let rows = times.into_iter().zip(hops).zip(contact).zip(states);
+    let samples = rows.map(|(((time, hop), contact), state)| {
+        let [upper_position, upper_velocity, lower_position, lower_velocity] = state;
+        let state = HopperState { upper_position, upper_velocity, lower_position, lower_velocity };
+        Sample { time, hop, phase: if contact { Phase::Contact } else { Phase::Flight }, state }
+    });
+    let ratio = MassRatio::new(mass_ratio).map_err(value_error)?;
+    let motion = Motion::from_samples(ratio, samples.collect()).map_err(value_error)?;
     let form = match form {
         "gif" => AnimationForm::Gif,
         "apng" => AnimationForm::Apng,
@@ -82,12 +107,7 @@ pub(crate) fn animation_bytes<'py>(
         }
     };
     let progress = progress_function(py, progress)?;
-    let first = move |_: &Watch| {
-        let motion = motion_of(alpha, mass_ratio, hops)?;
-        let times = frame_times(&motion)?;
-        Ok::<_, hopper_figures::Error>((motion, times))
-    };
-    let (motion, times) = in_background(py, first, value_error, |_| Ok(()))?;
+    let times = frame_times(&motion).map_err(value_error)?;
     let all = times.len();
     let work = move |watch: &Watch| {
         let frame = |k: usize| frame_png(&motion, times[k]).map_err(Failure::Figure);

@@ -331,6 +331,44 @@ def test_an_exception_of_a_function_passes_unchanged(place):
         next(run)
 
 
+@pytest.mark.parametrize("place", ["flow", "value", "reset", "next", "field"])
+def test_stop_iteration_of_a_function_is_a_runtime_error(place):
+    mine = StopIteration("mine")
+
+    def broken(*arguments):
+        raise mine
+
+    motion = {"field": broken if place == "field" else lambda mode, x: [1.0]}
+    if place == "flow":
+        motion = {"flow": broken}
+    value = broken if place == "value" else lambda x: x[0] - 1
+    reset = broken if place == "reset" else lambda mode, x: (mode, [0.0])
+    guards = [Guard("one", value, "rising", reset=reset)]
+    if place == "next":
+        guards = [Clock("tick", times=broken)]
+    run = HybridSystem(guards=guards, sampled=0.1, **motion).run([0.0], time=3)
+    with pytest.raises(RuntimeError, match="StopIteration") as caught:
+        list(run)
+    assert caught.value.__cause__ is mine
+
+
+def test_a_jump_beyond_a_guard_needs_a_word():
+    def steps(role):
+        guards = [
+            Guard("leap", lambda x: x[0] - 1, "rising", reset=lambda mode, x: ("after", [x[0]]), modes=["before"]),
+            Guard("past", lambda x: x[0] - 0.5, "rising", reset=lambda mode, x: ("end", [x[0]]), modes=["after"], role=role),
+        ]
+        system = HybridSystem(field=lambda mode, x: [1.0], guards=guards)
+        return [arc.event.surface for arc in system.run([0.0], mode="before", time=3) if arc.event]
+
+    assert steps("contact") == ["leap", "past"]
+    assert steps("crossing") == ["leap"]
+    with pytest.raises(ValueError, match="`contact`.*`crossing`"):
+        steps("switch")
+    with pytest.raises(ValueError, match="contact and needs reset"):
+        Guard("floor", lambda x: x[0], "falling", role="contact")
+
+
 def test_exceptions_of_rest_and_slide_pass_too():
     def broken(*arguments):
         raise Mine

@@ -156,6 +156,28 @@ def test_an_exception_of_a_map_passes_unchanged():
         Attractors(lambda x: x / 2, region=[(-1, 1)], starts=[[0.5]]).labels([[0.5, 0.5]])
 
 
+def test_stop_iteration_of_a_map_or_a_labelling_is_a_runtime_error():
+    def broken(*arguments):
+        raise StopIteration
+
+    with pytest.raises(RuntimeError, match="StopIteration"):
+        Attractors(broken, region=[(0, 1)], starts=[[0.5]])
+    with pytest.raises(RuntimeError, match="StopIteration"):
+        region_fractions(broken, UNIT, count=10)
+    with pytest.raises(RuntimeError, match="StopIteration"):
+        basins_of(broken, {"x": (0, 1), "y": (0, 1)}, shape=(4, 4))
+
+
+def test_a_search_that_finds_none_says_what_would_help():
+    found = Attractors(lambda x: 2 * x, region=[(-1, 1)], starts=[[0.5]], lost=10)
+    assert "larger region" in found.remedy and "beyond the border 1" in repr(found)
+    assert found.unmatched[0][1].startswith("left the region")
+    slow = Attractors(lambda x: 0.99999 * x, region=[(-1, 1)], starts=[[0.5]], budget=500, tests=5)
+    assert "budget" in slow.remedy and "drift" in slow.unmatched[0][1]
+    escaped = Attractors(lambda x: 2 * x, region=[(-1, 1)], starts=[[0.5]], escape=10)
+    assert escaped.remedy is None and escaped.labels([[0.5]]).tolist() == [labelling.ESCAPED]
+
+
 def test_ctrl_c_ends_a_search(ctrl_c):
     starts = np.linspace(0.1, 0.9, 1000)[:, None].tolist()
     with ctrl_c():

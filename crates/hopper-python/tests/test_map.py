@@ -69,6 +69,15 @@ def test_nan_is_grounded_and_stays(lift_off_map):
     assert np.array_equal(np.isnan(images), status != 0)
     assert status[0] == 3
     assert hopper.label_name(int(grounded.max())) == "grounded"
+    # What the map gives, the fates take.
+    speeds = np.linspace(4.5, 20, 1000)
+    after = heavy.fates(heavy(speeds))
+    assert np.array_equal(after[np.isnan(heavy(speeds))] == grounded.max(), np.full(np.isnan(heavy(speeds)).sum(), True))
+    assert heavy.fates([np.nan, 7.0])[1] == heavy.fates([7.0])[0]
+    assert (heavy.fate(np.nan).name, heavy.fate(np.nan).hops) == ("grounded", 0)
+    assert heavy.slopes(np.nan) is None
+    assert hopper.LiftOffMap(0.2) == lift_off_map != heavy
+    assert len({hopper.LiftOffMap(0.2), lift_off_map, heavy}) == 2
 
 
 @pytest.mark.parametrize("bad", [-1.0, 0.0, np.inf, 1e300, [5.0, -2.0]])

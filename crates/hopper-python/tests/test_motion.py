@@ -49,6 +49,28 @@ def test_an_animation_is_a_file(tmp_path):
     assert sorted(file.name for file in tmp_path.iterdir()) == ["hopper.apng", "hopper.gif"]
 
 
+def test_an_animation_draws_the_dataset_that_it_is_given(tmp_path):
+    found = hopper.motion(7.0, M=0.2, hops=2)
+    drawn = lambda motion: hopper.animate(motion, tmp_path / "hopper.gif").read_bytes()
+    whole = drawn(found)
+    assert drawn(found.copy(deep=True)) == whole
+    # A part is shorter, also one that begins in mid-air; a motion that was changed looks different.
+    half = found.isel(time=slice(None, found.sizes["time"] // 2))
+    later = found.isel(time=slice(5, None))
+    higher = found.assign(upper_position=found.upper_position * 1.5)
+    pictures = [whole, drawn(half), drawn(later), drawn(higher)]
+    assert len(set(pictures)) == 4
+    assert len(pictures[1]) < len(whole)
+    with pytest.raises(ValueError, match="before"):
+        drawn(found.isel(time=slice(None, None, -1)))
+    with pytest.raises(ValueError, match="not finite"):
+        drawn(found.assign(upper_position=found.upper_position * np.nan))
+    with pytest.raises(ValueError, match="no samples"):
+        drawn(found.isel(time=slice(0, 0)))
+    with pytest.raises(ValueError, match="lower_velocity"):
+        drawn(found.drop_vars("lower_velocity"))
+
+
 @pytest.mark.parametrize("bad", ["hopper.mp4", "hopper", "hopper.gif.zip"])
 def test_other_files_are_refused_by_name(tmp_path, bad):
     with pytest.raises(ValueError, match=bad):
@@ -62,5 +84,5 @@ def test_what_cannot_move_is_a_value_error():
             hopper.motion(alpha, M=ratio)
     with pytest.raises(ValueError, match="frames"):
         hopper.animate(hopper.motion(20000.0, hops=1), "hopper.gif")
-    with pytest.raises(ValueError, match="attributes"):
+    with pytest.raises(ValueError, match="attribute"):
         hopper.animate(xarray.Dataset(), "hopper.gif")

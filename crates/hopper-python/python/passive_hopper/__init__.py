@@ -16,7 +16,9 @@ The modules :mod:`passive_hopper.hybrid` and :mod:`passive_hopper.labelling` are
 True
 """
 
-from . import hybrid, labelling
+import os as _os
+
+from . import _native, hybrid, labelling
 from ._native import (
     Bounds,
     Crisis,
@@ -42,6 +44,10 @@ from ._native import (
 from .datasets import basins
 from .motions import animate, motion
 from .plots import cobweb, plot_basins
+
+# A child of fork has none of the threads of its parent: it gets its own.
+if hasattr(_os, "register_at_fork"):
+    _os.register_at_fork(after_in_child=_native.after_fork)
 
 __all__ = [
     "Bounds",

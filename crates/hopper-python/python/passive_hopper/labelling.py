@@ -127,7 +127,7 @@ def basins_of(
     for begin in range(0, len(xs), width):
         end = min(begin + width, len(xs))
         x, y = numpy.meshgrid(xs[begin:end], ys, indexing="ij")
-        labels[begin:end] = _labels(label(x, y), x.shape)
+        labels[begin:end] = _labels(_called(label, x, y), x.shape)
         if progress is not None:
             progress(end, len(xs))
     codes = numpy.unique(labels)
@@ -171,8 +171,16 @@ def uncertainty_exponent(
     return _native.uncertainty_exponent(_flat(label), list(window), list(epsilons), count, seed)
 
 
+def _called(label, *coordinates):
+    """The labels that a function gives. StopIteration would end a loop of the caller as if it were complete (PEP 479)."""
+    try:
+        return label(*coordinates)
+    except StopIteration as error:
+        raise RuntimeError("the function label raised StopIteration") from error
+
+
 def _flat(label):
     def flat(*coordinates):
-        return _labels(label(*coordinates), coordinates[0].shape)
+        return _labels(_called(label, *coordinates), coordinates[0].shape)
 
     return flat

@@ -80,7 +80,7 @@ def animate(
     path: str | os.PathLike[str],
     progress: Callable[[int, int], Any] | bool | None = None,
 ) -> str | os.PathLike[str]:
-    """Draws a motion, from :func:`motion`, as an animation: a file ``….gif``, or ``….apng`` (animated PNG). Returns the path.
+    """Draws a motion, from :func:`motion`, or a part of one, as an animation: a file ``….gif``, or ``….apng`` (animated PNG). Returns the path.
 
     It is the drawing of the program ``hopper orbit --animate``: the hopper on the left, and a cursor on the curves of both masses.
     ``progress(done, all)`` counts the frames; ``progress=True`` shows a bar of tqdm.
@@ -89,10 +89,23 @@ def animate(
     form = "apng" if ending == "png" else ending
     if form not in ("gif", "apng"):
         raise ValueError(f"an animation is a file ….gif or ….apng, not {os.fspath(path)!r}")
+    import numpy
+
+    columns = ("upper_position", "upper_velocity", "lower_position", "lower_velocity")
     try:
-        start = [motion.attrs[name] for name in ("alpha", "mass_ratio", "hops")]
-    except (AttributeError, KeyError) as error:
-        raise ValueError("animate needs the Dataset of motion(…), with its attributes alpha, mass_ratio and hops") from error
-    content = _native.animation_bytes(*start, form=form, progress=progress)
+        ratio = float(motion.attrs["mass_ratio"])
+        times, hops, contact, *states = (numpy.asarray(motion[name]) for name in ("time", "hop", "contact", *columns))
+    except (AttributeError, KeyError, TypeError) as error:
+        needed = ", ".join(("time", "hop", "contact", *columns))
+        raise ValueError(f"animate needs the Dataset of motion(…), or a part of it: {needed}, and the attribute mass_ratio; {error} is missing") from error
+    content = _native.animation_bytes(
+        ratio,
+        times.astype(float).tolist(),
+        hops.astype(int).tolist(),
+        contact.astype(bool).tolist(),
+        numpy.stack(states, axis=-1).astype(float).tolist(),
+        form=form,
+        progress=progress,
+    )
     write_whole(path, content)
     return path

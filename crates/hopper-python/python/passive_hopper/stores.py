@@ -3,16 +3,23 @@
 A region is a strip of columns, and one shard: one file, which appears under its name complete or not at all. A region whose file is there and can be
 decoded is finished; each part of it has a checksum. The same region has the same bytes, whoever computes it and however often. So
 processes and workers may be killed at any instant, and a region may be computed twice.
+
+What is on disk is never believed. Beside the array, ``label/digests`` has a note for each region: the SHA-256 of its labels as they were computed.
+A region counts as finished if its labels have this digest; one that was changed, copied from another region, or damaged is computed again. So are
+coordinates and attributes that differ. The digest of the whole store is that of the notes' labels, read back.
 """
 
 import hashlib
+import json
 import os
 import shutil
 import tempfile
+import time
 import warnings
 from pathlib import Path
 
 from . import _native
+from ._files import write_whole
 from ._progress import function_of
 from .datasets import coordinates, flag_attributes, import_xarray, job_attributes
 
@@ -20,6 +27,8 @@ from .datasets import coordinates, flag_attributes, import_xarray, job_attribute
 REGION = 64
 #: Pixels of a chunk along the speeds: a reader of a small window decodes chunks of 128 KB.
 CHUNK = 1024
+#: Seconds after which a half-written file belongs to a process that was killed. A region takes minutes at most.
+ABANDONED = 86_400
 #: How often a region is given to the cluster again after its worker was lost. One that kills every worker is an error in the end.
 TRIALS = 20
 
@@ -55,7 +64,7 @@ def write_basins(store, job, client=None, progress=None):
             count(*_write_region(str(path), job, region, None))
     else:
         _by_cluster(client, path, job, missing, count)
-    _finish(path, job, regions, set().union(*found.values()))
+    _finish(path, job, regions)
     return xarray.open_zarr(path, chunks=None if client is None else {}, consolidated=False)
 
 
@@ -74,6 +83,8 @@ def _open_or_make(path, job):
     if path.exists():
         try:
             attributes = dict(zarr.open_group(path, mode="r").attrs)
+        except PermissionError:
+            raise
         except (OSError, ValueError) as error:
             raise FileExistsError(f"{path} is no Zarr store; give the name of a new folder") from error
         for name in ("command", "computation"):
@@ -82,6 +93,7 @@ def _open_or_make(path, job):
                     f"{path} has another job: its {name} is {attributes.get(name)!r}, not {wanted[name]!r}; "
                     "give the name of a new folder, or remove this one"
                 )
+        _mend(path, job)
         return
     M, alpha, shape = job
     values = coordinates(M, alpha, shape)
@@ -89,7 +101,7 @@ def _open_or_make(path, job):
     try:
         group = zarr.create_group(beside, zarr_format=3, attributes=wanted)
         for name, (numbers, attributes) in values.items():
-            group.create_array(name, data=numbers, dimension_names=(name,), attributes=attributes)
+            _make_coordinate(group, name, numbers, attributes)
         chunks = (min(REGION, shape[0]), min(CHUNK, shape[1]))
         rows = -(-shape[1] // chunks[1]) * chunks[1]
         group.create_array(
@@ -120,7 +132,7 @@ def _mask():
 
 
 def _labels(path, mode):
-    return _import_zarr().open_group(path, mode=mode)["label"]
+    return _import_zarr().open_group(path, mode=mode, use_consolidated=False)["label"]
 
 
 def _file(path, region):
@@ -132,23 +144,67 @@ def _columns(job, region):
     return region * REGION, min((region + 1) * REGION, job[2][0])
 
 
-def _finished(path, job, region):
-    """The codes that occur in a region, if it is finished; None if not. A file that cannot be decoded is removed."""
+def _make_coordinate(group, name, numbers, attributes):
+    group.create_array(name, data=numbers, dimension_names=(name,), attributes=attributes)
+
+
+def _mend(path, job):
+    """Writes the coordinates again that are missing or differ from those of the job."""
     import numpy
 
+    zarr = _import_zarr()
+    group = zarr.open_group(path, mode="r", use_consolidated=False)
+    for name, (numbers, attributes) in coordinates(*job).items():
+        try:
+            own = group[name]
+            # A missing chunk would be read as zeros.
+            right = own.dtype == numbers.dtype and own.shape == numbers.shape and own[:].tobytes() == numpy.ascontiguousarray(numbers).tobytes()
+            right = right and dict(own.attrs) == attributes and tuple(own.metadata.dimension_names or ()) == (name,)
+        except PermissionError:
+            raise
+        except (KeyError, ValueError, RuntimeError, FileNotFoundError):
+            right = False
+        if not right:
+            mended = zarr.open_group(path, mode="r+", use_consolidated=False)
+            shutil.rmtree(path / name, ignore_errors=True)
+            _make_coordinate(mended, name, numbers, attributes)
+
+
+def _note(path, region):
+    """The file that has the digest of a region."""
+    return Path(path) / "label" / "digests" / str(region)
+
+
+def _digest(job, region, labels):
+    """The digest of the labels of a region, which belongs to this job and region."""
+    wanted = job_attributes(*job)
+    identity = json.dumps([wanted["command"], wanted["computation"], region])
+    return hashlib.sha256(identity.encode() + labels.tobytes()).hexdigest()
+
+
+def _read(path, job, region):
+    """The labels of a region as they are on disk; None if they cannot be decoded."""
     if not _file(path, region).is_file():
         return None
     begin, end = _columns(job, region)
     try:
-        codes = set(numpy.unique(_labels(path, "r")[begin:end]).tolist())
-        # zarr takes an empty file for a missing one, and no fate of a hopper is outside.
-        if _native.label_codes()["OUTSIDE"] not in codes:
-            return codes
-    except (ValueError, RuntimeError, OSError):
-        pass
-    # A damaged file is computed again. zarr would read it before it is replaced.
-    _file(path, region).unlink()
-    return None
+        return _labels(path, "r")[begin:end]
+    except (ValueError, RuntimeError):
+        return None
+
+
+def _finished(path, job, region):
+    """The codes that occur in a region, if its labels are those that were computed; None if not."""
+    import numpy
+
+    labels = _read(path, job, region)
+    try:
+        note = _note(path, region).read_text()
+    except FileNotFoundError:
+        return None
+    if labels is None or note != _digest(job, region, labels):
+        return None
+    return set(numpy.unique(labels).tolist())
 
 
 def _write_region(path, job, region, threads):
@@ -161,22 +217,42 @@ def _write_region(path, job, region, threads):
     labels = _native.basin_region(M, alpha, shape, (begin, end), threads=threads)
     with zarr.config.set({"array.write_empty_chunks": True}):
         _labels(path, "r+")[begin:end] = labels
+    note = _note(path, region)
+    note.parent.mkdir(exist_ok=True)
+    # After the labels: a process that is killed in between leaves a region that is computed again.
+    write_whole(note, _digest(job, region, labels).encode())
     return region, set(numpy.unique(labels).tolist())
 
 
-def _finish(path, job, regions, codes):
-    """Writes the attributes that a finished store has."""
-    digest = hashlib.sha256()
-    labels = _labels(path, "r+")
-    for region in regions:
-        begin, end = _columns(job, region)
-        digest.update(labels[begin:end])
-    labels.attrs.update(flag_attributes(codes))
-    for left in (path / "label" / "c").glob("*/*.partial"):
-        # A killed process leaves the file that it was writing.
-        left.unlink(missing_ok=True)
+def _finish(path, job, regions):
+    """Reads all labels back, compares them with what was computed, and writes the attributes that a finished store has."""
+    import numpy
+
     zarr = _import_zarr()
-    zarr.open_group(path, mode="r+").attrs["sha256"] = digest.hexdigest()
+    digest, codes = hashlib.sha256(), set()
+    for region in regions:
+        labels = _read(path, job, region)
+        if labels is None or _finished(path, job, region) is None:
+            # Another process, or a person, has changed it since: once more.
+            _write_region(str(path), job, region, None)
+            labels = _read(path, job, region)
+            if labels is None or _finished(path, job, region) is None:
+                raise RuntimeError(f"region {region} of {path} changes while it is read ({_file(path, region)}); is the disk damaged?")
+        digest.update(labels)
+        codes |= set(numpy.unique(labels).tolist())
+    group = zarr.open_group(path, mode="r", use_consolidated=False)
+    attributes = flag_attributes(codes)
+    if group.attrs.get("sha256") == digest.hexdigest() and dict(group["label"].attrs) == attributes:
+        return
+    _labels(path, "r+").attrs.put(attributes)
+    for left in (path / "label" / "c").glob("*/*.partial"):
+        # A killed process leaves the file that it was writing; that of a running one is young.
+        try:
+            if time.time() - left.stat().st_mtime > ABANDONED:
+                left.unlink()
+        except FileNotFoundError:
+            pass
+    zarr.open_group(path, mode="r+", use_consolidated=False).attrs["sha256"] = digest.hexdigest()
     with warnings.catch_warnings():
         # xarray asks for consolidated metadata, and zarr warns that its form may change. Both can read the store without.
         warnings.simplefilter("ignore")

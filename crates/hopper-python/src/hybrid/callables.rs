@@ -9,6 +9,7 @@ use super::names::{Mode, Surface};
 use super::quasi_polynomial::QuasiPolynomial;
 use super::sliding::Sliding;
 use super::vectors::{State, array, vector};
+use crate::errors::of_callback;
 use hybrid_system::{
     Enclosure, Error, Filippov, FilippovMode, FilippovSurface, Guard, NextEvent, Reset, Search,
     StateVector, default_search, integrated_crossing, integrated_flow, integrated_states,
@@ -50,6 +51,7 @@ impl<'py, 'a> Callables<'py, 'a> {
         match self.py.check_signals().and_then(|()| call()) {
             Ok(value) => Some(value),
             Err(error) => {
+                let error = of_callback(self.py, "of the model", error);
                 *self.exception.borrow_mut() = Some(error);
                 None
             }

@@ -1,7 +1,7 @@
 //! The attractors of a map that is a function of Python.
 
 use crate::arrays::shaped;
-use crate::errors::value_error;
+use crate::errors::{of_callback, value_error};
 use crate::interruptible::{Watch, in_background};
 use crate::whole::whole;
 use basin_of_attraction::{
@@ -46,6 +46,7 @@ impl PythonMap {
         };
         let found: PyResult<Option<Vec<f64>>> = Python::attach(call);
         found.unwrap_or_else(|error| {
+            let error = Python::attach(|py| of_callback(py, "map", error));
             self.lock().get_or_insert(error);
             None
         })

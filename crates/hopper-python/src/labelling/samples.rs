@@ -5,7 +5,7 @@
 //! points depend on the seed alone, so that every run has the same ones.
 
 use super::interval::Interval;
-use crate::errors::value_error;
+use crate::errors::{of_callback, value_error};
 use crate::interruptible::{Watch, in_background};
 use crate::whole::whole;
 use basin_of_attraction::{Error, Hyperrectangle, Label};
@@ -63,7 +63,9 @@ fn labelled<T: Send + 'static>(
             return run.found.map_err(value_error);
         }
         let columns = run.columns.into_iter().map(|column| PyArray1::from_vec(py, column));
-        let codes = function.call1(PyTuple::new(py, columns.collect::<Vec<_>>())?)?;
+        let codes = function
+            .call1(PyTuple::new(py, columns.collect::<Vec<_>>())?)
+            .map_err(|error| of_callback(py, "label", error))?;
         let codes: PyReadonlyArray1<'_, u16> = codes.extract()?;
         let codes = codes.as_array();
         if codes.len() != run.points.len() {
