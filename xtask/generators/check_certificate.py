@@ -2,12 +2,15 @@
 
 The format is that of docs/certificates.md. Every line is read, and what joins the lines is checked: their number, that strips and boxes
 leave no gap, the sums of lengths and areas. Each claim (an interval, a point, a box, a trap) is then confirmed in ball arithmetic, or with
---sample a random choice of so many claims of a file. The exit status is 0 if all is confirmed. Otherwise it is 1, and the first line that
+--sample a random choice of so many claims of a file; the sentence about such a file begins with "sampled". What the lines prove is derived from
+them, compared with the statement of the file and with the manifest `statements.json`, and printed. The exit status is 0 if all is confirmed. Otherwise it is 1, and the first line that
 is not confirmed is named with the reason.
 """
 
 import argparse
 import json
+import math
+import os
 import random
 import sys
 import time
@@ -16,10 +19,33 @@ from flint import ctx
 
 from ball_basins import BITS, Refuted, Unconfirmed
 from ball_hops import Undecided
-from claims import KINDS
+from claims import FIELDS, KINDS
+from statements import compare, sentence
 from whole_theorems import WHOLE
 
 FORMAT, VERSION = "passive hopper certificate", 2
+
+
+HEADER = {"format", "version", "theorem", "statement", "lines"}
+
+
+def once(pairs):
+    """An object whose keys differ: of two equal ones a reader may take either."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        raise ValueError("a key stands twice")
+    return found
+
+
+def finite(text):
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(f"{text} is no number of a certificate")
+    return number
+
+
+def no_constant(text):
+    raise ValueError(f"{text} is no number of a certificate")
 
 
 def lines_of(path):
@@ -27,11 +53,17 @@ def lines_of(path):
     with open(path, encoding="utf-8") as file:
         for number, text in enumerate(file, 1):
             try:
-                line = json.loads(text)
-            except ValueError as error:
+                line = json.loads(text, object_pairs_hook=once, parse_float=finite, parse_constant=no_constant)
+            except (ValueError, RecursionError) as error:
                 raise Refuted(f"line {number}: no JSON ({error})")
             if not isinstance(line, dict):
                 raise Refuted(f"line {number}: no object")
+            wanted = HEADER if number == 1 else FIELDS.get(line.get("kind") if isinstance(line.get("kind"), str) else None)
+            if wanted is not None and set(line) != wanted:
+                raise Refuted(f"line {number}: its fields are {sorted(line)}, not {sorted(wanted)}")
+            for name, value in line.items():
+                if value is None and name != "beyond":
+                    raise Refuted(f"line {number}: {name} is null")
             yield number, line
 
 
@@ -72,6 +104,10 @@ def check(path, sample, seed):
     if len(counts) != header.get("lines"):
         raise Refuted(f"line {len(counts) + 1}: {len(counts)} lines follow the header, which says {header.get('lines')}")
     guarded(len(counts) + 1, whole.end)
+    derived = guarded(len(counts) + 1, whole.derived)
+    scope = compare(header, derived)
+    if header["theorem"] == "everything-hops":
+        rest_on_rising(path, derived, sample if not isinstance(sample, list) else 0, seed)
     total = sum(counts)
     if sample is None or isinstance(sample, list):
         chosen = sample
@@ -93,7 +129,32 @@ def check(path, sample, seed):
         # A line may prepare what those after it need.
         guarded(number, KINDS[line["kind"]].confirm, line, wanted, shared)
         confirmed += len(wanted)
-    return f"{header['theorem']}: {confirmed} of {total} claims confirmed; {whole.summary()}"
+    word = "confirmed" if confirmed == total else "sampled"
+    return f"{word:9} {header['theorem']} ({scope}): {confirmed} of {total} claims; proves: {sentence(derived)}; {whole.means}"
+
+
+# Certificates that others rest on, which are looked at once: path and time of writing, to what they prove.
+RISING = {}
+
+
+def rest_on_rising(path, derived, sample, seed):
+    """The windows of `everything-hops` rise by the theorem `rising`, whose certificate lies beside it."""
+    beside = os.path.join(os.path.dirname(os.path.abspath(path)), "rising.jsonl")
+    if not os.path.exists(beside):
+        raise Refuted(f"it rests on the certificate of `rising`, and {beside} is not there")
+    key = (os.path.realpath(beside), os.stat(beside).st_mtime_ns, sample, seed)
+    if key not in RISING:
+        check(beside, sample, seed)
+        whole = WHOLE["rising"]()
+        lines = lines_of(beside)
+        next(lines)
+        for number, line in lines:
+            guarded(number, whole.add, line)
+        RISING[key] = whole.derived()
+    rising = dict(zip(RISING[key]["windows"], RISING[key]["largest_mass_ratios"]))
+    for n in range(2, derived["loss_bound"]):
+        if rising.get(n, 0) < derived["crisis"][1]:
+            raise Refuted(f"`rising` does not show that window {n} rises for M <= {derived['crisis'][1]!r}")
 
 
 def main():
@@ -107,7 +168,7 @@ def main():
     for path in options.files:
         begin = time.time()
         try:
-            print(f"confirmed {check(path, options.sample, options.seed)}; {time.time() - begin:.1f} s", flush=True)
+            print(f"{check(path, options.sample, options.seed)}; {time.time() - begin:.1f} s", flush=True)
         except (Refuted, Unconfirmed, Undecided) as error:
             word = "refuted" if isinstance(error, Refuted) else "not confirmed"
             print(f"{word:9} {path}, {error}", flush=True)

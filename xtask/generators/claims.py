@@ -45,10 +45,16 @@ def gaps_of(line):
     return gaps
 
 
+# A fixed point is enclosed so narrowly.
+FIXED_POINT_WIDTH = 1e-13
+
+
 def encloses(values, ball, what):
     low, high = pair(values)
     if not (low < ball and ball < high):
         raise Refuted(f"{what} is not in [{low!r}, {high!r}]")
+    if high - low > FIXED_POINT_WIDTH * high:
+        raise Refuted(f"{what} is not enclosed to {FIXED_POINT_WIDTH}")
 
 
 class Kind:
@@ -94,8 +100,12 @@ class Trap(Kind):
     def check(line):
         n, mass_ratio, right = line["n"], float(line["mass_ratio"]), float(line["right"])
         encloses(line["fixed_point"], star(n), f"alpha*_{n}")
+        if not float(line["fixed_point"][1]) < right:
+            raise Refuted("the trap ends before its fixed point")
         if not arb(right) < (n + 1) * arb.pi():
             raise Refuted("the trap is longer than the contact part")
+        if line["beyond"] is not None and not (right < line["beyond"] and arb(line["beyond"]) < (n + 1) * arb.pi()):
+            raise Refuted("the speed beyond the trap is not between its end and that of the contact part")
         Basins(mass_ratio, mass_ratio, [(float(line["fixed_point"][1]), right, n)]).confirm(0)
         if line["beyond"] is not None and not square_at(line["beyond"], mass_ratio) < star(n) ** 2:
             raise Refuted(f"the speed {line['beyond']!r} beyond the trap does not fall below alpha*_{n}")
@@ -268,4 +278,26 @@ KINDS = {
     "points": Points,
     "area": Given,
     "cells": Given,
+}
+
+# The fields of each kind of line: no more and no less.
+FIELDS = {
+    kind: {"kind", *fields.split()}
+    for kind, fields in {
+        "one-sudden": "fixed_point largest_mass_ratio available needed",
+        "trap": "n fixed_point mass_ratio right beyond",
+        "crisis": "n mass_ratio speed",
+        "contact-part": "n mass_ratio speeds least_square",
+        "losses": "multiple_of_pi mass_ratio losses square",
+        "rising-window": "n speeds largest_mass_ratio",
+        "rising-box": "n speeds kappas",
+        "basins": "mass_ratios intervals",
+        "gaps": "gaps",
+        "fraction": "fate humps uniform by_humps",
+        "grid": "mass_ratios speeds columns rows",
+        "speeds": "speeds",
+        "points": "mass_ratio traps fates",
+        "area": "fate share",
+        "cells": "edges of_one_basin",
+    }.items()
 }

@@ -1,7 +1,7 @@
 """What joins the lines of a certificate: no line may be missing, strips and boxes leave no gap, and sums are as said.
 
-Each theorem has a class: the kinds of lines that it may have, `add` for each line, `end` after the last, and a summary of what its claims
-together prove.
+Each theorem has a class: the kinds of lines that it may have, `add` for each line, `end` after the last, and what its claims together prove:
+`derived`, numbers that `statements.py` compares and prints, and `means`, the words for them.
 """
 
 from bisect import bisect_right
@@ -40,6 +40,12 @@ class Whole:
     def end(self):
         require(self.lines > 0, "no lines")
 
+    means = ""
+
+    def derived(self):
+        """What the lines prove."""
+        raise NotImplementedError
+
 
 class OneSudden(Whole):
     KINDS = ("one-sudden",)
@@ -48,8 +54,10 @@ class OneSudden(Whole):
         require(self.lines == 1, "a second line")
         self.largest = line["largest_mass_ratio"]
 
-    def summary(self):
-        return f"at most one sudden lift-off for M <= {self.largest!r} (with Theorem 20)"
+    means = "at most one sudden lift-off up to this mass ratio (with Theorem 20)"
+
+    def derived(self):
+        return {"largest_mass_ratio": self.largest}
 
 
 class Humps(Whole):
@@ -62,24 +70,36 @@ class Humps(Whole):
 class OneSided(Humps):
     KINDS = ("trap",)
 
+    def __init__(self):
+        super().__init__()
+        self.lengths = []
+
     def add_trap(self, line):
         self.next(line)
         require(line["mass_ratio"] == 1, "not at M = 1, where traps are shortest")
+        require(line["beyond"] is None, "a speed beyond a trap is no part of this theorem")
+        self.lengths.append(line["right"] - pair(line["fixed_point"])[1])
 
-    def summary(self):
-        return f"traps at all M for n = 1 to {self.lines} (with Corollary 30)"
+    means = "traps of these lengths at least, at all M, for n from 1 (with Corollary 30)"
+
+    def derived(self):
+        return {"lengths": self.lengths}
 
 
 class Crises(Humps):
     KINDS = ("crisis",)
+    width = 0.0
 
     def add_crisis(self, line):
         self.next(line)
         low, high = pair(line["mass_ratio"])
-        require(high < 1 and high - low <= CRISIS_WIDTH, "the mass ratio is not enclosed to 1e-13")
+        require(0 < low and high < 1 and high - low <= CRISIS_WIDTH, "the mass ratio is not enclosed to 1e-13")
+        self.width = max(self.width, high - low)
 
-    def summary(self):
-        return f"M_c(n) for n = 1 to {self.lines}"
+    means = "M_c(n) for n = 1 to the number of humps, each enclosed to this width"
+
+    def derived(self):
+        return {"humps": self.lines, "width": self.width}
 
 
 class Traps(Whole):
@@ -87,26 +107,41 @@ class Traps(Whole):
 
     def __init__(self):
         super().__init__()
-        self.counts = []
+        self.counts, self.lowest, self.highest = [], [], []
+        self.step = self.width = 0.0
 
     def add_trap(self, line):
         n = line["n"]
         if n == len(self.counts) + 1:
             self.counts.append(0)
+            self.lowest.append(line["mass_ratio"])
+            self.highest.append(0.0)
             self.last = 0.0
         require(n == len(self.counts) and n > 0, f"n = {n!r} is out of order")
         require(self.last < line["mass_ratio"] <= 1, "the mass ratios do not rise to 1")
-        self.last = line["mass_ratio"]
+        if self.last > 0:
+            self.step = max(self.step, line["mass_ratio"] - self.last)
+        self.last = self.highest[-1] = line["mass_ratio"]
         self.counts[-1] += 1
         require(line["beyond"] is not None, "no speed beyond the trap")
         require(0 < line["beyond"] - line["right"] <= TRAP_WIDTH, "the end is not enclosed to 1e-12")
+        self.width = max(self.width, line["beyond"] - line["right"])
 
     def end(self):
         super().end()
         require(len(set(self.counts)) == 1, f"humps have {self.counts} mass ratios")
 
-    def summary(self):
-        return f"ends of traps at {self.counts[0]} mass ratios for n = 1 to {len(self.counts)}"
+    means = "ends of traps, for n from 1, at so many mass ratios each from the lowest to the highest, with these largest steps and widths"
+
+    def derived(self):
+        return {
+            "humps": len(self.counts),
+            "each": self.counts[0],
+            "lowest": self.lowest,
+            "highest": min(self.highest),
+            "step": self.step,
+            "width": self.width,
+        }
 
 
 class EverythingHops(Whole):
@@ -119,7 +154,11 @@ class EverythingHops(Whole):
 
     def add_crisis(self, line):
         require(self.lines == 1 and line["n"] == 1, "the crisis of hump 1 comes first")
-        self.mass_ratio = pair(line["mass_ratio"])[1]
+        self.crisis = pair(line["mass_ratio"])
+        require(0 < self.crisis[0] and self.crisis[1] - self.crisis[0] <= CRISIS_WIDTH, "the crisis is not enclosed to 1e-13")
+        # The parts are at the upper end, which is the worst for all below (Theorem 4); the hump of the crisis is above alpha*_1 at its
+        # lower end only.
+        self.mass_ratio = self.crisis[1]
 
     def add_contact_part(self, line):
         low, high = pair(line["speeds"])
@@ -137,6 +176,7 @@ class EverythingHops(Whole):
             require(arb(self.reached) >= (self.hump + 1) * arb.pi(), f"hump {self.hump} ends too early")
 
     def add_losses(self, line):
+        require(self.losses is None, "a second bound on losses")
         self.losses = line["multiple_of_pi"]
         require(line["mass_ratio"] == self.mass_ratio, "not at the crisis")
 
@@ -146,8 +186,11 @@ class EverythingHops(Whole):
         require(self.losses == self.hump + 1, "the bound on losses does not begin where the humps end")
         require(self.hump <= RISING_WINDOWS and self.mass_ratio <= RISING_MASS_RATIO, "`rising` has no such windows")
 
-    def summary(self):
-        return f"f >= alpha*_1 on contact parts 1 to {self.hump} and beyond for M <= {self.mass_ratio!r} (windows by `rising`; Lemma 32)"
+    means = "f >= alpha*_1 from alpha*_1 up, for M up to the largest mass ratio, the lower end of the crisis (windows by `rising`; from loss_bound pi on Lemma 32)"
+
+    def derived(self):
+        low, high = self.crisis
+        return {"largest_mass_ratio": low, "crisis": [low, high], "width": high - low, "loss_bound": self.losses}
 
 
 class Rising(Whole):
@@ -159,7 +202,7 @@ class Rising(Whole):
 
     def add_rising_window(self, line):
         n, (low, high) = line["n"], pair(line["speeds"])
-        require(n >= 1, f"there is no window {n!r}")
+        require(n == len(self.windows) + 1, f"window {n!r} is out of order")
         require(0 < line["largest_mass_ratio"] <= 1, "Theorem 81 has this range for M <= 1")
         require(low <= n * arb.pi() and arb(high) >= star(n) - arb(RISES_TO_STAR), "the window is not whole")
         self.windows.append((n, line["largest_mass_ratio"], (low, high), []))
@@ -167,7 +210,9 @@ class Rising(Whole):
     def add_rising_box(self, line):
         n, _, _, boxes = self.windows[-1]
         require(line["n"] == n, f"a box of window {line['n']!r}")
-        boxes.append((*pair(line["speeds"]), *pair(line["kappas"])))
+        box = (*pair(line["speeds"]), *pair(line["kappas"]))
+        require(not boxes or boxes[-1] != box, "a box stands twice")
+        boxes.append(box)
 
     def end(self):
         super().end()
@@ -177,8 +222,10 @@ class Rising(Whole):
             gap = uncovered((low, high, 0.0, last), boxes)
             require(gap is None, f"the boxes of window {n} leave a gap: speeds {gap and gap[:2]}, kappa {gap and gap[2:]}")
 
-    def summary(self):
-        return f"f rises in windows {', '.join(str(n) for n, *_ in self.windows)} (next to alpha*_n by Theorem 81)"
+    means = "f rises in these windows up to these mass ratios (next to alpha*_n by Theorem 81)"
+
+    def derived(self):
+        return {"windows": [n for n, *_ in self.windows], "largest_mass_ratios": [largest for _, largest, *_ in self.windows]}
 
 
 def uncovered(region, boxes):
@@ -216,12 +263,14 @@ class Measures(Whole):
     def __init__(self):
         super().__init__()
         self.mass_ratios, self.list, self.wanted = [], None, set()
+        self.widths, self.all_humps = [], None
 
     def add_basins(self, line):
         self.complete()
         low, high = pair(line["mass_ratios"])
         require(low == high, "a strip of mass ratios")
         self.mass_ratios.append(low)
+        self.widths.append(0.0)
         self.list, self.gaps = intervals(line, "intervals"), None
         Basins(low, high, self.list)
         self.wanted, self.humps = None, None
@@ -238,6 +287,12 @@ class Measures(Whole):
             self.measure(humps)
         require(fate in self.wanted and humps == self.humps, f"the share of {fate!r} is out of order")
         self.wanted.remove(fate)
+        require(self.all_humps in (None, humps), "fractions of other humps than before")
+        self.all_humps = humps
+        for bounds in (line["uniform"], line["by_humps"]):
+            low, high = pair(bounds)
+            require(0 <= low and high <= 1, f"[{low!r}, {high!r}] is no fraction")
+            self.widths[-1] = max(self.widths[-1], high - low)
         whole = [star(n + 1) - star(n) for n in range(1, humps + 1)]
         together = {}
         for of_hump in self.lengths:
@@ -268,8 +323,10 @@ class Measures(Whole):
         super().end()
         self.complete()
 
-    def summary(self):
-        return f"fractions of humps 1 to {self.humps} at M = {', '.join(map(repr, self.mass_ratios))}"
+    means = "fractions of the humps from 1 on at these mass ratios, each between bounds of this width"
+
+    def derived(self):
+        return {"humps": self.all_humps, "mass_ratios": self.mass_ratios, "widths": self.widths}
 
 
 def require_disjoint(intervals, gaps):
@@ -309,12 +366,13 @@ class Raster(Whole):
         self.ratios, self.speeds = pair(line["mass_ratios"]), pair(line["speeds"])
         require(line["columns"] >= 1 and line["rows"] >= 1, "no pixels")
 
-    def name(self):
-        return f"M from {self.ratios[0]!r} to {self.ratios[1]!r}, speeds from {self.speeds[0]!r} to {self.speeds[1]!r}"
+    def derived(self):
+        return {"mass_ratios": list(self.ratios), "speeds": list(self.speeds), "columns": self.grid["columns"], "rows": self.grid["rows"]}
 
 
 class RasterPoints(Raster):
     KINDS = ("grid", "speeds", "points")
+    has_speeds = False
 
     def __init__(self):
         super().__init__()
@@ -325,6 +383,7 @@ class RasterPoints(Raster):
 
     def add_speeds(self, line):
         require(self.lines == 2 and len(line["speeds"]) == self.grid["rows"], "not one speed for each row")
+        self.has_speeds = True
         for row, speed in enumerate(line["speeds"]):
             self.is_middle(speed, self.speeds, row, self.grid["rows"])
 
@@ -336,10 +395,9 @@ class RasterPoints(Raster):
         self.columns += 1
 
     def end(self):
-        require(self.grid and self.columns == self.grid["columns"], f"{self.columns} columns")
+        require(self.grid and self.has_speeds and self.columns == self.grid["columns"], f"{self.columns} columns")
 
-    def summary(self):
-        return f"{self.grid['columns']} x {self.grid['rows']} points, {self.name()}"
+    means = "the fate of the middle of every pixel of this window"
 
 
 class RasterCells(Raster):
@@ -348,6 +406,7 @@ class RasterCells(Raster):
     def __init__(self):
         super().__init__()
         self.strips, self.lengths, self.areas = [], [{}], set()
+        self.least = 0.0
 
     def add_cells(self, line):
         self.edges, self.claimed = line["edges"], line["of_one_basin"]
@@ -378,6 +437,7 @@ class RasterCells(Raster):
         fate = fate_of(line["fate"])
         require(fate not in self.areas, f"a second area of {fate!r}")
         self.areas.add(fate)
+        self.least += pair(line["share"])[0]
         whole = (arb(self.ratios[1]) - arb(self.ratios[0])) * (arb(self.speeds[1]) - arb(self.speeds[0]))
         implied(line["share"], self.lengths[0], fate, whole)
 
@@ -393,8 +453,10 @@ class RasterCells(Raster):
             count += sum(first is not None and all(fate == first for fate in rest) for first, *rest in together)
         require(count == self.claimed, f"{count} cells lie in intervals of one fate, not {self.claimed}")
 
-    def summary(self):
-        return f"{self.claimed} of {self.grid['columns'] * self.grid['rows']} cells, and areas, {self.name()}"
+    means = "so many cells of one fate, and the area of each fate, with this share of the window open"
+
+    def derived(self):
+        return {**super().derived(), "cells": self.claimed, "open": 1 - self.least}
 
 
 WHOLE = {

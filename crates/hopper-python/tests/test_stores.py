@@ -14,7 +14,7 @@ import passive_hopper as hopper
 import pytest
 
 xarray = pytest.importorskip("xarray")
-pytest.importorskip("zarr", reason="stores need zarr")
+zarr = pytest.importorskip("zarr", reason="stores need zarr")
 from passive_hopper import stores  # noqa: E402
 
 JOB = {"M": (0.15, 0.9), "alpha": (4.5, 12.0), "shape": (150, 80)}

@@ -105,21 +105,21 @@ fn damaged_tiles_are_named_and_computed_again() {
 /// A tile of one layer has other bytes than that of another one: it would be read as basins that are not there.
 #[test]
 fn a_tile_of_another_layer_is_never_joined() {
-    let whole = undisturbed("foreign_layer_whole", &with(&JOB, &["--layer", "label", "hops"]));
-    let folder = Folder::new("foreign_layer");
-    let call =
-        |more: &[&str]| basins(&folder.0, &with(&with(&JOB, &["--layer", "label", "hops"]), more));
+    let both = with(&JOB, &["--layer", "label", "hops"]);
+    let whole = undisturbed("foreign_layer_whole", &both);
     for (from, to) in [("tiles_hops", "tiles"), ("tiles", "tiles_hops")] {
-        ends(call(&["--part", "1/1", "--force"]), 0);
-        let tile = |folder_name: &str| folder.0.join(folder_name).join("piece_000001.bin");
+        let folder = Folder::new(&format!("foreign_{to}"));
+        let call = |more: &[&'static str]| basins(&folder.0, &with(&both, more));
+        ends(call(&["--part", "1/1"]), 0);
+        let tile = |name: &str| folder.0.join(name).join("piece_000001.bin");
         std::fs::copy(tile(from), tile(to)).unwrap();
         let text = text(&ends(call(&["--join"]), 1));
         assert!(text.contains("1 of 20 tiles are missing or damaged"), "{text}");
         assert!(text.contains("another job"), "{text}");
         ends(call(&[]), 0);
         assert!(folder.files() == whole);
+        folder.remove();
     }
-    folder.remove();
 }
 
 #[test]

@@ -33,6 +33,9 @@ pub struct Options {
     /// Strips of mass ratios in a column of cells: with more of them less area stays open
     #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     strips: u32,
+    /// The share of a figure's area that may stay open [default: 0.12 for fig6-cells, 0.08 for fig9-cells]
+    #[arg(long, value_name = "SHARE")]
+    open: Option<f64>,
     /// The only mass ratio of `measures` [default: those of the table, each to a width of its own]
     #[arg(short = 'M', long, value_name = "M", requires = "width")]
     mass_ratio: Option<f64>,
@@ -100,12 +103,7 @@ pub fn run(options: &Options) -> Result<(), Error> {
         (false, false) => {
             for name in &options.names {
                 if !known.clone().any(|known| known == name) {
-                    let all: Vec<&str> = known.copied().collect();
-                    return Err(Error::UnknownName {
-                        kind: "theorem",
-                        name: name.clone(),
-                        known: all.join(", "),
-                    });
+                    return Err(unknown(name));
                 }
             }
             options.names.iter().map(String::as_str).collect()
@@ -132,7 +130,13 @@ pub fn run(options: &Options) -> Result<(), Error> {
     Err(Error::CheckFailed(format!("not proved: {}", open.join(", "))))
 }
 
-/// Prints a theorem and writes its certificate: whether it is proved.
+/// The error for a name that is no theorem's.
+fn unknown(name: &str) -> Error {
+    let known: Vec<&str> = QUICK.iter().chain(&LONG).copied().collect();
+    Error::UnknownName { kind: "theorem", name: name.to_owned(), known: known.join(", ") }
+}
+
+/// Prints a theorem and writes its certificate, if it is proved: whether it is.
 fn report(
     theorem: &Theorem,
     begin: Instant,
@@ -146,9 +150,13 @@ fn report(
         let mark = if step.holds { "holds" } else { "OPEN" };
         say(format_args!("{:8} {mark:6} {}: {}", "", step.claim, step.found))?;
     }
+    if !theorem.is_proved() {
+        say(format_args!("{:8} no certificate: the statement is open", ""))?;
+        return Ok(false);
+    }
     let (path, bytes) = write_certificate(theorem, strips, folder)?;
     say(format_args!("{:8} certificate {}, {bytes} bytes", "", path.display()))?;
-    Ok(theorem.is_proved())
+    Ok(true)
 }
 
 fn prove(name: &str, options: &Options, folder: &Folder) -> Result<Theorem, Error> {
@@ -161,7 +169,8 @@ fn prove(name: &str, options: &Options, folder: &Folder) -> Result<Theorem, Erro
         "rising" => rising(&RISING)?,
         "measures" => fractions(options)?,
         "fig6-points" => points("fig6-points", fig_6(), options, folder)?,
-        _ => points("fig9-points", FIG_9, options, folder)?,
+        "fig9-points" => points("fig9-points", FIG_9, options, folder)?,
+        other => return Err(unknown(other)),
     };
     Ok(by_name)
 }
@@ -229,7 +238,7 @@ fn cells(
     let strips = StoredStrips::new(name, grid_of(window, options)?, options.strips as usize, &job);
     let (found, drawn) = strips.cells(name, window)?;
     write(name, drawn, folder)?;
-    let theorem = cells_theorem(name, &found, most_open)?;
+    let theorem = cells_theorem(name, &found, options.open.unwrap_or(most_open))?;
     let is_proved = report(&theorem, begin, strips.evidence()?, folder)?;
     job.done()?;
     Ok(is_proved)
