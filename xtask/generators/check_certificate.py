@@ -86,10 +86,10 @@ def guarded(number, action, *arguments):
         raise Refuted(f"line {number}: a field is missing or wrong ({type(error).__name__}: {error})")
 
 
-def check(path, sample, seed):
+def check(path, sample, seed, found=None):
     """A sentence about the file. Raises an error for the first line that is not confirmed.
 
-    `sample` is the number of claims to confirm, or a list of their places, or None for all.
+    `sample` is the number of claims to confirm, or a list of their places, or None for all. What the file proves goes into `found`.
     """
     lines = lines_of(path)
     header = read_header(lines)
@@ -106,6 +106,8 @@ def check(path, sample, seed):
     guarded(len(counts) + 1, whole.end)
     derived = guarded(len(counts) + 1, whole.derived)
     scope = compare(header, derived)
+    if found is not None:
+        found.update(derived)
     if header["theorem"] == "everything-hops":
         rest_on_rising(path, derived, sample if not isinstance(sample, list) else 0, seed)
     total = sum(counts)

@@ -25,6 +25,7 @@ from ball_basins import BITS, GROUNDED, Refuted, Unconfirmed, star
 from ball_hops import Undecided
 from check_certificate import check
 from claims import FIELDS, KINDS
+from statements import STATEMENTS
 from whole_theorems import WHOLE
 
 NEEDED = ("one-sudden", "one-sided", "crisis", "traps", "everything-hops", "rising")
@@ -44,14 +45,14 @@ class Files:
         if os.path.exists(rising):
             os.symlink(os.path.abspath(rising), os.path.join(self.own.name, "rising.jsonl"))
 
-    def answer(self, lines, claims, texts=None):
-        """(True, sentence) for a file that passes, or (False, reason). `texts` stand in the place of some lines."""
+    def answer(self, lines, claims, texts=None, found=None):
+        """(True, sentence) for a file that passes, or (False, reason). `texts` stand in the place of some lines; what it proves goes into `found`."""
         path = os.path.join(self.own.name, "changed.jsonl")
         with open(path, "w", encoding="utf-8") as file:
             for at, line in enumerate(lines):
                 file.write((texts or {}).get(at, json.dumps(line, ensure_ascii=False)) + "\n")
         try:
-            return True, check(path, claims, 1)
+            return True, check(path, claims, 1, found)
         except (Refuted, Unconfirmed, Undecided) as error:
             return False, str(error)
 
@@ -424,7 +425,8 @@ def number_at(value, path):
 def at_random(files, theorem, lines, count, seed):
     """Changes one number of one line at random. Returns how many pass although they prove more than the true file, or a false claim."""
     dice = random.Random(f"{theorem} {seed}")
-    _, truth = files.answer(lines, [])
+    truth = {}
+    files.answer(lines, [], found=truth)
     passed = wrong = 0
     for _ in range(count):
         at = dice.randrange(1, len(lines))
@@ -440,7 +442,8 @@ def at_random(files, theorem, lines, count, seed):
             continue
         own = lines[:at] + [put(lines[at], path, new)] + lines[at + 1 :]
         claims = list(claims_of(own, at)) if KINDS[lines[at]["kind"]].count(own[at]) <= 64 else near(own, at, path)
-        passes, said = files.answer(own, claims)
+        proved = {}
+        passes, said = files.answer(own, claims, found=proved)
         if not passes:
             continue
         passed += 1
@@ -448,7 +451,7 @@ def at_random(files, theorem, lines, count, seed):
         ctx.prec = 2 * BITS
         again, _ = files.answer(own, claims)
         ctx.prec = BITS
-        if not again or stronger(said, truth):
+        if not again or stronger(theorem, proved, truth):
             wrong += 1
             print(f"NOT REFUSED {theorem}, line {at + 1}, {path}: {old!r} as {new!r}: {said}", flush=True)
     print(f"random   {theorem}: {count} changes, {passed} harmless ones pass, {wrong} false ones", flush=True)
@@ -462,11 +465,21 @@ def near(lines, at, path):
     return [own[k] for k in range(max(0, place - 1), min(len(own), place + 2))]
 
 
-def stronger(said, truth):
-    """Whether a number in a sentence about a file differs from the true one by more than its last digits."""
-    numbers = lambda text: [float(word) for word in text.split("proves:")[1].split(";")[0].replace("[", " ").replace("]", " ").replace(",", " ").split() if word[0].isdigit()]
-    own, true = numbers(said), numbers(truth)
-    return len(own) != len(true) or any(abs(a - b) > 1e-9 * max(1.0, abs(b)) for a, b in zip(own, true))
+def stronger(theorem, proved, truth):
+    """Whether a file proves more than the true one, by the relations of the manifest: longer traps, a larger range, another window."""
+    for name, bound in STATEMENTS[theorem]["scopes"][0].items():
+        if name == "scope":
+            continue
+        (relation,) = bound
+        as_list = lambda value: value if isinstance(value, (list, tuple)) else [value]
+        own, true = as_list(proved[name]), as_list(truth[name])
+        if len(own) != len(true):
+            return True
+        for a, b in zip(own, true):
+            # Beyond the digits to which the true number is known.
+            if relation == "is" and a != b or relation == "least" and a > b + 1e-2 * abs(b):
+                return True
+    return False
 
 
 def main():

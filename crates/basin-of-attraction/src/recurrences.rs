@@ -221,7 +221,7 @@ impl Attractors {
         map: &impl Fn(&[f64]) -> Option<Vec<f64>>,
         grid: usize,
         settled: &Settled,
-    ) -> Option<(BTreeMap<u64, Vec<f64>>, VecDeque<Vec<f64>>)> {
+    ) -> Option<(FirstPoints, VecDeque<Vec<f64>>)> {
         /// Half of the confirmation.
         const PACES: usize = 5;
         let (grid, most) = (&self.known.grids()[grid], self.limits.locate.max(1));
@@ -344,6 +344,9 @@ impl Attractors {
         None
     }
 }
+
+/// The first point of an orbit in each cell.
+type FirstPoints = BTreeMap<u64, Vec<f64>>;
 
 /// Attractors beyond this number would take labels that mean other things.
 const MOST_ATTRACTORS: u16 = 65_000;

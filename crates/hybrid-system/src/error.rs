@@ -32,7 +32,7 @@ pub enum Error {
         /// Its value.
         value: f64,
     },
-    /// The bounds that a model gives on a guard do not hold at the start of an arc: they are those of another function.
+    /// The bounds that a model gives on a guard are those of another function.
     #[error(
         "the bounds of guard {surface} at the start are {low} to {high}, and its value is {value}: give those of its function",
         value = Number(*.value), low = Number(*.low), high = Number(*.high)
@@ -79,18 +79,14 @@ pub enum Error {
         surface: String,
     },
     /// A sampling interval that is not positive, or too short to reach the horizon, or a horizon that is not finite.
-    #[error(
-        "cannot sample guards at an interval of {interval} up to time {horizon}",
-        interval = Number(*.interval), horizon = Number(*.horizon)
-    )]
+    #[error("cannot sample guards at an interval of {} up to time {}", Number(*.interval), Number(*.horizon))]
     BadSamplingInterval {
         /// The interval.
         interval: f64,
         /// The time up to which the guards are searched.
         horizon: f64,
     },
-    /// A guard starts at zero and is beyond its surface a little later. The guard may have crossed at once, or it may
-    /// have left to the other side and come back, within a sampling interval or within rounding.
+    /// A guard starts at zero and is beyond its surface a little later: crossed at once, or gone and come back.
     #[error(
         "guard {surface} is zero at the start and beyond its surface {interval} later: {advice}",
         interval = Number(*.interval), advice = looked.advice()
@@ -103,8 +99,7 @@ pub enum Error {
         /// How the guard was looked at.
         looked: Looked,
     },
-    /// A guard under bounds starts at zero, and rounding hides to which side it leaves: lower derivatives that may be
-    /// zero could outweigh the first derivative that is not zero.
+    /// A guard under bounds starts at zero, and rounding hides to which side it leaves.
     #[error(
         "rounding hides to which side the guard leaves its zero at the start: derivative {order} is {value}",
         value = Number(*.value)
@@ -370,9 +365,6 @@ pub enum Error {
     /// A reset leads to the far side of a surface, and the guard does not say what that means.
     #[error(transparent)]
     LandsBeyond(#[from] LandsBeyond),
-    /// `contact` or `crossing` of a model without a guard before it.
-    #[error("`contact` and `crossing` declare the guard that was added last: add a guard before")]
-    NothingDeclared,
     /// Two guards of one mode have the same surface: their events could not be told apart.
     #[error("surface {surface} has two guards in one mode: give each of them a name of its own")]
     SurfaceTwice {
@@ -395,8 +387,7 @@ pub enum Error {
     },
     /// Guards of different modes have the same surface and different functions.
     #[error(
-        "surface {surface} has two guard functions, with values {first} and {second} at one state: give each of them a \
-         name of its own, or use the same function"
+        "surface {surface} has two guard functions, with values {first} and {second} at one state: name each of them"
     )]
     TwoGuardFunctions {
         /// Name of the surface.

@@ -121,7 +121,8 @@ impl<M: Copy + Eq, S: Copy + Eq + Debug> GuardLists<M, S> {
     pub(super) fn check(&self) -> Result<(), Error> {
         let name = |surface: S| format!("{surface:?}");
         if self.nothing_declared {
-            return Err(Error::NothingDeclared);
+            let part = "a contact or a crossing before any guard";
+            return Err(Error::NoSuchGuard { part, surface: "none".into() });
         }
         match (self.doubled, self.timeless) {
             (Some(surface), _) => Err(Error::SurfaceTwice { surface: name(surface) }),

@@ -10,6 +10,7 @@
 
 mod bounds;
 mod continued;
+mod declared;
 mod derivatives;
 mod family;
 #[cfg(feature = "ode")]

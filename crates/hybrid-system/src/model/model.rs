@@ -11,7 +11,7 @@ use super::outcome::Outcome;
 use super::part::Part;
 use crate::crossing::QuasiPolynomial;
 use crate::execution::Execution;
-use crate::guard::{Guard, Role};
+use crate::guard::Guard;
 use crate::limits::Limits;
 #[cfg(feature = "ode")]
 use crate::ode::Tolerances;
@@ -243,23 +243,6 @@ where
     {
         self.guards.add_watched(Some(mode), watched);
         self.with(Jump { mode, surface: watched.surface, guard, reset })
-    }
-
-    /// Declares the guard that was added last a contact that holds, such as a floor: the mode flows on one side of it, and a
-    /// jump to a state beyond it is an event at once.
-    ///
-    /// Without this word, and without [`crossing`](Self::crossing), such a jump is the error
-    /// [`LandsBeyond`](crate::Error::LandsBeyond).
-    pub fn contact(mut self) -> Self {
-        self.guards.declare_last(Role::Contact);
-        self
-    }
-
-    /// Declares the guard that was added last a crossing: an event only where the flow crosses its surface, such as the
-    /// touchdown of a leg that takes off below the height of its touchdown. The mode flows on both sides.
-    pub fn crossing(mut self) -> Self {
-        self.guards.declare_last(Role::Crossing);
-        self
     }
 
     /// Adds a guard of all modes. The reset takes the mode before the event, and the state.
