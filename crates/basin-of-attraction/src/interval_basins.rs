@@ -122,6 +122,22 @@ impl IntervalBasins {
         self.without_undecided()
     }
 
+    /// The result of the same search with these intervals, for a caller who knows more about them: narrower ones, some left out, or
+    /// with other levels.
+    ///
+    /// # Errors
+    /// [`Error::BadInterval`] for an interval that is reversed, not finite, outside the window, or not above the one before.
+    pub fn with_intervals(self, parts: Vec<LabelledInterval>) -> Result<IntervalBasins, Error> {
+        let mut end = self.window.left;
+        for LabelledInterval { interval: Interval { left, right }, .. } in &parts {
+            Interval::new(end, *left)?;
+            Interval::new(*left, *right)?;
+            end = *right;
+        }
+        Interval::new(end, self.window.right)?;
+        Ok(IntervalBasins { parts, ..self })
+    }
+
     /// Makes gaps of the intervals whose label is no basin. With such intervals a search is not resolved.
     pub(crate) fn without_undecided(mut self) -> IntervalBasins {
         let all = self.parts.len();

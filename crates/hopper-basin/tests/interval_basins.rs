@@ -54,6 +54,37 @@ fn where_the_branches_are_proved_every_probe_has_the_fate_of_its_interval() {
     assert_eq!(found.basins.stop_reason(), StopReason::Resolved);
 }
 
+/// The ends themselves have the fate of their interval, also where they were computed as 4.580042449461985 at M = 0.2, which decays after
+/// 24 133 hops. The ground is reached by one more hop than the gap in which it is.
+#[test]
+fn the_ends_of_every_interval_have_its_fate() {
+    for m in [0.12, 0.2, 0.5, 0.8] {
+        let fates = fates(m);
+        let refinement = Refinement { undecided: 0.02, ..Refinement::default() };
+        let found = hopper_basins(&fates, 1, 6, 400, refinement).unwrap();
+        let parts = found.basins.intervals();
+        assert!(parts.len() > 100, "{m}");
+        let (mut ends, mut grounded) = (Vec::new(), 0);
+        for part in parts {
+            ends.extend([(part, part.interval.left), (part, part.interval.right)]);
+        }
+        let speeds: Vec<f64> = ends.iter().map(|end| end.1).collect();
+        for ((part, speed), (fate, hops)) in
+            ends.iter().zip(fates.fates_within(&speeds, 1_000_000).unwrap())
+        {
+            assert_eq!(fate.label(), part.label, "{m} {speed:?}");
+            if fate == HopperFate::Grounded {
+                grounded += 1;
+                assert_eq!(Some(hops), part.level, "{m} {speed:?}");
+            }
+        }
+        assert!(grounded > 0 || m < 0.33, "{m}");
+        // The whole length is kept but for what rounding moves.
+        let lost = found.basins.undecided() - refinement.undecided;
+        assert!(lost < 1e-6, "{m} {lost:e}");
+    }
+}
+
 #[test]
 fn ranges_of_humps_that_never_end_are_errors() {
     let (m, f) = (mass_ratio(0.2), fates(0.2));

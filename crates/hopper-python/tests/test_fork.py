@@ -14,8 +14,8 @@ from passive_hopper import labelling
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
 
 CALLS = {
-    "basin_labels": lambda: hopper.basin_labels(M=(0.1, 1), shape=(64, 64)).sum(),
-    "interval_basins": lambda: len(hopper.interval_basins(0.95).intervals),
+    "basin_labels": lambda: hopper.basin_labels(M=(0.1, 1), shape=(64, 64))[2].sum(),
+    "interval_basins": lambda: repr(hopper.interval_basins(0.95)),
     "fractions": lambda: repr(hopper.fractions(0.2)),
     "fates": lambda: hopper.LiftOffMap(0.2).fates(np.linspace(4.5, 9, 1000)).sum(),
     "region_fractions": lambda: repr(labelling.region_fractions(lambda x, y: x < y, [(0, 1), (0, 1)], count=1000)),
@@ -66,7 +66,7 @@ def test_a_pool_of_forked_processes_works():
 
 
 def _size(side):
-    return hopper.basin_labels(M=(0.1, 1), shape=(side, side)).size
+    return hopper.basin_labels(M=(0.1, 1), shape=(side, side))[2].size
 
 
 if sys.version_info >= (3, 12):

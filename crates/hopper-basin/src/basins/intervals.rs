@@ -1,6 +1,7 @@
 //! All basins at one mass ratio as intervals.
 
 use crate::basins::branches::{branches, branches_are_proved, contact_branches};
+use crate::basins::inward_ends::with_inward_ends;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::{Fates, HOP_BUDGET};
 use crate::fates::hopper_fate::HopperFate;
@@ -89,6 +90,8 @@ const SEED: u64 = 1;
 /// The basins of all fates on [α*_`from`, α*_`to`]. Each sudden window is searched for branches with `samples` points, where it is proved
 /// which there are; elsewhere the windows stay undecided. The crate hopper-proof has the basins at every M.
 ///
+/// Every speed between the ends of an interval has its fate: the ends are rounded inwards, and confirmed by bounded hops.
+///
 /// The result states what it rests on ([`HopperBasins::ground`]), and compares itself with the fates of a thousand speeds
 /// ([`HopperBasins::probes`]).
 ///
@@ -145,8 +148,8 @@ pub fn hopper_basins(
             (branches, traps_and_gaps(fates, gaps, to)?, BranchGround::ContactParts)
         };
     let whole = Interval::new(0.0, top)?;
-    let basins =
-        interval_basins_from_known(fates, &traps, &branches, whole, refinement)?.within(window)?;
+    let basins = interval_basins_from_known(fates, &traps, &branches, whole, refinement)?;
+    let basins = with_inward_ends(fates, basins)?.within(window)?;
     let probes = Probes { compared: 0, wrong: 0, first_wrong: None };
     let mut found = HopperBasins { basins, ground, probes };
     found.probes = found.probe(fates, PROBES, SEED)?;

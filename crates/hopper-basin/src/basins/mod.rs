@@ -17,6 +17,7 @@ pub(crate) mod fractions;
 pub(crate) mod fractions_over_mass_ratio;
 pub(crate) mod hop_counts;
 pub(crate) mod intervals;
+mod inward_ends;
 pub(crate) mod levels;
 pub(crate) mod minimum_on_fixed_point;
 pub(crate) mod rasters;

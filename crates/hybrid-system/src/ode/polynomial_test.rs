@@ -100,7 +100,7 @@ pub(super) fn is_broken(values: &[f64; NODES]) -> bool {
         return false;
     }
     // Near an end of the interval one of the lines is not known. Shorter intervals decide.
-    if middle < 3 || middle > NODES - 4 {
+    if !(3..=NODES - 4).contains(&middle) {
         return true;
     }
     let differs =
