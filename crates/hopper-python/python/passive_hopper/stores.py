@@ -215,6 +215,8 @@ def _write_region(path, job, region, threads):
     begin, end = _columns(job, region)
     M, alpha, shape = job
     labels = _native.basin_region(M, alpha, shape, (begin, end), threads=threads)
+    # The last region fills only a part of its file. zarr then reads the rest first, and a damaged file cannot be read.
+    _file(path, region).unlink(missing_ok=True)
     with zarr.config.set({"array.write_empty_chunks": True}):
         _labels(path, "r+")[begin:end] = labels
     note = _note(path, region)

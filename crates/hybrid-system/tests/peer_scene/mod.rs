@@ -124,7 +124,7 @@ pub(crate) fn flat(times: &'static [f64]) -> impl Fn(&X) -> f64 {
 pub(crate) fn bent(times: &'static [f64]) -> impl Fn(&X) -> f64 {
     move |x| {
         let (t, last) = (x[TIME], times.len() - 1);
-        let sign = |k: usize| if k % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = |k: usize| if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         if t <= times[0] {
             return t - times[0];
         }
