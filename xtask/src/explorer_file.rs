@@ -57,7 +57,7 @@ pub(crate) fn one_file(folder: &Path) -> Result<String, Error> {
             let _ = writeln!(page, "<style>\n{style}</style>");
         } else if line == "</body>" {
             let _ = writeln!(page, "{parts}{LOADER}{line}");
-        } else if !line.starts_with("<link") && !line.starts_with("<script") {
+        } else if !line.starts_with("<link") && !line.starts_with("<script type") {
             let _ = writeln!(page, "{line}");
         }
     }

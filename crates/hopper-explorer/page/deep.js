@@ -2,6 +2,7 @@
 import { MARGIN, deepAxes, powerOfTen } from "./axes.js";
 import { change, say, state } from "./state.js";
 import { pretty, show } from "./numbers.js";
+import { hatch } from "./plane.js";
 
 /** Pixels of the first and of the last frame, each way. */
 const QUICK = 48;
@@ -24,7 +25,7 @@ export class Deep {
   async open(m, alpha, depth, wanted = () => true) {
     const about = await this.desk.ask("openDepth", m, alpha);
     if (!wanted()) return;
-    this.frames.forEach(({ bitmap }) => bitmap.close());
+    this.frames.forEach(({ bitmap }) => bitmap?.close());
     this.frames = [];
     change({ depth: { m, alpha: about.alpha, depth, about } });
   }
@@ -48,28 +49,38 @@ export class Deep {
       const data = await this.desk.ask("depthFrame", depth, pixels, pixels, about.massRatio, about.alpha);
       const bitmap = await createImageBitmap(new ImageData(data, pixels, pixels));
       if (state.depth?.about === about) this.frames.push({ depth, pixels, bitmap });
-      while (this.frames.length > KEPT) this.frames.shift().bitmap.close();
+      while (this.frames.length > KEPT) this.frames.shift().bitmap?.close();
     } catch (error) {
       say(`No picture at this depth: ${error.message}`);
-      this.frames.push({ depth, pixels: FINE, bitmap: await createImageBitmap(new ImageData(1, 1)) });
+      if (state.depth?.about === about) this.frames.push({ depth, pixels: FINE, bitmap: null });
     }
     this.busy = false;
     this.plane.refresh();
     this.request();
   }
 
+  /** The quick frame and the fine one of the present depth: both, those that are there, and those that failed. */
+  get parts() {
+    const here = this.frames.filter(({ depth }) => depth === state.depth.depth);
+    const failed = here.some(({ bitmap }) => !bitmap);
+    const fine = here.some(({ pixels, bitmap }) => bitmap && pixels === FINE);
+    return { all: 2, there: fine ? 2 : here.filter(({ bitmap }) => bitmap).length, failed: failed ? 1 : 0 };
+  }
+
   paint(context, box) {
     const { depth } = state.depth;
+    hatch(context, MARGIN.left, MARGIN.top, box.width, box.height);
     const middle = { left: MARGIN.left + box.width / 2, top: MARGIN.top + box.height / 2 };
     // The wider a frame, the earlier it is drawn; a fine one after a quick one of the same depth.
     const sorted = [...this.frames].sort((a, b) => a.depth - b.depth || a.pixels - b.pixels);
     for (const frame of sorted) {
       const size = 10 ** (depth - frame.depth);
-      if (size < 0.02 || size > 1000) continue;
+      if (!frame.bitmap || size < 0.02 || size > 1000) continue;
       context.imageSmoothingEnabled = false;
       const [width, height] = [box.width * size, box.height * size];
       context.drawImage(frame.bitmap, middle.left - width / 2, middle.top - height / 2, width, height);
     }
+    if (this.parts.failed) hatch(context, MARGIN.left, MARGIN.top, box.width, box.height, true);
     for (const [color, width] of [["#fff", 4], ["#000", 1.6]]) {
       context.strokeStyle = color;
       context.lineWidth = width;

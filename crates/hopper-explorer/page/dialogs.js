@@ -27,14 +27,16 @@ export function share() {
   };
 }
 
-/** `files` are pairs of a name and a function that saves. */
+/** `files` are pairs of a name and a function that saves. Its argument shows a text, and says whether the file is still wanted. */
 export function save(files) {
   open("Save what is seen", `<p class="soft">Each file holds its parameters and the link to this view.</p>
     <div class="row">${files.map(([name], k) => `<button data-file="${k}">${name}</button>`).join("")}</div><p id="saved" aria-live="polite"></p>`);
   dialog.querySelectorAll("[data-file]").forEach((button) => {
     button.onclick = async () => {
       const saved = dialog.querySelector("#saved");
-      try { await files[Number(button.dataset.file)][1](); saved.textContent = "Saved."; } catch (error) { saved.textContent = `Not saved: ${error.message}.`; }
+      // A file that waits is given up with its dialog.
+      const tell = (text) => { saved.textContent = text; return saved.isConnected && dialog.open; };
+      try { tell("Computing …"); await files[Number(button.dataset.file)][1](tell); tell("Saved."); } catch (error) { tell(`Not saved: ${error.message}.`); }
     };
   });
 }

@@ -11,7 +11,7 @@ import { measure, play, showMotion, start as startMotion, stateAt, step } from "
 import { parse, pretty, show } from "./numbers.js";
 import { Plane } from "./plane.js";
 import { showCircle, showIntervals } from "./circle_panel.js";
-import { showError, showFate, showNothing, showOrbit, showPin, showProof } from "./point_panel.js";
+import { showFate, showOrbit, showPin, showProof, showSentence } from "./point_panel.js";
 import { Pool } from "./pool.js";
 import { snippets } from "./same.js";
 import * as files from "./save.js";
@@ -23,6 +23,8 @@ import { at, moved, toM, tooFine, withLogarithm, zoomed } from "./view.js";
 const ORBIT = 60;
 /** Points of a piece of the map. */
 const PIECE = 120;
+/** Milliseconds after which the panels of the point before are emptied. */
+const LATE = 150;
 /** Below this height of the window an edge inside it is looked for, to change to its chart. */
 const EDGE_HEIGHT = 1e-8;
 
@@ -104,43 +106,52 @@ let round = 0;
 let [busy, again] = [false, false];
 /** One point at a time: while α is dragged, the points between two answers are passed over. */
 async function showPoint() {
-  if (busy) { again = true; return; }
+  if (busy) {
+    again = true;
+    if (!isHeld()) showPin();
+    return;
+  }
   busy = true;
-  await showPointNow(++round);
-  busy = false;
-  if (again) { again = false; showPoint(); }
+  try { await showPointNow(++round); } finally {
+    busy = false;
+    if (again) { again = false; showPoint(); }
+  }
+}
+
+/** A sentence, and nothing of any point. A map that is dragged stays under the hand. */
+function empty(text) {
+  shown = null;
+  showSentence(text);
+  showMotion(null);
+  if (!isHeld()) hideMap();
+  ["circle", "intervals"].forEach((id) => byId(id).querySelector("div").replaceChildren());
 }
 
 async function showPointNow(mine) {
   showPin();
-  if (!state.pin) {
-    showNothing();
-    showMotion(null);
-    hideMap();
-    ["circle", "intervals"].forEach((id) => byId(id).querySelector("div").replaceChildren());
-    return;
-  }
+  if (!state.pin) return empty("Click the plane, or press Enter, to pin a point.");
   const { m, alpha } = state.pin;
+  const late = setTimeout(() => empty("Computing …"), LATE);
+  let answer;
   try {
-    const kept = isHeld() ? shownWindow : null;
-    const { point: found, window, map, motion } = await desk.ask("pinned", m, alpha, ORBIT, state.hops, PIECE, kept);
-    [shown, shownWindow] = [found, window];
-    showFate(found);
-    showOrbit(found);
-    if (map.refused) hideMap(`No map: ${map.refused}.`); else showMap(map, found, window);
-    showMotion(motion.refused ? null : motion);
-    if (motion.refused) say(`No motion: ${motion.refused}.`);
-    await measure();
-    canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
-    desk.ask("proof", m, alpha).then((proof) => { if (mine === round) showProof(found, proof); }, () => {});
-    slowPanels(mine, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
+    answer = await desk.ask("pinned", m, alpha, ORBIT, state.hops, PIECE, isHeld() ? shownWindow : null);
   } catch (error) {
-    shown = null;
-    showError(error.message);
-    showMotion(null);
-    hideMap();
     say(error.message);
-  }
+    return empty(error.message);
+  } finally { clearTimeout(late); }
+  if (again && !isHeld()) return; // another point is pinned
+  const { point: found, window, map, motion } = answer;
+  [shown, shownWindow] = [found, window];
+  showFate(found);
+  showOrbit(found);
+  if (map.refused) hideMap(`No map: ${map.refused}.`); else showMap(map, found, window);
+  showMotion(motion.refused ? null : motion);
+  if (motion.refused) say(`No motion: ${motion.refused}.`);
+  await measure();
+  canvas.dispatchEvent(new CustomEvent("panels", { detail: found }));
+  const isWanted = () => mine === round && shown === found;
+  desk.ask("proof", m, alpha).then((proof) => { if (isWanted()) showProof(found, proof); }, (error) => { if (isWanted()) byId("proof").textContent = `No proof: ${error.message}.`; });
+  slowPanels(isWanted, m, state.depth?.about.n ?? Math.max(found.trap?.n ?? 1, found.below, 1));
 }
 let shownWindow = null;
 let shown = null; // the last answer about a point
@@ -152,13 +163,20 @@ byId("circle-n").onchange = ({ target }) => {
   showPoint();
 };
 
-async function slowPanels(mine, m, n) {
+function slowPanels(isWanted, m, n) {
   if (isHeld()) return; // the end of the drag asks again
   byId("circle-n").value = chosen ?? n;
-  const fill = async (id, text) => { const found = await text; if (mine === round) byId(id).querySelector("div").innerHTML = found; };
-  const tell = (id) => (error) => { byId(id).querySelector("div").textContent = error.message; };
-  if (byId("circle").open) fill("circle", well.ask("circle", m, chosen ?? n).then((found) => showCircle(found, colorOf))).catch(tell("circle"));
-  if (byId("intervals").open) fill("intervals", well.ask("intervals", m, 1, Math.min(Math.max(n, 5) + 1, 12)).then((found) => showIntervals(found, m, colorOf))).catch(tell("intervals"));
+  const fill = async (id, show, ...question) => {
+    const box = byId(id).querySelector("div");
+    box.textContent = byId(id).open ? "Computing …" : "";
+    if (!byId(id).open) return;
+    try {
+      const found = await well.ask(id, m, ...question);
+      if (isWanted()) box.innerHTML = show(found);
+    } catch (error) { if (isWanted()) box.textContent = error.message; }
+  };
+  fill("circle", (found) => showCircle(found, colorOf), chosen ?? n);
+  fill("intervals", (found) => showIntervals(found, m, colorOf), 1, Math.min(Math.max(n, 5) + 1, 12));
 }
 
 function showSame() {
@@ -201,8 +219,8 @@ function goTo(next) {
 }
 
 const saveDialog = () => dialogs.save([
-  ["PNG", async () => files.download(await files.png(plane, deep), "hopper.png")],
-  ["SVG", async () => files.download(await files.svg(plane, deep), "hopper.svg")],
+  ["PNG", async (wait) => files.download(await files.png(plane, deep, wait), "hopper.png")],
+  ["SVG", async (wait) => files.download(await files.svg(plane, deep, wait), "hopper.svg")],
   ["CSV", async () => files.download(await files.csv(pool, desk, deep), "hopper.csv")],
   ["the orbit as CSV", async () => files.download(files.orbitCsv(shown, deep), "hopper-orbit.csv")],
   ["the map as SVG", async () => savePanel("map")],

@@ -11,6 +11,8 @@ const RATE = (2 * Math.PI) / 1.2;
 const NEAR = 0.35;
 const SLOW = 0.2;
 const FRAME = 1 / 24;
+/** Parts of a drawn curve: more than it has pixels. */
+const PARTS = 1000;
 
 const HOPPERS = {
   none: null,
@@ -79,22 +81,38 @@ function events() {
   return found;
 }
 
+/** The samples of a curve: all, or of many the lowest and the highest of each part. */
+function extremes(value) {
+  const found = [];
+  const wide = Math.ceil(count() / PARTS);
+  for (let from = 0; from < count(); from += wide) {
+    let [low, high] = [from, from];
+    for (let k = from; k < Math.min(from + wide, count()); k++) {
+      if (value(k) < value(low)) low = k;
+      if (value(k) > value(high)) high = k;
+    }
+    found.push(Math.min(low, high));
+    if (low !== high) found.push(Math.max(low, high));
+  }
+  return found;
+}
+
 function draw() {
   if (!samples) return;
   const [length, second] = units ? [units.length, units.time] : [1, 1];
-  const column = (which) => Array.from({ length: count() }, (_, k) => [field(k, 0) * second, field(k, which) * length]);
-  const [upper, lower] = [column(3), column(5)];
+  const curve = (which) => extremes((k) => field(k, which)).map((k) => [field(k, 0) * second, field(k, which) * length]);
+  const [upper, lower] = [curve(3), curve(5)];
   const values = [...upper, ...lower].map(([, y]) => y);
   const [low, high] = [Math.min(...values), Math.max(...values)];
-  const end = upper.at(-1)[0];
+  const end = field(count() - 1, 0) * second;
   const drawing = new Drawing({ x: [0, end || 1], y: [low - 0.06 * (high - low), high + 0.08 * (high - low)], height: 300, margin: [170, 34],
     xName: units ? "time (s)" : "time τ (1/ω)", yName: "", title: `Heights of both masses over ${state.hops} hops` });
   drawing.curve([[0, 0], [end, 0]], "currentColor", 0.5).curve(upper, "var(--upper)").curve(lower, "var(--lower)");
   const all = events();
   for (const event of all) if (event.sudden) drawing.dot(event.time * second, 0, "var(--lower)", 4);
   // The spring keeps a part of its length where it is shortest; the relaxed length is not a number of the model.
-  const stretch = Array.from({ length: count() }, (_, k) => field(k, 3) - field(k, 5));
-  stage = { drawing, second, length, shortest: Math.min(...stretch), highest: Math.max(...upper.map(([, y]) => y / length)), events: all };
+  const stretch = (k) => field(k, 3) - field(k, 5);
+  stage = { drawing, second, length, shortest: Math.min(...extremes(stretch).map(stretch)), highest: Math.max(...upper.map(([, y]) => y / length)), events: all };
   const cursor = `<line id="cursor" y1="${drawing.top}" y2="${drawing.bottom}" stroke="currentColor" stroke-opacity=".6"/>`;
   const machine = `<g stroke="currentColor" fill="none"><path d="M10 282h110M14 290l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8m4 8l8-8"/>
     <path id="spring" stroke-width="1.6"/><rect id="lower" width="52" rx="2" fill="var(--lower)"/><rect id="upper" width="52" rx="2" fill="var(--upper)"/></g>

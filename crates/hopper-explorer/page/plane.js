@@ -33,6 +33,14 @@ export class Plane {
     return { width: this.box.width * ratio, height: this.box.height * ratio };
   }
 
+  /** The parts of the picture: all, those that are there, and those that failed. */
+  get parts() {
+    if (this.overlay) return this.overlay.parts;
+    const all = needed(state.view, state.layer, this.#pixels(), { x: 0, alpha: 0 });
+    const failed = all.filter((tile) => this.store.hasFailed(tile)).length;
+    return { all: all.length, there: all.filter((tile) => this.store.isFine(tile)).length - failed, failed };
+  }
+
   #request() {
     const centre = { x: (state.view.x[0] + state.view.x[1]) / 2, alpha: (state.view.alpha[0] + state.view.alpha[1]) / 2 };
     const focus = this.focus ?? centre;
@@ -62,7 +70,7 @@ export class Plane {
       const found = await promise;
       if (!found.stopped) this.store.put(tile, { bitmap: found.bitmap });
     } catch (error) {
-      // A tile without a picture stays empty; it is not asked for again.
+      // A tile without a picture is marked; it is not asked for again.
       this.store.put(tile, { bitmap: null, error: error.message });
       say(`A part of the picture is missing: ${error.message}`);
     }
@@ -80,7 +88,28 @@ export class Plane {
     this.frames += 1;
     fitLetters();
     paint(this.context, this, ratio);
+    const { all, there, failed } = this.parts;
+    const progress = document.getElementById("progress");
+    progress.hidden = there === all;
+    progress.textContent = `${there} of ${all} parts${failed ? `; red: ${failed} failed` : ""}`;
   }
+}
+
+/** Marks a part that is not computed, or red one that failed: no fate is drawn in lines. */
+export function hatch(context, left, top, width, height, failed = false) {
+  context.save();
+  context.beginPath();
+  context.rect(left, top, width, height);
+  context.clip();
+  context.beginPath();
+  for (let x = left - height; x < left + width; x += 8) {
+    context.moveTo(x, failed ? top : top + height);
+    context.lineTo(x + height, failed ? top + height : top);
+  }
+  context.lineWidth = 1;
+  context.strokeStyle = failed ? "#d03a2b" : "#888";
+  context.stroke();
+  context.restore();
 }
 
 /** Draws all into a context of the canvas's size. */
@@ -114,14 +143,15 @@ function paintTiles(context, plane, box) {
   const snap = (value) => Math.round(value * ratio) / ratio;
   for (const tile of needed(state.view, state.layer, pixels, { x: 0, alpha: 0 })) {
     const picture = plane.store.best(tile);
-    if (!picture) continue;
     const { x, alpha } = windowOf(tile);
     const from = place(state.view, x[0], alpha[1], box);
     const to = place(state.view, x[1], alpha[0], box);
     const [left, top] = [snap(MARGIN.left + from.left), snap(MARGIN.top + from.top)];
     const [right, bottom] = [snap(MARGIN.left + to.left), snap(MARGIN.top + to.top)];
     context.imageSmoothingEnabled = (right - left) * ratio < SIZE;
-    context.drawImage(picture.bitmap, picture.left, picture.top, picture.size, picture.size, left, top, right - left, bottom - top);
+    if (picture) context.drawImage(picture.bitmap, picture.left, picture.top, picture.size, picture.size, left, top, right - left, bottom - top);
+    const failed = plane.store.hasFailed(tile);
+    if (failed || !picture) hatch(context, left, top, right - left, bottom - top, failed);
   }
 }
 

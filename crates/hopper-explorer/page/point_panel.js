@@ -20,12 +20,6 @@ for (const input of [m, alpha]) {
   });
 }
 
-/** The panel before a point is pinned. */
-export function showNothing() {
-  document.getElementById("fate").innerHTML = `<p class="soft">Click the plane, or press Enter, to pin a point.</p>`;
-  document.querySelector("#orbit div").replaceChildren();
-}
-
 /** Writes the pinned numbers, but not over a text that someone is typing. */
 export function showPin() {
   const show = (input, number) => { if (!typed.has(input)) input.value = number === undefined ? "" : String(number); };
@@ -62,7 +56,8 @@ export function showProof({ fate }, { fate: proved }) {
   document.getElementById("proof").textContent = text;
 }
 
-export function showError(text) {
+/** A sentence in place of a fate. */
+export function showSentence(text) {
   const line = document.createElement("p");
   line.textContent = text;
   document.getElementById("fate").replaceChildren(line);

@@ -24,7 +24,8 @@ export class Pool {
   #start(member) {
     member.worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
     member.worker.onmessage = ({ data }) => this.#hear(member, data);
-    member.worker.onerror = () => this.#replace(member);
+    // An event without a message: the script itself did not come.
+    member.worker.onerror = ({ message }) => this.#replace(member, message ?? "worker.js cannot be loaded");
     this.#tell(member, (module) => ({ module }));
   }
 
@@ -46,9 +47,10 @@ export class Pool {
     this.#feed();
   }
 
-  /** A new worker for one that is dead; its job is tried once more. */
+  /** Ends a worker. Its job is tried once more; the next job starts a new worker. */
   #replace(member, reason = "the worker does not answer") {
     member.worker.terminate();
+    member.worker = null;
     const job = member.job;
     member.job = null;
     if (job) {
@@ -56,7 +58,6 @@ export class Pool {
       if (job.tries < 2) this.queue.unshift(job);
       else job.fail(new Error(reason));
     }
-    this.#start(member);
     this.#feed();
   }
 

@@ -20,16 +20,29 @@ export function parameters(deep) {
   return `Passive hopper, ${depth ? "shares about an edge" : LAYERS[layer]}: ${window}${point}`;
 }
 
-export async function png(plane, deep) {
+/** Waits for the parts of the picture, as long as `wait` says so. The texts are those of the picture that is painted next. */
+async function complete(plane, deep, wait) {
+  for (;;) {
+    const { all, there, failed } = plane.parts;
+    if (there + failed >= all) return { words: parameters(deep) + (failed ? `; unfinished: ${failed} of ${all} parts failed` : ""), source: address() };
+    if (!wait(`Waiting for the picture: ${there} of ${all} parts …`)) throw new Error("given up");
+    await new Promise((done) => setTimeout(done, 100));
+  }
+}
+
+export async function png(plane, deep, wait) {
+  const { words, source } = await complete(plane, deep, wait);
   const canvas = document.createElement("canvas");
   const ratio = plane.canvas.width / plane.size.width;
   [canvas.width, canvas.height] = [plane.canvas.width, plane.canvas.height];
   paint(canvas.getContext("2d"), plane, ratio);
   const blob = await new Promise((done) => canvas.toBlob(done, "image/png"));
-  return withTexts(blob, { Description: parameters(deep), Source: address() });
+  return withTexts(blob, { Description: words, Source: source });
 }
 
-export async function svg(plane, deep) {
+export async function svg(plane, deep, wait) {
+  const { words, source } = await complete(plane, deep, wait);
+  plane.draw();
   const { size, box } = plane;
   const ratio = plane.canvas.width / size.width;
   const inside = document.createElement("canvas");
@@ -37,7 +50,7 @@ export async function svg(plane, deep) {
   inside.getContext("2d").drawImage(plane.canvas, MARGIN.left * ratio, MARGIN.top * ratio, inside.width, inside.height, 0, 0, inside.width, inside.height);
   const escape = (text) => text.replace(/[&<>]/g, (sign) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[sign]);
   const text = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${size.width} ${size.height}" font-family="sans-serif" font-size="${letterSize()}">
-<title>${escape(parameters(deep))}</title><desc>${escape(address())}</desc><rect width="100%" height="100%" fill="#fff"/>
+<title>${escape(words)}</title><desc>${escape(source)}</desc><rect width="100%" height="100%" fill="#fff"/>
 <image x="${MARGIN.left}" y="${MARGIN.top}" width="${box.width}" height="${box.height}" preserveAspectRatio="none" style="image-rendering:pixelated" href="${inside.toDataURL("image/png")}"/>
 <rect x="${MARGIN.left}" y="${MARGIN.top}" width="${box.width}" height="${box.height}" fill="none" stroke="#000"/>
 ${svgAxes(axesOf(plane))}
@@ -49,13 +62,14 @@ ${svgAxes(axesOf(plane))}
 export async function csv(pool, desk, deep) {
   if (state.depth) throw new Error("the deep view has shares, no table; save it as PNG or SVG");
   if (state.layer === 2) throw new Error("the coverage layer has shares, no table; show fates or hops to save one");
-  const { x, alpha, logarithmic } = state.view;
-  const job = { layer: state.layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true };
+  const { view: { x, alpha, logarithmic }, layer } = state;
+  // Now: the view may have changed when the answers come.
+  const lines = [`# ${parameters(deep)}`, `# ${address()}`, `M,alpha,${["label", "hops", "", "label,proved"][layer]}`];
+  const job = { layer, logarithmic, x, alpha, columns: TABLE, rows: TABLE, values: true };
   const places = await desk.ask("places", job);
   const { values } = await pool.ask("tile", job);
   // A proved label has a bit above its code.
-  const valueOf = state.layer === 3 ? (value) => `${value & 0xffff},${value >> 16}` : String;
-  const lines = [`# ${parameters(deep)}`, `# ${address()}`, `M,alpha,${["label", "hops", "", "label,proved"][state.layer]}`];
+  const valueOf = layer === 3 ? (value) => `${value & 0xffff},${value >> 16}` : String;
   for (let column = 0; column < TABLE; column++) {
     for (let row = 0; row < TABLE; row++) lines.push(`${places[column]},${places[TABLE + row]},${valueOf(values[column * TABLE + row])}`);
   }

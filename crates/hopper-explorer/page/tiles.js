@@ -59,6 +59,9 @@ export class TileStore {
     return found !== undefined && (!found.bitmap || found.bitmap.width === SIZE);
   }
 
+  /** Whether no picture can be had. */
+  hasFailed(tile) { return this.tiles.get(keyOf(tile))?.bitmap === null; }
+
   /** Whether there is something of this layer to show until the fine picture comes. */
   isCoarse(tile) {
     const { up } = this.#best(tile) ?? { up: Infinity };

@@ -391,6 +391,181 @@ onPage("a table holds the labels of its places", "#lin=0.1,0.3,4.5,9", async (pa
   assert.equal(fate.label, label);
 });
 
+/** From now on questions of a kind wait until `answer` is called in the page, or fail for a reason. */
+const hold = (page, pool, kind, reason = null) => page.evaluate(([name, kind, reason]) => {
+  const pool = { pool: explorer.pool, desk: explorer.desk, well: explorer.deep.desk }[name];
+  const ask = Object.getPrototypeOf(pool).ask.bind(pool);
+  const gate = new Promise((open) => { window.answer = () => { delete pool.ask; open(); }; });
+  pool.ask = (asked, ...question) => {
+    if (asked !== kind) return ask(asked, ...question);
+    return Object.assign(reason ? Promise.reject(new Error(reason)) : gate.then(() => ask(asked, ...question)), { id: -1 });
+  };
+}, [pool, kind, reason]);
+/** The colours in the middle of the picture. */
+const middle = (page) => page.evaluate(() => {
+  const { canvas, context } = explorer.plane;
+  const { data } = context.getImageData(canvas.width / 2 - 40, canvas.height / 2 - 40, 80, 80);
+  return [...new Set(new Uint32Array(data.buffer))].map((color) => [color & 255, (color >> 8) & 255, (color >> 16) & 255]);
+});
+const isGray = ([red, green, blue]) => Math.max(red, green, blue) - Math.min(red, green, blue) < 10;
+const isRed = ([red, green]) => red > 180 && green < 110;
+const progressIs = (page, pattern) => page.waitForFunction((source) => new RegExp(source).test(document.getElementById("progress").textContent), pattern.source, READY);
+/** Windows of one fate, decaying: white, as light paper is. No other test asks for them. */
+const WHITE = { logarithmic: false, x: [0.2, 0.201], alpha: [2, 2.01] };
+const OTHER = { logarithmic: false, x: [0.3, 0.301], alpha: [2, 2.01] };
+
+for (const colorScheme of ["light", "dark"]) {
+  onPage(`a part without its tile is hatched, and one that failed is red (${colorScheme})`, "", async (page) => {
+    assert.ok(await page.isHidden("#progress"));
+    await hold(page, "pool", "tile");
+    await page.evaluate((view) => explorer.change({ view }), WHITE);
+    await progressIs(page, /^0 of \d+ parts$/);
+    const waiting = await middle(page);
+    assert.ok(waiting.length > 1 && waiting.every(isGray), JSON.stringify(waiting));
+    await page.evaluate(() => answer());
+    await page.waitForSelector("#progress", { state: "hidden", ...READY });
+    assert.deepEqual(await middle(page), [[255, 255, 255]]);
+    await hold(page, "pool", "tile", "no worker");
+    await page.evaluate((view) => explorer.change({ view }), OTHER);
+    await progressIs(page, /^0 of (\d+) parts; red: \1 failed$/);
+    assert.ok((await middle(page)).some(isRed));
+    assert.match(await said(page), /A part of the picture is missing: no worker/);
+  }, { colorScheme });
+}
+
+onPage("a deep view is hatched until its frame comes, and red if it failed", "", async (page) => {
+  await hold(page, "well", "depthFrame");
+  await page.evaluate(() => explorer.deep.open(0.12, 11.920553918335775, 20));
+  await progressIs(page, /^0 of 2 parts$/);
+  assert.ok((await middle(page)).some(([red, green, blue]) => red === 0x88 && green === 0x88 && blue === 0x88));
+  await page.evaluate(() => answer());
+  await page.waitForSelector("#progress", { state: "hidden", ...READY });
+  await hold(page, "well", "depthFrame", "no frame");
+  await page.evaluate(() => explorer.deep.open(0.12, 11.920553918335775, 30));
+  await progressIs(page, /red: 1 failed/);
+  assert.ok((await middle(page)).some(isRed));
+});
+
+onPage("a saved picture waits for its parts, and names those that failed", "", async (page) => {
+  await hold(page, "pool", "tile");
+  await page.evaluate((view) => explorer.change({ view }), WHITE);
+  const file = saved(page, "PNG");
+  await page.waitForFunction(() => /^Waiting for the picture: 0 of \d+ parts/.test(document.getElementById("saved")?.textContent));
+  await page.evaluate(() => answer());
+  const png = await file;
+  assert.ok(png.includes("M from 0.2 to 0.201") && !png.includes("unfinished"));
+  assert.deepEqual(await page.evaluate(() => explorer.plane.parts.there === explorer.plane.parts.all), true);
+  await hold(page, "pool", "tile", "no worker");
+  await page.evaluate((view) => explorer.change({ view }), OTHER);
+  await progressIs(page, /failed/);
+  assert.match((await saved(page, "SVG")).toString(), /<title>.*M from 0\.3 to 0\.301.*; unfinished: (\d+) of \1 parts failed<\/title>/);
+});
+
+onPage("a picture that waits is given up with its dialog", "", async (page) => {
+  await hold(page, "pool", "tile");
+  await page.evaluate((view) => explorer.change({ view }), WHITE);
+  let downloads = 0;
+  page.on("download", () => { downloads += 1; });
+  await page.keyboard.press("s");
+  await page.click('#dialog button:text-is("PNG")');
+  await page.waitForFunction(() => /^Waiting/.test(document.getElementById("saved").textContent));
+  await page.keyboard.press("Escape");
+  await page.evaluate(() => answer());
+  await settled(page);
+  await page.waitForTimeout(500);
+  assert.equal(downloads, 0);
+});
+
+onPage("a table has the words of its numbers, although the view moved on", "#lin=0.1,0.3,4.5,9", async (page) => {
+  await hold(page, "desk", "places");
+  const file = saved(page, "CSV");
+  await page.waitForFunction(() => document.getElementById("saved")?.textContent === "Computing …");
+  await page.evaluate(() => { explorer.change({ view: { logarithmic: false, x: [0.5, 0.6], alpha: [5, 6] }, layer: 1 }); answer(); });
+  const lines = (await file).toString().split("\n");
+  assert.match(lines[0], /fate: M from 0\.1 to 0\.3/);
+  assert.match(lines[1], /#lin=0\.1,0\.3,4\.5,9/);
+  assert.equal(lines[2], "M,alpha,label");
+});
+
+onPage("a motion of many samples is drawn with its extremes, beside its fate", "#pin=0.2,5000", async (page) => {
+  await page.waitForSelector("#stage svg", READY);
+  assert.match(await page.textContent("#fate .verdict"), /decaying/);
+  const { samples, highest, drawn, top } = await page.evaluate(async () => {
+    const motion = await explorer.desk.ask("motion", 0.2, 5000, explorer.state.hops);
+    let highest = 0;
+    for (let k = 4; k < motion.length; k += 7) highest = Math.max(highest, motion[k]);
+    const path = document.querySelector("#stage path[stroke='var(--upper)']").getAttribute("d");
+    const heights = path.slice(1).split("L").map((point) => Number(point.split(" ")[1]));
+    return { samples: (motion.length - 1) / 7, highest, drawn: heights.length, top: Math.min(...heights) };
+  });
+  assert.ok(samples > 100_000 && drawn > 1000 && drawn <= 2000, `${samples} ${drawn}`);
+  // The frame reaches 8 % of the span above the highest sample.
+  assert.ok(highest > 1000 && top > 12 && top < 40, `${highest} ${top}`);
+});
+
+onPage("beside new numbers stands no old fate", "#pin=0.2,7", async (page) => {
+  await page.evaluate(() => { document.getElementById("circle").open = true; document.getElementById("orbit").open = true; });
+  await page.waitForSelector("#circle svg", READY);
+  await hold(page, "desk", "pinned");
+  await page.evaluate(() => explorer.change({ pin: { m: 0.3, alpha: 8 } }));
+  await page.waitForFunction(() => document.getElementById("fate").textContent === "Computing …");
+  assert.deepEqual([await page.inputValue("#pin-m"), await page.inputValue("#pin-alpha")], ["0.3", "8"]);
+  for (const part of ["#stage svg", "#map svg", "#orbit table", "#circle svg"]) assert.equal(await page.$(part), null, part);
+  // The answer about a point is not shown when another is pinned before it comes.
+  await page.evaluate(() => {
+    window.seen = [];
+    explorer.plane.canvas.addEventListener("panels", ({ detail }) => seen.push(detail.alpha));
+    explorer.change({ pin: { m: 0.4, alpha: 4.55 } });
+  });
+  await page.waitForFunction(() => document.getElementById("pin-m").value === "0.4");
+  await page.evaluate(() => answer());
+  await page.waitForSelector("#map svg", READY);
+  assert.deepEqual(await page.evaluate(() => seen), [4.55]);
+  await page.waitForSelector("#circle svg", READY);
+});
+
+/** What a page says that cannot start. */
+async function refusal(address, { init, missing, javaScriptEnabled = true }) {
+  const context = await browser.newContext({ javaScriptEnabled, serviceWorkers: "block" });
+  const page = await context.newPage();
+  if (init) await page.addInitScript(init);
+  if (missing) await context.route(`**/${missing}`, (route) => route.fulfill({ status: 404 }));
+  await page.goto(address);
+  for (let k = 0; k < 100 && (await said(page)).startsWith("Loading"); k++) await page.waitForTimeout(100);
+  const text = await said(page);
+  await context.close();
+  return text;
+}
+const oneFile = String(pathToFileURL(process.env.EXPLORER_FILE));
+const folder = String(pathToFileURL(join(process.env.EXPLORER_SITE, "index.html")));
+for (const [name, address, how, sentence] of [
+  ["WebAssembly", url, { init: "delete window.WebAssembly" }, /cannot start: .*WebAssembly/],
+  ["WebAssembly, as one file", oneFile, { init: "delete window.WebAssembly" }, /cannot start: .*WebAssembly/],
+  ["JavaScript", url, { javaScriptEnabled: false }, /needs JavaScript/],
+  ["a server", folder, {}, /cannot start: .*main\.js.*cannot be loaded.*explorer\.html/],
+  ["core.wasm", url, { missing: "core.wasm" }, /core cannot be loaded/],
+  ["main.js", url, { missing: "main.js" }, /cannot start: .*main\.js.*cannot be loaded/],
+  ["tiles.js", url, { missing: "tiles.js" }, /cannot start: .*cannot be loaded/],
+]) {
+  test(`without ${name} the page says what it needs`, { timeout: 60_000 }, async () => {
+    assert.match(await refusal(address, how), sentence);
+  });
+}
+
+test("without the script of its workers the picture is red, and no worker starts for ever", { timeout: 60_000 }, async () => {
+  const context = await browser.newContext({ serviceWorkers: "block" });
+  let asked = 0;
+  await context.route("**/worker.js", (route) => { asked += 1; return route.fulfill({ status: 404 }); });
+  const page = await context.newPage();
+  await page.goto(url);
+  await progressIs(page, /^0 of (\d+) parts; red: \1 failed$/);
+  assert.match(await said(page), /worker\.js cannot be loaded/);
+  const before = asked;
+  await page.waitForTimeout(1000);
+  assert.equal(asked, before);
+  await context.close();
+});
+
 onPage("it works offline", "", async (page) => {
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.waitForFunction(async () => (await (await caches.open("hopper-explorer")).keys()).length > 20);
