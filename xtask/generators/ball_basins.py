@@ -8,8 +8,8 @@ Let every interval [l, r] of a list have a fate, n (convergence to alpha*_n) or 
 Then each speed has the fate of its interval. Its orbit does not increase, and is grounded or converges from above to some alpha*_m
 (docs/theory.md, Theorem 24). It stays in the intervals of one fate. They are closed and finitely many, so that alpha*_m is in one of them.
 
-Two things are taken from docs/theory.md where signs cannot decide, next to alpha*_n: on its right f stays above it (Theorems 67 and 71), and on its
-left f rises (Theorem 81).
+Next to alpha*_n signs of heights cannot decide. On its right f stays above it, by `right_of_star.py`. On its left f rises, which is taken from
+docs/theory.md (Theorem 81).
 """
 
 from bisect import bisect_right
@@ -17,13 +17,10 @@ from bisect import bisect_right
 from flint import arb, ctx
 
 from ball_hops import Hop, Undecided, parameter, square_bounds
+from right_of_star import stays_above
 
-# A left end so near alpha*_n is taken as alpha*_n: Theorem 67 covers what is between.
+# A left end so near alpha*_n is taken as alpha*_n: what is between is shown with it.
 AT_STAR = 1e-12
-# Theorem 67: for 0 <= delta <= 0.1 a hop loses at most 1.15 lambda delta^(4/3).
-RIGHT_REACH, RIGHT_CONSTANT = "0.1", "1.15"
-# Theorem 71: hops up to this speed lose less than all of it.
-SMALL_HOP = 0.3
 # Theorem 81: so far left of alpha*_n the map rises, for all M and for M <= 1. Corollary 93: in the second range it falls with kappa.
 LEFT_REACH, LEFT_REACH_LIGHT = "0.0109", "0.0586"
 # Most parts of an interval, and hops of a single speed. At M = 3, where slopes reach thousands, an interval needs some ten thousand parts.
@@ -150,17 +147,9 @@ class Basins:
         return parts
 
     def stays_right_of(self, n, high):
-        """f(alpha) > alpha*_n for alpha*_n < alpha <= high, by the expansion there."""
-        if n == 0:
-            return high <= SMALL_HOP
-        a, delta = star(n), arb(high) - star(n)
-        if not delta <= arb(RIGHT_REACH):
-            return False
+        """f(alpha) > alpha*_n for alpha*_n < alpha <= high."""
         kappa = self.kappas[0].union(self.kappas[1])
-        mu = kappa * (1 - kappa)
-        beta = (12 * a * a / (1 + a * a)).root(3)
-        loss = mu * a * beta**4 / 8
-        return loss * delta.root(3) * arb(RIGHT_CONSTANT) < 1
+        return stays_above(n, star(n), high, kappa * (1 - kappa))
 
     def square_bounds(self, low, high, kappas):
         """Bounds of F over speeds from `low` to `high`."""

@@ -2,12 +2,13 @@
 
 The format is that of docs/certificates.md. Every line is read, and what joins the lines is checked: their number, that strips and boxes
 leave no gap, the sums of lengths and areas. Each claim (an interval, a point, a box, a trap) is then confirmed in ball arithmetic, or with
---sample a random choice of so many claims of a file; the sentence about such a file begins with "sampled". What the lines prove is derived from
-them, compared with the statement of the file and with the manifest `statements.json`, and printed. The exit status is 0 if all is confirmed. Otherwise it is 1, and the first line that
-is not confirmed is named with the reason.
+--sample a random choice of so many claims of a file; the sentence about such a file begins with "sampled". What the lines prove is derived
+from them, compared with the statement of the file and with the manifest `statements.json`, and printed. The exit status is 0 if all is confirmed.
+Otherwise it is 1, and the first line that is not confirmed is named with the reason.
 """
 
 import argparse
+import hashlib
 import json
 import math
 import os
@@ -19,14 +20,11 @@ from flint import ctx
 
 from ball_basins import BITS, Refuted, Unconfirmed
 from ball_hops import Undecided
-from claims import FIELDS, KINDS
+from claims import KINDS, wrong_field
 from statements import compare, sentence
 from whole_theorems import WHOLE
 
 FORMAT, VERSION = "passive hopper certificate", 2
-
-
-HEADER = {"format", "version", "theorem", "statement", "lines"}
 
 
 def once(pairs):
@@ -48,22 +46,23 @@ def no_constant(text):
     raise ValueError(f"{text} is no number of a certificate")
 
 
-def lines_of(path):
-    """The header, then (number of the line, object)."""
-    with open(path, encoding="utf-8") as file:
+def lines_of(path, digest):
+    """The header, then (number of the line, object). All bytes go into the digest."""
+    with open(path, "rb") as file:
         for number, text in enumerate(file, 1):
+            digest.update(text)
             try:
-                line = json.loads(text, object_pairs_hook=once, parse_float=finite, parse_constant=no_constant)
+                line = json.loads(text.decode("utf-8"), object_pairs_hook=once, parse_float=finite, parse_constant=no_constant)
             except (ValueError, RecursionError) as error:
                 raise Refuted(f"line {number}: no JSON ({error})")
             if not isinstance(line, dict):
                 raise Refuted(f"line {number}: no object")
-            wanted = HEADER if number == 1 else FIELDS.get(line.get("kind") if isinstance(line.get("kind"), str) else None)
-            if wanted is not None and set(line) != wanted:
-                raise Refuted(f"line {number}: its fields are {sorted(line)}, not {sorted(wanted)}")
-            for name, value in line.items():
-                if value is None and name != "beyond":
-                    raise Refuted(f"line {number}: {name} is null")
+            kind = None if number == 1 else line.get("kind")
+            if number > 1 and not isinstance(kind, str):
+                raise Refuted(f"line {number}: its kind is no text")
+            wrong = wrong_field(kind, line)
+            if wrong:
+                raise Refuted(f"line {number}: {wrong}")
             yield number, line
 
 
@@ -91,7 +90,8 @@ def check(path, sample, seed, found=None):
 
     `sample` is the number of claims to confirm, or a list of their places, or None for all. What the file proves goes into `found`.
     """
-    lines = lines_of(path)
+    digests = [hashlib.sha256(), hashlib.sha256()]
+    lines = lines_of(path, digests[0])
     header = read_header(lines)
     whole = WHOLE[header["theorem"]]()
     counts = []
@@ -105,18 +105,18 @@ def check(path, sample, seed, found=None):
         raise Refuted(f"line {len(counts) + 1}: {len(counts)} lines follow the header, which says {header.get('lines')}")
     guarded(len(counts) + 1, whole.end)
     derived = guarded(len(counts) + 1, whole.derived)
-    scope = compare(header, derived)
+    scope = guarded(1, compare, header, derived)
     if found is not None:
         found.update(derived)
+    total, all_below = sum(counts), True
     if header["theorem"] == "everything-hops":
-        rest_on_rising(path, derived, sample if not isinstance(sample, list) else 0, seed)
-    total = sum(counts)
+        all_below = guarded(1, rest_on_rising, path, derived, sample if not isinstance(sample, list) else 0, seed)
     if sample is None or isinstance(sample, list):
         chosen = sample
     else:
         chosen = None if sample >= total else sorted(random.Random(seed).sample(range(total), sample))
     confirmed, before, shared = 0, 0, {}
-    lines = lines_of(path)
+    lines = lines_of(path, digests[1])
     next(lines)
     at = 0
     for (number, line), count in zip(lines, counts):
@@ -131,8 +131,13 @@ def check(path, sample, seed, found=None):
         # A line may prepare what those after it need.
         guarded(number, KINDS[line["kind"]].confirm, line, wanted, shared)
         confirmed += len(wanted)
-    word = "confirmed" if confirmed == total else "sampled"
-    return f"{word:9} {header['theorem']} ({scope}): {confirmed} of {total} claims; proves: {sentence(derived)}; {whole.means}"
+    if digests[0].digest() != digests[1].digest():
+        raise Refuted("the file changed while it was read")
+    if found is not None:
+        found["is_complete"] = confirmed == total
+    word = "confirmed" if confirmed == total and all_below else "sampled"
+    proved = f"{confirmed} of {total} claims; proves: {sentence(derived)}; {whole.means}"
+    return f"{word:9} {header['theorem']} ({scope}): {proved}; sha256 {digests[0].hexdigest()}"
 
 
 # Certificates that others rest on, which are looked at once: path and time of writing, to what they prove.
@@ -140,23 +145,20 @@ RISING = {}
 
 
 def rest_on_rising(path, derived, sample, seed):
-    """The windows of `everything-hops` rise by the theorem `rising`, whose certificate lies beside it."""
+    """The windows of `everything-hops` rise by the theorem `rising`, whose certificate lies beside it: whether all its claims are confirmed."""
     beside = os.path.join(os.path.dirname(os.path.abspath(path)), "rising.jsonl")
     if not os.path.exists(beside):
         raise Refuted(f"it rests on the certificate of `rising`, and {beside} is not there")
     key = (os.path.realpath(beside), os.stat(beside).st_mtime_ns, sample, seed)
     if key not in RISING:
-        check(beside, sample, seed)
-        whole = WHOLE["rising"]()
-        lines = lines_of(beside)
-        next(lines)
-        for number, line in lines:
-            guarded(number, whole.add, line)
-        RISING[key] = whole.derived()
+        found = {}
+        check(beside, sample, seed, found)
+        RISING[key] = found
     rising = dict(zip(RISING[key]["windows"], RISING[key]["largest_mass_ratios"]))
     for n in range(2, derived["loss_bound"]):
         if rising.get(n, 0) < derived["crisis"][1]:
             raise Refuted(f"`rising` does not show that window {n} rises for M <= {derived['crisis'][1]!r}")
+    return RISING[key]["is_complete"]
 
 
 def main():

@@ -280,24 +280,84 @@ KINDS = {
     "cells": Given,
 }
 
-# The fields of each kind of line: no more and no less.
-FIELDS = {
-    kind: {"kind", *fields.split()}
-    for kind, fields in {
-        "one-sudden": "fixed_point largest_mass_ratio available needed",
-        "trap": "n fixed_point mass_ratio right beyond",
-        "crisis": "n mass_ratio speed",
-        "contact-part": "n mass_ratio speeds least_square",
-        "losses": "multiple_of_pi mass_ratio losses square",
-        "rising-window": "n speeds largest_mass_ratio",
-        "rising-box": "n speeds kappas",
-        "basins": "mass_ratios intervals",
-        "gaps": "gaps",
-        "fraction": "fate humps uniform by_humps",
-        "grid": "mass_ratios speeds columns rows",
-        "speeds": "speeds",
-        "points": "mass_ratio traps fates",
-        "area": "fate share",
-        "cells": "edges of_one_basin",
-    }.items()
+# The shapes of fields: the types of JSON numbers, and of the parts of arrays. The last shape of an array may stand any number of times.
+def is_natural(value):
+    return type(value) is int and 0 <= value < 10**10
+
+
+def is_number(value):
+    return type(value) is float
+
+
+def is_fate(value):
+    return is_natural(value) or type(value) is str and value == GROUNDED
+
+
+def is_pair(value):
+    return type(value) is list and len(value) == 2 and all(map(is_number, value))
+
+
+def some(*shapes):
+    """Arrays of arrays, whose parts have these shapes in turn."""
+    return lambda value: type(value) is list and all(
+        type(part) is list and len(part) == len(shapes) and all(has(own) for has, own in zip(shapes, part)) for part in value
+    )
+
+
+def is_gaps(value):
+    return type(value) is list and all(
+        type(gap) is list and len(gap) >= 2 and is_pair(gap[:2]) and some(is_fate, is_number)(gap[2:]) for gap in value
+    )
+
+
+def is_numbers(value):
+    return type(value) is list and all(map(is_number, value))
+
+
+def is_number_or_null(value):
+    return value is None or is_number(value)
+
+
+def is_text(value):
+    return type(value) is str
+
+
+SHAPES = {
+    is_natural: "a natural number",
+    is_number: "a number with a decimal point",
+    is_pair: "two numbers with decimal points",
 }
+
+# The fields of each kind of line: no more and no less. None is the header.
+FIELDS = {
+    None: {"format": is_text, "version": is_natural, "theorem": is_text, "statement": is_text, "lines": is_natural},
+    "one-sudden": {"fixed_point": is_pair, "largest_mass_ratio": is_number, "available": is_number, "needed": is_number},
+    "trap": {"n": is_natural, "fixed_point": is_pair, "mass_ratio": is_number, "right": is_number, "beyond": is_number_or_null},
+    "crisis": {"n": is_natural, "mass_ratio": is_pair, "speed": is_number},
+    "contact-part": {"n": is_natural, "mass_ratio": is_number, "speeds": is_pair, "least_square": is_number},
+    "losses": {"multiple_of_pi": is_natural, "mass_ratio": is_number, "losses": is_number, "square": is_number},
+    "rising-window": {"n": is_natural, "speeds": is_pair, "largest_mass_ratio": is_number},
+    "rising-box": {"n": is_natural, "speeds": is_pair, "kappas": is_pair},
+    "basins": {"mass_ratios": is_pair, "intervals": some(is_number, is_number, is_fate)},
+    "gaps": {"gaps": is_gaps},
+    "fraction": {"fate": is_fate, "humps": is_natural, "uniform": is_pair, "by_humps": is_pair},
+    "grid": {"mass_ratios": is_pair, "speeds": is_pair, "columns": is_natural, "rows": is_natural},
+    "speeds": {"speeds": is_numbers},
+    "points": {"mass_ratio": is_number, "traps": some(is_number, is_number, is_fate), "fates": some(is_fate, is_natural)},
+    "area": {"fate": is_fate, "share": is_pair},
+    "cells": {"edges": is_numbers, "of_one_basin": is_natural},
+}
+
+
+def wrong_field(kind, line):
+    """What is wrong with the fields of a line of a kind, or None. An unknown kind is found later."""
+    fields = FIELDS.get(kind)
+    if fields is None:
+        return None
+    own = set(line) - {"kind"}
+    if own != set(fields):
+        return f"its fields are {sorted(own)}, not {sorted(fields)}"
+    for name, has in fields.items():
+        if not has(line[name]):
+            return f"{name} is null" if line[name] is None else f"{name} is not {SHAPES.get(has, 'of its shape')}"
+    return None

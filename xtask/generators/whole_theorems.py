@@ -90,16 +90,21 @@ class Crises(Humps):
     KINDS = ("crisis",)
     width = 0.0
 
+    def __init__(self):
+        super().__init__()
+        self.crises = []
+
     def add_crisis(self, line):
         self.next(line)
         low, high = pair(line["mass_ratio"])
+        self.crises.append((low, high))
         require(0 < low and high < 1 and high - low <= CRISIS_WIDTH, "the mass ratio is not enclosed to 1e-13")
         self.width = max(self.width, high - low)
 
     means = "M_c(n) for n = 1 to the number of humps, each enclosed to this width"
 
     def derived(self):
-        return {"humps": self.lines, "width": self.width}
+        return {"humps": self.lines, "width": self.width, "crises": self.crises}
 
 
 class Traps(Whole):

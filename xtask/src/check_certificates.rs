@@ -15,8 +15,9 @@ const PROVED: [&str; 6] =
     ["one-sudden", "one-sided", "crisis", "traps", "everything-hops", "rising"];
 
 /// Small rasters. So few cells leave most of their area open.
-const POINTS: [&str; 3] = ["fig6-points", "--size", "16"];
-const CELLS: [&str; 5] = ["fig6-cells", "--size", "4", "--open", "0.96"];
+const POINTS: [&str; 4] = ["fig6-points", "fig9-points", "--size", "16"];
+const CELLS_OF_FIG_6: [&str; 5] = ["fig6-cells", "--size", "4", "--open", "0.96"];
+const CELLS_OF_FIG_9: [&str; 5] = ["fig9-cells", "--size", "4", "--open", "0.81"];
 
 /// The fractions at one mass ratio, coarse. To confirm a gap takes a second.
 const FRACTIONS: [&str; 5] = ["measures", "--mass-ratio", "0.1", "--width", "1e-3"];
@@ -46,12 +47,15 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         prove.args(arguments).arg("--out").arg(&folder).current_dir(repository());
         prove.status().map_err(|source| Error::Cargo { program: cargo.clone(), source })
     };
-    for arguments in [&PROVED[..], &POINTS[..], &CELLS[..], &FRACTIONS[..]] {
+    for arguments in
+        [&PROVED[..], &POINTS[..], &CELLS_OF_FIG_6[..], &CELLS_OF_FIG_9[..], &FRACTIONS[..]]
+    {
         if !prove(arguments)?.success() {
             return Err(Error::Certificates("prove"));
         }
     }
-    let files = PROVED.iter().chain(&POINTS[..1]).chain(&CELLS[..1]).map(|name| file(name));
+    let files = PROVED.iter().chain(&POINTS[..2]).chain([&CELLS_OF_FIG_6[0], &CELLS_OF_FIG_9[0]]);
+    let files = files.map(|name| file(name));
     let script = |name: &str| {
         let mut command = Command::new(&python);
         command.arg(scripts.join(name)).env("PYTHONDONTWRITEBYTECODE", "1");

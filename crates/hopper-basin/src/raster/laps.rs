@@ -99,7 +99,7 @@ impl LapsOfHump {
         let window =
             rising_window(n + 1).filter(|window| mass_ratio.value() <= window.largest_mass_ratio);
         let contact_end = (n + 1) as f64 * PI;
-        // The proof of a window ends 10⁻³ below α*_{n+1}, and Theorem 81 goes on from there.
+        // The proof of a window ends 0.053 below α*_{n+1}, and Theorem 81 goes on from there.
         let end = window.map_or(contact_end, |_| alpha_star(n + 1));
         let falling = hump.falling(mu)?;
         Ok(LapsOfHump {

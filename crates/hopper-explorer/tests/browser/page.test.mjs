@@ -542,7 +542,7 @@ for (const [name, address, how, sentence] of [
   ["WebAssembly", url, { init: "delete window.WebAssembly" }, /cannot start: .*WebAssembly/],
   ["WebAssembly, as one file", oneFile, { init: "delete window.WebAssembly" }, /cannot start: .*WebAssembly/],
   ["JavaScript", url, { javaScriptEnabled: false }, /needs JavaScript/],
-  ["a server", folder, {}, /cannot start: .*main\.js.*cannot be loaded.*explorer\.html/],
+  ["a server", folder, {}, /cannot start: .*cannot be loaded.*explorer\.html/],
   ["core.wasm", url, { missing: "core.wasm" }, /core cannot be loaded/],
   ["main.js", url, { missing: "main.js" }, /cannot start: .*main\.js.*cannot be loaded/],
   ["tiles.js", url, { missing: "tiles.js" }, /cannot start: .*cannot be loaded/],
