@@ -18,14 +18,14 @@ For n = 0, where a = 0 and Q = t^3 E_3, it reads mu (t^2 (E_3^2/E_4 - E_2))^2 < 
 
 from flint import arb
 
-# Terms of E_k. For t below LONGEST the first one left out is below 10^-40.
-TERMS = 24
+# Terms of E_k. For t below LONGEST the first one left out is below 10^-20.
+TERMS = 16
 # Longest t. The contact part ends at a smaller one than 3.6 for n >= 1; for n = 0 at 2 pi, where balls no longer decide.
 LONGEST = 3.6
 # Most parts of the times of flight. Near the end of a trap both sides are nearly equal; what is left there is followed by a hop instead.
-MOST_PARTS = 12
+MOST_PARTS = 6
 # Steps to the time of a speed, and the part of it that is added for what they leave.
-STEPS, LATER = 8, 1e-6
+STEPS, LATER = 6, 1e-6
 
 
 def stays_above(n, a, high, mu):
