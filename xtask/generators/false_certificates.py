@@ -7,7 +7,8 @@ so that the reason is the change.
 
     python false_certificates.py --random 1000 [--seed S] FOLDER [THEOREM ...]
 
-changes numbers, lines and fields at random instead. A change that passes is harmless if what the file proves is no more than the true file does.
+changes one number of a line at random instead, N times. A change that passes is harmless if what the file proves is no more than the true file
+does, and if the claims of the line hold at twice the precision too. So this finds holes in what joins the claims, and not in how one is checked.
 """
 
 import argparse
