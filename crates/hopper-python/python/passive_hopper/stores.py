@@ -42,26 +42,19 @@ def write_basins(store, job, client=None, progress=None):
     _open_or_make(path, job)
     columns = job[2][0]
     regions = range(-(-columns // REGION))
-    found = {}
-    missing = []
-    for region in regions:
-        codes = _finished(path, job, region)
-        if codes is None:
-            missing.append(region)
-        else:
-            found[region] = codes
-    done = 0
+    missing = [region for region in regions if _verified(path, job, region) is None]
+    found = len(regions) - len(missing)
 
-    def count(region, codes):
-        nonlocal done
-        found[region] = codes
+    def count():
+        nonlocal found
+        found += 1
         if progress is not None:
-            done = min(columns, len(found) * REGION)
-            progress(done, columns)
+            progress(min(columns, found * REGION), columns)
 
     if client is None:
         for region in missing:
-            count(*_write_region(str(path), job, region, None))
+            _write_region(str(path), job, region, None)
+            count()
     else:
         _by_cluster(client, path, job, missing, count)
     _finish(path, job, regions)
@@ -193,24 +186,18 @@ def _read(path, job, region):
         return None
 
 
-def _finished(path, job, region):
-    """The codes that occur in a region, if its labels are those that were computed; None if not."""
-    import numpy
-
+def _verified(path, job, region):
+    """The labels of a region, if they are those that were computed; None if not."""
     labels = _read(path, job, region)
     try:
         note = _note(path, region).read_text()
     except FileNotFoundError:
         return None
-    if labels is None or note != _digest(job, region, labels):
-        return None
-    return set(numpy.unique(labels).tolist())
+    return None if labels is None or note != _digest(job, region, labels) else labels
 
 
 def _write_region(path, job, region, threads):
-    """Computes and writes one region. It returns the region and the codes that occur, so that little travels between machines."""
-    import numpy
-
+    """Computes and writes one region. It returns nothing, so that nothing travels between machines."""
     zarr = _import_zarr()
     begin, end = _columns(job, region)
     M, alpha, shape = job
@@ -223,7 +210,6 @@ def _write_region(path, job, region, threads):
     note.parent.mkdir(exist_ok=True)
     # After the labels: a process that is killed in between leaves a region that is computed again.
     write_whole(note, _digest(job, region, labels).encode())
-    return region, set(numpy.unique(labels).tolist())
 
 
 def _finish(path, job, regions):
@@ -233,12 +219,12 @@ def _finish(path, job, regions):
     zarr = _import_zarr()
     digest, codes = hashlib.sha256(), set()
     for region in regions:
-        labels = _read(path, job, region)
-        if labels is None or _finished(path, job, region) is None:
+        labels = _verified(path, job, region)
+        if labels is None:
             # Another process, or a person, has changed it since: once more.
             _write_region(str(path), job, region, None)
-            labels = _read(path, job, region)
-            if labels is None or _finished(path, job, region) is None:
+            labels = _verified(path, job, region)
+            if labels is None:
                 raise RuntimeError(f"region {region} of {path} changes while it is read ({_file(path, region)}); is the disk damaged?")
         digest.update(labels)
         codes |= set(numpy.unique(labels).tolist())
@@ -266,7 +252,7 @@ def _task(path, job, region, version):
     own = (_native.__version__, int(_native.RASTER_VERSION))
     if own != version:
         raise RuntimeError(f"a worker has passive_hopper {own}, and this process has {version}: install the same version on all")
-    return _write_region(path, job, region, 1)
+    _write_region(path, job, region, 1)
 
 
 def _by_cluster(client, path, job, missing, count):
@@ -287,7 +273,8 @@ def _by_cluster(client, path, job, missing, count):
         for future in futures:
             region = submitted.pop(future)
             try:
-                count(*future.result())
+                future.result()
+                count()
             except KilledWorker as error:
                 if trials[region] >= TRIALS:
                     raise RuntimeError(f"region {region} has lost its worker {TRIALS} times; the others are kept in {path}") from error
