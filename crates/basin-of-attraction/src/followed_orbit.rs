@@ -254,9 +254,8 @@ struct Quarter {
 
 impl Quarter {
     fn see(&mut self, border: Option<Border>) {
-        let excess = |own: &Border| (own.reached - own.border).abs();
         if let Some(border) = border
-            && self.farthest.is_none_or(|own| excess(&border) > excess(&own))
+            && self.farthest.is_none_or(|own| border.excess() > own.excess())
         {
             self.farthest = Some(border);
         }

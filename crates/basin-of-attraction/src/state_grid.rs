@@ -52,8 +52,7 @@ impl StateGrid {
     /// Where a point is farthest outside the region, in lengths of its sides; `None` inside.
     pub(crate) fn beyond(&self, point: &[f64]) -> Option<Border> {
         let sides = self.region.sides();
-        let excess =
-            |own: &Border| (own.reached - own.border).abs() / sides[own.coordinate].length();
+        let excess = |own: &Border| own.excess() / sides[own.coordinate].length();
         let outside =
             |(coordinate, (&reached, side)): (usize, (&f64, &crate::interval::Interval))| {
                 let border = match reached {

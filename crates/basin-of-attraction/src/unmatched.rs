@@ -13,6 +13,13 @@ pub struct Border {
     pub reached: f64,
 }
 
+impl Border {
+    /// How far beyond the border the value is.
+    pub(crate) fn excess(&self) -> f64 {
+        (self.reached - self.border).abs()
+    }
+}
+
 impl fmt::Display for Border {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Border { coordinate, border, reached } = self;
@@ -42,6 +49,18 @@ pub enum UnmatchedReason {
     /// passage, or the attractor is too close to the boundary of its basin for this grid. The same for a group of features and orbits from
     /// beside it.
     NoTrap,
+}
+
+impl UnmatchedReason {
+    /// The border beyond which the orbit went.
+    fn border(&self) -> Option<Border> {
+        match self {
+            UnmatchedReason::LeftRegion(border) | UnmatchedReason::CutByBorder(border) => {
+                Some(*border)
+            }
+            _ => None,
+        }
+    }
 }
 
 impl fmt::Display for UnmatchedReason {
@@ -83,7 +102,7 @@ pub enum Remedy {
     LongerOrbits {
         /// The budget of the search.
         budget: usize,
-        /// How fast the slowest of the orbits still moved, a step.
+        /// How fast the fastest of the orbits still moved, a step.
         drift: f64,
     },
 }
@@ -107,13 +126,8 @@ impl fmt::Display for Remedy {
 pub(crate) fn remedy(unmatched: &[Unmatched], budget: usize, tried: usize) -> Option<Remedy> {
     let reasons = || unmatched.iter().map(|own| own.reason);
     let border = reasons()
-        .filter_map(|reason| match reason {
-            UnmatchedReason::LeftRegion(border) | UnmatchedReason::CutByBorder(border) => {
-                Some(border)
-            }
-            _ => None,
-        })
-        .max_by(|a, b| (a.reached - a.border).abs().total_cmp(&(b.reached - b.border).abs()));
+        .filter_map(|reason| reason.border())
+        .max_by(|a, b| a.excess().total_cmp(&b.excess()));
     let drift = reasons()
         .filter_map(|reason| match reason {
             UnmatchedReason::NotSettled { drift } => Some(drift),
@@ -123,12 +137,7 @@ pub(crate) fn remedy(unmatched: &[Unmatched], budget: usize, tried: usize) -> Op
     let refused = reasons().any(|reason| reason == UnmatchedReason::NoTrap);
     let count = |kind: fn(&UnmatchedReason) -> bool| reasons().filter(kind).count();
     let choices = [
-        (
-            count(|reason| {
-                matches!(reason, UnmatchedReason::LeftRegion(_) | UnmatchedReason::CutByBorder(_))
-            }),
-            border.map(Remedy::LargerRegion),
-        ),
+        (count(|reason| reason.border().is_some()), border.map(Remedy::LargerRegion)),
         (
             count(|reason| *reason == UnmatchedReason::NoTrap),
             refused.then_some(Remedy::MoreCells { tried }),

@@ -24,16 +24,6 @@ fn spiral(factor: f64, angle: f64) -> impl Fn(&[f64]) -> Option<Vec<f64>> {
     move |x| Some(vec![cosine * x[0] - sine * x[1], sine * x[0] + cosine * x[1]])
 }
 
-const LIMITS: RecurrenceLimits = RecurrenceLimits {
-    cells: 100,
-    recurrences: 100,
-    locate: 1000,
-    budget: 100_000,
-    lost: 1000,
-    tests: 200,
-    escape: None,
-};
-
 /// One fixed point, for factors from fast to slow, turns that are rational and irrational parts of a circle, and cells whose corner is
 /// the fixed point or not. All starts belong to it.
 #[test]
@@ -42,7 +32,7 @@ fn a_fixed_point_that_is_approached_slowly_is_one_attractor() {
     for (factor, tests) in [(0.9, 200), (0.99, 200), (0.997, 200), (0.999, 50), (0.9999, 50)] {
         for angle in [0.0, TAU / 3.0, 0.3, 0.3 * TAU] {
             for cells in [20, 100, 101, 1000] {
-                let limits = RecurrenceLimits { cells, tests, ..LIMITS };
+                let limits = RecurrenceLimits { cells, tests, ..RecurrenceLimits::default() };
                 let map = spiral(factor, angle);
                 let points = starts(&square, 4);
                 let found = Attractors::search(&map, square.clone(), &points, limits).unwrap();
@@ -60,7 +50,9 @@ fn a_fixed_point_that_is_approached_slowly_is_one_attractor() {
 fn all_points_of_a_slow_spiral_have_one_label() {
     let square = region(&[(-1.0, 1.0), (-1.0, 1.0)]);
     let map = spiral(0.997, 0.3);
-    let found = Attractors::search(&map, square.clone(), &starts(&square, 20), LIMITS).unwrap();
+    let found =
+        Attractors::search(&map, square.clone(), &starts(&square, 20), RecurrenceLimits::default())
+            .unwrap();
     let counts = region_fractions(&square, 500, 3, |x| found.label(&map, x)).unwrap();
     assert_eq!(found.attractors().len(), 1);
     assert_eq!((counts.undecided(), counts.fraction(Label::from(1)).unwrap().value), (0, 1.0));
@@ -72,7 +64,7 @@ fn an_approach_that_is_too_slow_is_not_settled() {
     let square = region(&[(-1.0, 1.0), (-1.0, 1.0)]);
     for angle in [0.0, 0.3] {
         let map = spiral(1.0 - 1e-6, angle);
-        let limits = RecurrenceLimits { budget: 20_000, ..LIMITS };
+        let limits = RecurrenceLimits { budget: 20_000, ..RecurrenceLimits::default() };
         let found = Attractors::search(&map, square.clone(), &[vec![0.7, 0.4]], limits).unwrap();
         assert!(found.attractors().is_empty());
         let reason = found.unmatched()[0].reason;
@@ -95,13 +87,15 @@ fn two_slow_points_are_two_attractors() {
             Some(vec![x[0] + 1e-3 * x[0] * (1.0 - (x[0] / distance).powi(2)).max(-1.0)])
         };
         let points = [vec![0.3 * distance], vec![-0.3 * distance], vec![1.0], vec![-1.0]];
-        let limits = RecurrenceLimits { cells: 1001, tests: 20, ..LIMITS };
+        let limits = RecurrenceLimits { cells: 1001, tests: 20, ..RecurrenceLimits::default() };
         let found = Attractors::search(&map, line.clone(), &points, limits).unwrap();
         assert_eq!((found.attractors().len(), found.unmatched().len()), (2, 0), "{distance}");
     }
     let cubic = |x: &[f64]| Some(vec![2.0 * x[0] - x[0] * x[0] * x[0]]);
     let near = region(&[(-1.3, 1.3)]);
-    let found = Attractors::search(&cubic, near.clone(), &starts(&near, 20), LIMITS).unwrap();
+    let found =
+        Attractors::search(&cubic, near.clone(), &starts(&near, 20), RecurrenceLimits::default())
+            .unwrap();
     assert_eq!(found.attractors().len(), 2, "{:?}", found.unmatched());
 }
 
@@ -117,7 +111,7 @@ fn a_cycle_longer_than_a_stretch_is_whole() {
             let (a, b) = (factor * x[0], factor * x[1]);
             Some(vec![cosine * a - sine * b, sine * a + cosine * b])
         };
-        let limits = RecurrenceLimits { tests: 20, ..LIMITS };
+        let limits = RecurrenceLimits { tests: 20, ..RecurrenceLimits::default() };
         let points = starts(&square, 4);
         let found = Attractors::search(&map, square.clone(), &points, limits).unwrap();
         assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{period}");
@@ -136,7 +130,7 @@ fn henons_attractor_is_found_with_any_cells() {
     let henon = |p: &[f64]| Some(vec![1.0 - 1.4 * p[0] * p[0] + p[1], 0.3 * p[0]]);
     let square = region(&[(-2.0, 2.0), (-2.0, 2.0)]);
     for cells in [20, 50, 100, 120, 150, 200, 250, 300, 1000] {
-        let limits = RecurrenceLimits { cells, escape: Some(100.0), ..LIMITS };
+        let limits = RecurrenceLimits { cells, escape: Some(100.0), ..RecurrenceLimits::default() };
         let points = starts(&square, 20);
         let found = Attractors::search(&henon, square.clone(), &points, limits).unwrap();
         assert_eq!((found.attractors().len(), found.unmatched().len()), (1, 0), "{cells}");
@@ -152,7 +146,8 @@ fn henons_attractor_is_found_with_any_cells() {
 fn an_attractor_that_the_border_cuts_is_said_to_be_cut() {
     let henon = |p: &[f64]| Some(vec![1.0 - 1.4 * p[0] * p[0] + p[1], 0.3 * p[0]]);
     let cut = region(&[(-2.0, 1.0), (-2.0, 2.0)]);
-    let found = Attractors::search(&henon, cut, &[vec![0.1, 0.1]], LIMITS).unwrap();
+    let found =
+        Attractors::search(&henon, cut, &[vec![0.1, 0.1]], RecurrenceLimits::default()).unwrap();
     assert!(found.attractors().is_empty());
     let reason = found.unmatched()[0].reason;
     let UnmatchedReason::CutByBorder(border) = reason else { panic!("{reason:?}") };
@@ -167,15 +162,18 @@ fn an_attractor_that_the_border_cuts_is_said_to_be_cut() {
 fn a_search_that_finds_none_says_what_would_help() {
     let away = |x: &[f64]| Some(vec![2.0 * x[0]]);
     let line = region(&[(-1.0, 1.0)]);
-    let found = Attractors::search(&away, line.clone(), &[vec![0.5]], LIMITS).unwrap();
+    let found =
+        Attractors::search(&away, line.clone(), &[vec![0.5]], RecurrenceLimits::default()).unwrap();
     let Some(Remedy::LargerRegion(border)) = found.remedy() else { panic!("{found:?}") };
     assert_eq!((border.coordinate, border.border), (0, 1.0));
     // On a coarse grid the boundary of the basin lies in every cell of the attractor.
     let narrow = |x: &[f64]| Some(vec![if x[0].abs() < 1e-4 { 0.5 * x[0] } else { x[0] * 2.0 }]);
-    let found = Attractors::search(&narrow, line.clone(), &[vec![1e-5]], LIMITS).unwrap();
+    let found =
+        Attractors::search(&narrow, line.clone(), &[vec![1e-5]], RecurrenceLimits::default())
+            .unwrap();
     assert!(matches!(found.remedy(), Some(Remedy::MoreCells { tried: 1615 })), "{found:?}");
     // A region with no remedy: all orbits escape.
-    let limits = RecurrenceLimits { escape: Some(10.0), ..LIMITS };
+    let limits = RecurrenceLimits { escape: Some(10.0), ..RecurrenceLimits::default() };
     let found = Attractors::search(&away, line, &[vec![0.5]], limits).unwrap();
     assert_eq!((found.remedy(), found.unmatched().len()), (None, 0));
 }
@@ -194,7 +192,12 @@ fn attractors_whose_orbits_enter_each_other_are_one() {
     };
     let line = region(&[(0.0, 6.0)]);
     for order in [[0.3, 5.0], [5.0, 0.3]] {
-        let limits = RecurrenceLimits { budget: 3_000_000, tests: 1, locate: 100, ..LIMITS };
+        let limits = RecurrenceLimits {
+            budget: 3_000_000,
+            tests: 1,
+            locate: 100,
+            ..RecurrenceLimits::default()
+        };
         let points = order.map(|x| vec![x]);
         let found = Attractors::search(&map, line.clone(), &points, limits).unwrap();
         assert_eq!(found.attractors().len(), 1, "{order:?}: {:?}", found.attractors().len());
