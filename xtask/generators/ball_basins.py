@@ -8,8 +8,7 @@ Let every interval [l, r] of a list have a fate, n (convergence to alpha*_n) or 
 Then each speed has the fate of its interval. Its orbit does not increase, and is grounded or converges from above to some alpha*_m
 (docs/theory.md, Theorem 24). It stays in the intervals of one fate. They are closed and finitely many, so that alpha*_m is in one of them.
 
-Next to alpha*_n signs of heights cannot decide. On its right f stays above it, by `right_of_star.py`. On its left f rises, which is taken from
-docs/theory.md (Theorem 81).
+Next to alpha*_n signs of heights cannot decide. On its right f stays above it, by `right_of_star.py`. On its left f rises, by `left_of_star.py`.
 """
 
 from bisect import bisect_right
@@ -17,12 +16,11 @@ from bisect import bisect_right
 from flint import arb, ctx
 
 from ball_hops import Hop, Undecided, parameter, square_bounds
+from left_of_star import REACH, REACH_LIGHT, rises
 from right_of_star import stays_above
 
 # A left end so near alpha*_n is taken as alpha*_n: what is between is shown with it.
 AT_STAR = 1e-12
-# Theorem 81: so far left of alpha*_n the map rises, for all M and for M <= 1. Corollary 93: in the second range it falls with kappa.
-LEFT_REACH, LEFT_REACH_LIGHT = "0.0109", "0.0586"
 # Most parts of an interval, and hops of a single speed. At M = 3, where slopes reach thousands, an interval needs some ten thousand parts.
 MOST_PARTS = 100000
 MOST_HOPS = 20000
@@ -154,8 +152,8 @@ class Basins:
     def square_bounds(self, low, high, kappas):
         """Bounds of F over speeds from `low` to `high`."""
         above = last_star_below(low) + 1
-        reach = arb(LEFT_REACH_LIGHT if self.light else LEFT_REACH)
-        if not (high < star(above) and star(above) - low <= reach):
+        reach = arb(REACH_LIGHT if self.light else REACH)
+        if not (high < star(above) and star(above) - low <= reach and rises(above, star(above), self.light)):
             return square_bounds((low, high), kappas)
         # Left of alpha*_n the landings nearly coincide, and balls lose the signs of the derivatives. There F rises with alpha, and for M <= 1
         # it falls with kappa.

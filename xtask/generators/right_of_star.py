@@ -16,7 +16,10 @@ mu times the closing speed squared is below alpha^2 - a^2. With P = (a E_3 + t E
 For n = 0, where a = 0 and Q = t^3 E_3, it reads mu (t^2 (E_3^2/E_4 - E_2))^2 < 1 with alpha = t E_4/E_3.
 """
 
-from flint import arb
+from functools import lru_cache
+from math import factorial
+
+from flint import arb, ctx
 
 # Terms of E_k. For t below LONGEST the first one left out is below 10^-20.
 TERMS = 16
@@ -78,15 +81,16 @@ def speed_at(n, a, t):
 
 
 def series(t, k):
-    """E_k of a ball, by Horner's rule, with a bound on what is left out."""
-    square, total = t * t, arb(1)
-    factors = [(2 * j + k + 1) * (2 * j + k + 2) for j in range(TERMS)]
-    for factor in reversed(factors[:-1]):
-        total = 1 - square / factor * total
-    first = arb(1)
-    for factor in range(2, k + 1):
-        first /= factor
-    left_out = first
-    for factor in factors:
-        left_out *= abs(square).upper() / factor
-    return first * total + arb(0, abs(left_out).upper())
+    """E_k of a ball, by Horner's rule, with a bound on what is left out: its terms fall and alternate."""
+    square = t * t
+    *first, last, left_out = coefficients(k, ctx.prec)
+    total = last
+    for coefficient in reversed(first):
+        total = coefficient + square * total
+    return total + arb(0, abs(left_out * square**TERMS).upper())
+
+
+@lru_cache
+def coefficients(k, bits):
+    """Those of E_k, and that of the first term left out."""
+    return [arb((-1) ** j) / factorial(2 * j + k) for j in range(TERMS + 1)]

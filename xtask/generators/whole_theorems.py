@@ -8,14 +8,13 @@ from bisect import bisect_right
 
 from flint import arb
 
-from ball_basins import GROUNDED, Basins, Refuted, star
+from ball_basins import GROUNDED, Basins, Refuted, Unconfirmed, star
 from ball_hops import parameter
 from claims import fate_of, gaps_of, intervals, pair
+from left_of_star import REACH_LIGHT, rises
 
 # Traps end so near a speed that falls below alpha*_n, and crises are enclosed so narrowly.
 TRAP_WIDTH, CRISIS_WIDTH = 1e-12, 1e-13
-# Theorem 81 proves that f rises so far left of alpha*_n, for M <= 1.
-RISES_TO_STAR = "0.0586"
 # The theorem `rising` is for windows 1 to 10, and for M <= 0.9 in all of them.
 RISING_WINDOWS, RISING_MASS_RATIO = 10, 0.9
 # The middle and the edges of a pixel may be rounded so much.
@@ -208,8 +207,10 @@ class Rising(Whole):
     def add_rising_window(self, line):
         n, (low, high) = line["n"], pair(line["speeds"])
         require(n == len(self.windows) + 1, f"window {n!r} is out of order")
-        require(0 < line["largest_mass_ratio"] <= 1, "Theorem 81 has this range for M <= 1")
-        require(low <= n * arb.pi() and arb(high) >= star(n) - arb(RISES_TO_STAR), "the window is not whole")
+        require(0 < line["largest_mass_ratio"] <= 1, "what is next to alpha*_n is shown for M <= 1 alone")
+        require(low <= n * arb.pi() and arb(high) >= star(n) - arb(REACH_LIGHT), "the window is not whole")
+        if not rises(n, star(n), True):
+            raise Unconfirmed(f"f rises next to alpha*_{n}")
         self.windows.append((n, line["largest_mass_ratio"], (low, high), []))
 
     def add_rising_box(self, line):
@@ -227,7 +228,7 @@ class Rising(Whole):
             gap = uncovered((low, high, 0.0, last), boxes)
             require(gap is None, f"the boxes of window {n} leave a gap: speeds {gap and gap[:2]}, kappa {gap and gap[2:]}")
 
-    means = "f rises in these windows up to these mass ratios (next to alpha*_n by Theorem 81)"
+    means = "f rises in these windows up to these mass ratios (up to alpha*_n)"
 
     def derived(self):
         return {"windows": [n for n, *_ in self.windows], "largest_mass_ratios": [largest for _, largest, *_ in self.windows]}
