@@ -61,6 +61,7 @@ def crisis(record):
             mu_c=text(mu, 30),
             M_c=text(smaller_mass_ratio(mu), 30),
             alpha_touch=text(alpha, 18),
+            M_grounding=text(smaller_mass_ratio(touch(record["n"], of_ground=True)[0]), 30),
         )
 
     return confirmed(make)

@@ -84,12 +84,12 @@ def trap_edge(n, mass_ratio):
     return speed_and_loss(zero(surplus, *lap))[0]
 
 
-def touch(n):
-    """mu_c(n) and the speed where the hump touches alpha*_n: the minimum of (A^2 - alpha*_n^2)/Gamma^2.
+def touch(n, of_ground=False):
+    """mu_c(n) and the speed where the hump touches alpha*_n, or 0: the minimum of (A^2 - alpha*_n^2)/Gamma^2, or of A^2/Gamma^2.
 
     There Gamma^2 = 4 W (A^2 - alpha*_n^2), behind the maximum of W.
     """
-    target = star(n) ** 2
+    target = 0 if of_ground else star(n) ** 2
     def slope(h):
         a, gamma = speed_and_loss(h)
         return gamma * gamma - 4 * bump(h) * (a * a - target)

@@ -58,6 +58,11 @@ impl Row {
         self.0[outer][key].as_str().unwrap().parse().unwrap()
     }
 
+    /// A list of results, as they stand in the file.
+    pub fn list(&self, key: &str) -> Vec<&str> {
+        self.0[key].as_array().unwrap().iter().map(|entry| entry.as_str().unwrap()).collect()
+    }
+
     /// The first entry of a list of results.
     pub fn first_result(&self, key: &str) -> f64 {
         self.0[key][0].as_str().unwrap().parse().unwrap()

@@ -90,6 +90,16 @@ pub enum Error {
         /// Sudden lift-offs that were computed; the true number may differ.
         sudden: usize,
     },
+    /// No touch of the map's minimum next to a time of flight.
+    #[error(
+        "no minimum of hump {n} touches its target next to a flight of {time:?}: give the time of the touch to some digits"
+    )]
+    NoTouch {
+        /// The index of the hump.
+        n: u64,
+        /// The time of flight that was given.
+        time: f64,
+    },
     /// As [`Undecided`](Self::Undecided), for one flight from a given state on the ground.
     #[error(
         "the landing after a lift-off at stretch 1 + {excess:?} with velocity {velocity:?} cannot be decided with 1024 bits: \

@@ -3,18 +3,21 @@
 //! Proofs: docs/theory.md, Theorem 29 and Theorem 31.
 
 use crate::error::Error;
-use crate::traps::hump::{Hump, LARGEST_HUMP, Target, Touch};
+use crate::traps::hump::{Hump, LARGEST_HUMP, Target};
+use passive_hopper::{Enclosed, enclosed_touch};
 
 /// The mass ratio at which the map's minimum on the contact part of a hump touches α*_n, or zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crisis {
     /// The index of the hump.
     pub n: u64,
-    /// μ = M/(1+M)² at the touch.
+    /// μ = M/(1+M)² at the touch, to an ulp.
     pub mu: f64,
     /// The mass ratio M ≤ 1 at the touch. The touch happens at 1/M as well, since μ is the same.
     pub mass_ratio: f64,
-    /// The lift-off speed of the minimum at the touch.
+    /// Bound on the error of `mass_ratio`: an ulp at most.
+    pub error: f64,
+    /// The lift-off speed of the minimum at the touch, to an ulp.
     pub alpha: f64,
 }
 
@@ -52,9 +55,9 @@ pub fn grounding(n: u64) -> Result<Crisis, Error> {
 }
 
 fn touch(n: u64, target: Target) -> Result<Crisis, Error> {
-    let Touch { mu, alpha, .. } = Hump::new(n)?.touch(target)?;
-    // μ = M/(1+M)² is quadratic in M: μM² − (1 − 2μ)M + μ = 0. The roots are M and 1/M. The smaller root is computed as
-    // the product of both over the larger one, without cancellation.
-    let mass_ratio = 2.0 * mu / (1.0 - 2.0 * mu + (1.0 - 4.0 * mu).sqrt());
-    Ok(Crisis { n, mu, mass_ratio, alpha })
+    let hump = Hump::new(n)?;
+    let near = hump.time_of(hump.touch(target)?);
+    let touch = enclosed_touch(n, target == Target::Ground, near)?;
+    let Enclosed { value: mass_ratio, error } = touch.mass_ratio;
+    Ok(Crisis { n, mu: touch.mu.value, mass_ratio, error, alpha: touch.alpha.value })
 }

@@ -62,7 +62,6 @@ pub(crate) enum Target {
 pub(crate) struct Touch {
     pub(crate) mu: f64,
     t: f64,
-    pub(crate) alpha: f64,
 }
 
 /// arctan(1/α), the angle by which α*_n lies below (n+½)π.
@@ -284,7 +283,12 @@ impl Hump {
             closing * closing - 4.0 * self.w(t) * self.squares(t, target)
         };
         let t = self.root(condition, self.steepest, self.end)?;
-        Ok(Touch { mu: 0.25 / self.w(t), t, alpha: self.star.value() + self.delta(t) })
+        Ok(Touch { mu: 0.25 / self.w(t), t })
+    }
+
+    /// The time of the first flight at a touch.
+    pub(crate) fn time_of(&self, touch: Touch) -> f64 {
+        2.0 * self.star.value() + touch.t
     }
 
     fn root(&self, f: impl FnMut(f64) -> f64, left: f64, right: f64) -> Result<f64, Error> {

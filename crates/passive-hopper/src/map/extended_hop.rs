@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ExtendedMasses<R> {
     pub(crate) mu: R,
-    kappa: R,
+    pub(crate) kappa: R,
 }
 
 /// Larger mass ratios are scaled: the product of two numbers of 106 bits splits its factors, and above 2⁹⁹⁵ a factor times 2²⁷ + 1 is
