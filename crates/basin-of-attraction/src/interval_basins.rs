@@ -223,11 +223,16 @@ impl IntervalBasins {
     /// Bounds on the total length of the basins whose label fulfils a condition.
     pub fn basin_length_of(&self, condition: impl Fn(Label) -> bool) -> Bounds {
         let resolved = self.resolved_length_of(condition);
-        // For every part of any label: one ulp for each of its two ends, and one ulp for the rounding of the sum.
-        let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
-        let rounding = 3.0 * self.parts.len() as f64 * ulp;
+        let rounding = self.rounding();
         let upper = (resolved + self.undecided() + rounding).min(self.window.length());
         Bounds { lower: (resolved - rounding).max(0.0), upper }
+    }
+
+    /// Bound on the rounding of a length of intervals: one ulp of the window's larger end for each of the two ends of every interval, and one for
+    /// the sum.
+    pub fn rounding(&self) -> f64 {
+        let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
+        3.0 * (1 + self.parts.len()) as f64 * ulp
     }
 
     /// The number and the total length of the intervals with a label, by level; those without a level are left out.

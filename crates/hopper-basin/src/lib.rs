@@ -81,7 +81,7 @@ pub use basins::tipping::{HopperTipping, random_tipping, tipping, tipping_along_
 pub use basins::window::{FIG_8, FIG_9, FigureWindow, first_humps};
 pub use circle::circle_limits::{CircleLimits, Ground};
 pub use circle::edge_chart::EdgeChart;
-pub use circle::edge_path::FollowedEdge;
+pub use circle::edge_path::{FollowedEdge, enclosed_edge_slope};
 pub use circle::edge_window::{edge_frame, edge_window, frame_slant};
 pub use circle::falls_onto::FallsOnto;
 pub use circle::gap_count::GapCount;

@@ -115,8 +115,10 @@ pub use map::printed::printed_image;
 pub use map::slopes::Slopes;
 pub use model::contact::{contact_flow, contact_time, lift_off_energy};
 pub use model::energy::{energy, landing_loss};
-pub use model::fixed_points::{FixedPointSpeed, alpha_star, index_below};
+pub use model::fixed_points::{
+    FixedPointSpeed, alpha_star, compare_with_multiple_of_pi, index_below,
+};
 pub use model::mass_ratio::MassRatio;
 pub use model::motion::{Flight, LARGEST_LIFT_OFF_SPEED};
 pub use model::state::HopperState;
-pub use model::units::PhysicalHopper;
+pub use model::units::{PhysicalHopper, UnitErrors};

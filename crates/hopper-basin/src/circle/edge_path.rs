@@ -13,7 +13,7 @@ use crate::circle::edge_chart::EdgeChart;
 use crate::circle::edge_search::Approach;
 use crate::error::Error;
 use crate::fates::fates_at_mass_ratio::Fates;
-use passive_hopper::{FixedPointSpeed, LiftOffMap, MassRatio};
+use passive_hopper::{Enclosed, FixedPointSpeed, LiftOffMap, MassRatio};
 
 /// A boundary point that comes to α*_n in `hops` hops, in `f64`, at one mass ratio.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -170,6 +170,23 @@ impl FollowedEdge {
         }
         None
     }
+}
+
+/// dp/dM of the point of a chart, with a bound on its error; `None` if a hop of its orbit is not certain for all speeds within the error of the
+/// point.
+pub fn enclosed_edge_slope(map: &LiftOffMap, chart: &EdgeChart) -> Option<Enclosed> {
+    let (point, rest, error) = chart.point();
+    let mut speed = Enclosed { value: point, error: rest.abs() + error };
+    let exact = |value: f64| Enclosed { value, error: 0.0 };
+    let (mut slope, mut by_mass_ratio) = (exact(1.0), exact(0.0));
+    for _ in 0..chart.hops() {
+        let hop = map.enclosed_hop(speed.value, speed.error).ok()?;
+        speed = hop.next?;
+        by_mass_ratio = hop.by_mass_ratio?.plus(hop.by_speed?.times(by_mass_ratio));
+        slope = slope.times(hop.by_speed?);
+    }
+    let found = exact(-1.0).times(by_mass_ratio).over(slope);
+    found.error.is_finite().then_some(found)
 }
 
 /// f^k at a speed, with its derivatives by the speed and by the mass ratio; `None` if the orbit ends, or a derivative is not finite

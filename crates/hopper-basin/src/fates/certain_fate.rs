@@ -15,11 +15,12 @@
 
 use crate::error::Error;
 use crate::fates::slow_sides::SlowSides;
-use crate::traps::trap::{Trap, TrapSide};
+use crate::traps::trap::{Trap, TrapEdge, TrapSide};
 use passive_hopper::{
     Arithmetic, ExtendedOrbit, ExtendedStep, FixedPointSpeed, HopWithin, LiftOffMap, alpha_star,
-    index_below,
+    compare_with_multiple_of_pi, index_below,
 };
+use std::cmp::Ordering;
 
 /// The end of a followed orbit, with the number of hops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +44,11 @@ pub(crate) enum Verdict {
 /// 256 bits have as many hops as 106: where the error of a jump is too large, they follow up to 2048 slow hops one by one. For M ≥ 10 an
 /// orbit passes by several fixed points one after the other, and each multiplies its error.
 const EXTENDED_BUDGETS: [usize; 4] = [2048, 2048, 128, 64];
+
+/// Largest error of the upper end of a trap, relative to its length, at which a speed within the error is certainly left of the map's minimum.
+/// The slope of the map's two sides at the end is then above 10⁻⁷ of its scale, and so is the distance to the minimum. A larger value is not
+/// safe beside a crisis; a smaller one leaves more ends to the next hop.
+const CERTAIN_END: f64 = 1e-9;
 
 /// An orbit in `f64`, with a bound on its error.
 #[derive(Debug, Clone, Copy)]
@@ -159,7 +165,34 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         } else {
             trap.side_of_offset(trap.fixed_point.offset_of(speed), error)
         };
-        Ok((side == TrapSide::Inside).then_some(trap.n))
+        let inside = match side {
+            TrapSide::Unclear if error == 0.0 => self.is_at_end_of(&trap, speed)?,
+            side => side == TrapSide::Inside,
+        };
+        Ok(inside.then_some(trap.n))
+    }
+
+    /// Whether an exact speed within the error of the upper end of a trap is in it.
+    ///
+    /// Up to the first fall f is not below α*_n, and beyond it f is below (docs/theory.md, Theorem 29). So the next speed decides.
+    fn is_at_end_of(&self, trap: &Trap, speed: f64) -> Result<bool, Error> {
+        if trap.edge == TrapEdge::ContactEnd {
+            return Ok(compare_with_multiple_of_pi(speed, trap.n + 1) == Some(Ordering::Less));
+        }
+        if !(trap.error < CERTAIN_END * trap.delta) {
+            return Ok(false);
+        }
+        for arithmetic in Arithmetic::ALL {
+            let mut orbit = ExtendedOrbit::new(self.map, speed, arithmetic)?;
+            if !matches!(orbit.hop(), Ok(ExtendedStep::LiftsOff)) {
+                continue;
+            }
+            let (offset, error) = orbit.offset_from(trap.n);
+            if offset.abs() > error {
+                return Ok(offset > 0.0);
+            }
+        }
+        Ok(false)
     }
 
     /// The verdict in longer arithmetic, within a budget of hops of the caller and one of this arithmetic; `None` if the

@@ -225,6 +225,11 @@ impl Trap {
     pub fn right(&self) -> f64 {
         self.fixed_point.value() + self.delta
     }
+
+    /// Bound on the error of [`right`](Self::right).
+    pub fn right_error(&self) -> f64 {
+        self.error + self.fixed_point.error() + 0.5 * f64::EPSILON * self.right()
+    }
 }
 
 #[cfg(test)]

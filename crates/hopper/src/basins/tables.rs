@@ -1,7 +1,7 @@
 //! The tables that `hopper basins` prints.
 
 use crate::basins::pieces::Finished;
-use crate::output::{Column, Table, TableKind};
+use crate::output::{Cell, Column, Table, TableKind};
 use resumable_job::Part;
 use serde_json::Value;
 
@@ -9,10 +9,7 @@ pub(crate) static FILES: TableKind = TableKind {
     name: "files",
     about: "one row for each result",
     long: false,
-    columns: &[
-        Column { name: "path", unit: "", meaning: "the file" },
-        Column { name: "content", unit: "", meaning: "what it has" },
-    ],
+    columns: &[Column::new("path", "", "the file"), Column::new("content", "", "what it has")],
 };
 
 pub(crate) static LABELS: TableKind = TableKind {
@@ -20,10 +17,10 @@ pub(crate) static LABELS: TableKind = TableKind {
     about: "one row for each fate that occurs",
     long: false,
     columns: &[
-        Column { name: "label", unit: "", meaning: "number in the array" },
-        Column { name: "fate", unit: "", meaning: "its meaning" },
-        Column { name: "pixels", unit: "", meaning: "number of pixels" },
-        Column { name: "fraction", unit: "", meaning: "fraction of all pixels" },
+        Column::new("label", "", "number in the array"),
+        Column::new("fate", "", "its meaning"),
+        Column::new("pixels", "", "number of pixels"),
+        Column::new("fraction", "", "fraction of all pixels").measured(),
     ],
 };
 
@@ -32,10 +29,10 @@ pub(crate) static HOPS: TableKind = TableKind {
     about: "the numbers of hops until the fate is known",
     long: false,
     columns: &[
-        Column { name: "pixels", unit: "", meaning: "number of pixels" },
-        Column { name: "smallest", unit: "hops", meaning: "smallest number" },
-        Column { name: "largest", unit: "hops", meaning: "largest number" },
-        Column { name: "mean", unit: "hops", meaning: "mean over all pixels" },
+        Column::new("pixels", "", "number of pixels"),
+        Column::new("smallest", "hops", "smallest number"),
+        Column::new("largest", "hops", "largest number"),
+        Column::new("mean", "hops", "mean over all pixels").measured(),
     ],
 };
 
@@ -44,10 +41,10 @@ pub(crate) static SHARES: TableKind = TableKind {
     about: "one row for each fate that occurs, with --about or --coverage",
     long: false,
     columns: &[
-        Column { name: "label", unit: "", meaning: "number of the fate" },
-        Column { name: "fate", unit: "", meaning: "its meaning" },
-        Column { name: "mean_share", unit: "", meaning: "mean of its shares over all pixels" },
-        Column { name: "file", unit: "", meaning: "array of its shares, 65535 for 1" },
+        Column::new("label", "", "number of the fate"),
+        Column::new("fate", "", "its meaning"),
+        Column::new("mean_share", "", "mean of its shares over all pixels").measured(),
+        Column::new("file", "", "array of its shares, 65535 for 1"),
     ],
 };
 
@@ -56,17 +53,13 @@ pub(crate) static EDGE: TableKind = TableKind {
     about: "the edge of a basin in the middle of all frames, with --zoom",
     long: false,
     columns: &[
-        Column { name: "speed", unit: "m₂gω/k", meaning: "the edge p as the nearest number" },
-        Column { name: "rest", unit: "m₂gω/k", meaning: "p minus this number" },
-        Column { name: "error", unit: "m₂gω/k", meaning: "bound on the error of their sum" },
-        Column {
-            name: "fixed_point",
-            unit: "",
-            meaning: "n of the α*_n that the orbit of p comes to",
-        },
-        Column { name: "hops", unit: "hops", meaning: "number of hops to it" },
-        Column { name: "slope", unit: "m₂gω/k", meaning: "dp/dM" },
-        Column { name: "frames", unit: "", meaning: "number of frames" },
+        Column::new("speed", "m₂gω/k", "the edge p as the nearest number").measured(),
+        Column::new("rest", "m₂gω/k", "p minus this number").with_error("error"),
+        Column::new("error", "m₂gω/k", "bound on the error of their sum").error(),
+        Column::new("fixed_point", "", "n of the α*_n that the orbit of p comes to"),
+        Column::new("hops", "hops", "number of hops to it"),
+        Column::new("slope", "m₂gω/k", "dp/dM").measured(),
+        Column::new("frames", "", "number of frames"),
     ],
 };
 
@@ -75,14 +68,10 @@ pub(crate) static PARTS: TableKind = TableKind {
     about: "what this call did of a part, with --part",
     long: false,
     columns: &[
-        Column { name: "part", unit: "", meaning: "the part" },
-        Column { name: "pieces", unit: "", meaning: "folder of its pieces" },
-        Column { name: "finished", unit: "", meaning: "number of its pieces, all finished" },
-        Column {
-            name: "found",
-            unit: "",
-            meaning: "number of those that an earlier call had finished",
-        },
+        Column::new("part", "", "the part"),
+        Column::new("pieces", "", "folder of its pieces"),
+        Column::new("finished", "", "number of its pieces, all finished"),
+        Column::new("found", "", "number of those that an earlier call had finished"),
     ],
 };
 
@@ -126,6 +115,11 @@ impl Tables {
     }
 }
 
+/// A quotient of two counts: of whole numbers up to 2⁵³, or rounded to `f64`.
+fn rounded_once(quotient: f64) -> Cell {
+    Cell::measured(quotient, 1.51 * f64::EPSILON * quotient)
+}
+
 /// The table of a legend of labels; `None` if this is none.
 pub(crate) fn labels(legend: &Value) -> Option<Table> {
     let entries = legend.as_array()?;
@@ -133,7 +127,7 @@ pub(crate) fn labels(legend: &Value) -> Option<Table> {
     let all: u64 = entries.iter().filter_map(pixels).sum();
     let mut table = Table::new(&LABELS);
     for entry in entries {
-        let fraction = pixels(entry).map(|pixels| pixels as f64 / all as f64);
+        let fraction = pixels(entry).map(|pixels| rounded_once(pixels as f64 / all as f64));
         table.push([
             entry["label"].as_u64().into(),
             entry["name"].as_str().map(str::to_owned).into(),
@@ -151,7 +145,7 @@ pub(crate) fn hops(summary: &Value) -> Option<Table> {
         summary["pixels"].as_u64().into(),
         summary["smallest"].as_u64().into(),
         summary["largest"].as_u64().into(),
-        summary["mean"].as_f64().into(),
+        summary["mean"].as_f64().map(rounded_once).into(),
     ]);
     Some(table)
 }
@@ -159,11 +153,16 @@ pub(crate) fn hops(summary: &Value) -> Option<Table> {
 /// The table of a legend of shares. An entry without a label is not a share.
 pub(crate) fn shares(legend: &Value) -> Option<Table> {
     let mut table = Table::new(&SHARES);
-    for entry in legend.as_array()?.iter().filter(|entry| entry["label"].is_u64()) {
+    let entries = legend.as_array()?;
+    let shares = || entries.iter().filter(|entry| entry["label"].is_u64());
+    // What is undecided may belong to any fate. The shares of pixels have 24 bits.
+    let decided: f64 = shares().filter_map(|entry| entry["mean_share"].as_f64()).sum();
+    let error = (1.0 - decided).max(0.0) + f64::from(f32::EPSILON);
+    for entry in shares() {
         table.push([
             entry["label"].as_u64().into(),
             entry["name"].as_str().map(str::to_owned).into(),
-            entry["mean_share"].as_f64().into(),
+            entry["mean_share"].as_f64().map(|share| Cell::measured(share, error)).into(),
             entry["file"].as_str().map(str::to_owned).into(),
         ]);
     }
@@ -172,14 +171,19 @@ pub(crate) fn shares(legend: &Value) -> Option<Table> {
 
 /// The table of a summary of a zoom.
 pub(crate) fn edge(summary: &Value) -> Option<Table> {
+    let number = |name: &str| summary[name].as_f64();
+    let error = number("error").unwrap_or(f64::INFINITY);
+    let with = |value: Option<f64>, error: f64| value.map(|value| Cell::measured(value, error));
+    let rest = number("rest");
     let mut table = Table::new(&EDGE);
     table.push([
-        summary["speed"].as_f64().into(),
-        summary["rest"].as_f64().into(),
-        summary["error"].as_f64().into(),
+        with(number("speed"), rest.unwrap_or(0.0).abs() + error).into(),
+        with(rest, error).into(),
+        Cell::Error(error),
         summary["fixed_point"].as_u64().into(),
         summary["hops"].as_u64().into(),
-        summary["slope"].as_f64().into(),
+        // A folder of an earlier version does not have it.
+        with(number("slope"), number("slope_error").unwrap_or(f64::INFINITY)).into(),
         summary["frames"].as_u64().into(),
     ]);
     Some(table)

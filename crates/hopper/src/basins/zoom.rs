@@ -12,7 +12,7 @@ use crate::output::number;
 use basin_of_attraction::Label;
 use hopper_basin::{
     CircleLimits, EdgeChart, Fates, FollowedEdge, PhaseBasins, SHARE_VERSION, edge_frame,
-    edge_window,
+    edge_window, enclosed_edge_slope,
 };
 use hopper_figures::{ZoomPixels, draw_zoom, draw_zoom_frame};
 use journal_figures::{animated_png, render};
@@ -107,8 +107,10 @@ pub(crate) fn run(
             job.write(OVERVIEW, &overview.png)?;
             job.write(ANIMATION, &animated_png(ANIMATION, &pngs, SECONDS)?)?;
             let (point, rest, error) = chart.point();
+            let known = enclosed_edge_slope(fates.map(), &chart);
+            let slope_error = known.map(|known| known.error_of(edge.by_mass_ratio));
             let summary = json!({
-                "speed": point, "rest": rest, "error": error, "fixed_point": chart.n(),
+                "slope_error": slope_error, "speed": point, "rest": rest, "error": error, "fixed_point": chart.n(),
                 "hops": chart.hops(), "slope": edge.by_mass_ratio, "frames": frames,
             });
             files.extend([OVERVIEW, ANIMATION].map(str::to_owned));

@@ -48,29 +48,21 @@ pub(crate) static FATES: TableKind = TableKind {
     about: "one row for each speed",
     long: false,
     columns: &[
-        Column { name: "speed", unit: SPEED, meaning: "lift-off speed α" },
-        Column {
-            name: "fate",
-            unit: "",
-            meaning: "incessant: hops for ever, to a lossless hop; decaying: hops for ever, ever lower; grounded; undecided",
-        },
-        Column {
-            name: "n",
-            unit: "",
-            meaning: "index of the fixed point α*ₙ that the speeds converge to; 0 for decaying",
-        },
-        Column {
-            name: "trap_left",
-            unit: SPEED,
-            meaning: "the trap that the orbit enters, from α*ₙ …",
-        },
-        Column { name: "trap_right", unit: SPEED, meaning: "… to α*ₙ + Δₙ(M)" },
-        Column {
-            name: "hops",
-            unit: "",
-            meaning: "hops until the orbit is in the trap or grounded",
-        },
-        Column { name: "reason", unit: "", meaning: "why a fate is undecided" },
+        Column::new("speed", SPEED, "lift-off speed α"),
+        Column::new(
+            "fate",
+            "",
+            "incessant: hops for ever, to a lossless hop; decaying: hops for ever, ever lower; grounded; undecided",
+        ),
+        Column::new(
+            "n",
+            "",
+            "index of the fixed point α*ₙ that the speeds converge to; 0 for decaying",
+        ),
+        Column::new("trap_left", SPEED, "the trap that the orbit enters, from α*ₙ …").measured(),
+        Column::new("trap_right", SPEED, "… to α*ₙ + Δₙ(M)").measured(),
+        Column::new("hops", "", "hops until the orbit is in the trap or grounded"),
+        Column::new("reason", "", "why a fate is undecided"),
     ],
 };
 
@@ -128,8 +120,8 @@ pub(crate) fn row(
         speed.into(),
         name.into(),
         n.into(),
-        trap.map(|trap| trap.fixed_point.value()).into(),
-        trap.map(|trap| trap.right()).into(),
+        trap.map(|trap| Cell::measured(trap.fixed_point.value(), trap.fixed_point.error())).into(),
+        trap.map(|trap| Cell::measured(trap.right(), trap.right_error())).into(),
         hops.into(),
         reason.into(),
     ])

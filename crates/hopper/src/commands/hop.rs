@@ -6,7 +6,9 @@ use crate::options::form::OutputOptions;
 use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
-use passive_hopper::{Landing, LiftOffMap, MassRatio, Solver, contact_time};
+use passive_hopper::{
+    Enclosed, EnclosedHop, EnclosedLanding, Landing, LiftOffMap, MassRatio, Solver, contact_time,
+};
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
@@ -44,32 +46,28 @@ static HOPS: TableKind = TableKind {
     about: "one row for each speed",
     long: false,
     columns: &[
-        Column { name: "speed", unit: SPEED, meaning: "lift-off speed α" },
-        Column { name: "outcome", unit: "", meaning: "`lifts off` again, or `grounded`" },
-        Column { name: "next_speed", unit: SPEED, meaning: "next lift-off speed α′ = f(α; M)" },
-        Column { name: "next_error", unit: SPEED, meaning: "bound on the error of α′" },
-        Column { name: "speed_loss", unit: SPEED, meaning: "α − α′, without cancellation" },
-        Column {
-            name: "energy_loss", unit: "m₁m₂g²/k", meaning: "energy that the landings take"
-        },
-        Column {
-            name: "sudden_lift_offs",
-            unit: "",
-            meaning: "landings at which the spring pulls the lower mass off at once",
-        },
-        Column { name: "flight_time", unit: TIME, meaning: "time in flight" },
-        Column {
-            name: "contact_time",
-            unit: TIME,
-            meaning: "time on the ground from the last landing to the next lift-off",
-        },
-        Column { name: "slope", unit: "", meaning: "∂α′/∂α" },
-        Column { name: "mass_ratio_slope", unit: SPEED, meaning: "∂α′/∂M" },
-        Column {
-            name: "solver",
-            unit: "",
-            meaning: "arithmetic in which every decision is larger than its error",
-        },
+        Column::new("speed", SPEED, "lift-off speed α"),
+        Column::new("outcome", "", "`lifts off` again, or `grounded`"),
+        Column::new("next_speed", SPEED, "next lift-off speed α′ = f(α; M)")
+            .with_error("next_error"),
+        Column::new("next_error", SPEED, "bound on the error of α′").error(),
+        Column::new("speed_loss", SPEED, "α − α′, without cancellation").measured(),
+        Column::new("energy_loss", "m₁m₂g²/k", "energy that the landings take").measured(),
+        Column::new(
+            "sudden_lift_offs",
+            "",
+            "landings at which the spring pulls the lower mass off at once",
+        ),
+        Column::new("flight_time", TIME, "time in flight").measured(),
+        Column::new(
+            "contact_time",
+            TIME,
+            "time on the ground from the last landing to the next lift-off",
+        )
+        .measured(),
+        Column::new("slope", "", "∂α′/∂α").measured(),
+        Column::new("mass_ratio_slope", SPEED, "∂α′/∂M").measured(),
+        Column::new("solver", "", "arithmetic in which every decision is larger than its error"),
     ],
 };
 
@@ -78,33 +76,20 @@ static LANDINGS: TableKind = TableKind {
     about: "one row for each landing",
     long: false,
     columns: &[
-        Column { name: "speed", unit: SPEED, meaning: "lift-off speed α of the hop" },
-        Column { name: "landing", unit: "", meaning: "number of the landing in its hop, from 1" },
-        Column { name: "time", unit: TIME, meaning: "time of the flight before it" },
-        Column {
-            name: "closing_speed",
-            unit: SPEED,
-            meaning: "Γ = −(1+M) ẏ₂ before the collision",
-        },
-        Column {
-            name: "stretch_excess",
-            unit: "m₂g/k",
-            meaning: "y₁ − 1; a sudden lift-off follows if it is positive",
-        },
-        Column {
-            name: "excess_error",
-            unit: "m₂g/k",
-            meaning: "bound on its error, if the hop has a sudden lift-off",
-        },
-        Column {
-            name: "upper_velocity",
-            unit: SPEED,
-            meaning: "ẏ₁, which the collision does not change",
-        },
-        Column {
-            name: "energy_loss", unit: "m₁m₂g²/k", meaning: "energy that the landing takes"
-        },
-        Column { name: "sudden", unit: "", meaning: "whether a sudden lift-off follows" },
+        Column::new("speed", SPEED, "lift-off speed α of the hop"),
+        Column::new("landing", "", "number of the landing in its hop, from 1"),
+        Column::new("time", TIME, "time of the flight before it").measured(),
+        Column::new("closing_speed", SPEED, "Γ = −(1+M) ẏ₂ before the collision").measured(),
+        Column::new(
+            "stretch_excess",
+            "m₂g/k",
+            "y₁ − 1; a sudden lift-off follows if it is positive",
+        )
+        .with_error("excess_error"),
+        Column::new("excess_error", "m₂g/k", "bound on its error").error(),
+        Column::new("upper_velocity", SPEED, "ẏ₁, which the collision does not change").measured(),
+        Column::new("energy_loss", "m₁m₂g²/k", "energy that the landing takes").measured(),
+        Column::new("sudden", "", "whether a sudden lift-off follows"),
     ],
 };
 
@@ -120,31 +105,40 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
         let time = |last: Landing| contact_time(options.mass_ratio, last.excess, last.velocity);
         // A grounded hopper is in contact for ever.
         let contact = last.filter(|_| hop.next.is_some()).map(time).transpose()?.flatten();
+        // A hop of hundreds of flights has no enclosure; its errors are then not known.
+        let known = map.enclosed_hop(speed, 0.0).ok();
+        let of = |field: fn(&EnclosedHop) -> Option<Enclosed>| known.as_ref().and_then(field);
+        let next = Cell::of(hop.next, of(|hop| hop.next)).or_bound(bounded.next_error);
         hops.push([
             speed.into(),
             if hop.next.is_some() { "lifts off" } else { "grounded" }.into(),
-            hop.next.into(),
-            bounded.next_error.into(),
-            hop.loss.into(),
-            hop.energy_loss(options.mass_ratio).into(),
+            next.clone(),
+            next.error(),
+            Cell::of(hop.loss, of(|hop| hop.loss)),
+            Cell::of(hop.energy_loss(options.mass_ratio), of(|hop| Some(hop.energy_loss))),
             hop.sudden.into(),
-            hop.flight_time.into(),
-            contact.into(),
-            slopes.map(|slopes| slopes.by_speed).into(),
-            slopes.map(|slopes| slopes.by_mass_ratio).into(),
+            Cell::of(hop.flight_time, of(|hop| Some(hop.flight_time))),
+            Cell::of(contact, of(|hop| hop.contact_time)),
+            Cell::of(slopes.map(|slopes| slopes.by_speed), of(|hop| hop.by_speed)),
+            Cell::of(slopes.map(|slopes| slopes.by_mass_ratio), of(|hop| hop.by_mass_ratio)),
             solver(bounded.solver),
         ]);
-        for (at, bounded) in (1u64..).zip(&bounded.landings) {
+        for (at, bounded) in bounded.landings.iter().enumerate() {
             let landing = bounded.landing;
+            let known = known.as_ref().and_then(|hop| hop.landings.get(at));
+            let of = |field: fn(&EnclosedLanding) -> Enclosed| known.map(field);
+            let excess = Cell::of(landing.excess, of(|landing| landing.excess))
+                .or_bound(bounded.state_error.map(|error| error.excess));
+            let energy_loss = landing.energy_loss(options.mass_ratio);
             landings.push([
                 speed.into(),
-                at.into(),
-                landing.time.into(),
-                landing.closing_speed.into(),
-                landing.excess.into(),
-                bounded.state_error.map(|error| error.excess).into(),
-                landing.velocity.into(),
-                landing.energy_loss(options.mass_ratio).into(),
+                (at + 1).into(),
+                Cell::of(landing.time, of(|landing| landing.time)),
+                Cell::of(landing.closing_speed, of(|landing| landing.closing_speed)),
+                excess.clone(),
+                excess.error(),
+                Cell::of(landing.velocity, of(|landing| landing.velocity)),
+                Cell::of(energy_loss, of(|landing| landing.energy_loss)),
                 landing.sudden.into(),
             ]);
         }

@@ -10,7 +10,7 @@ use crate::streams::Streams;
 use basin_of_attraction::{Label, Refinement, StopReason};
 use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate};
 use hopper_proof::basins_at_every_mass_ratio;
-use passive_hopper::MassRatio;
+use passive_hopper::{FixedPointSpeed, MassRatio};
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
@@ -69,25 +69,19 @@ static FRACTIONS: TableKind = TableKind {
     about: "one row for each fate",
     long: false,
     columns: &[
-        Column {
-            name: "fate",
-            unit: "",
-            meaning: "incessant: to α*ₙ; decaying: ever lower; grounded",
-        },
-        Column { name: "n", unit: "", meaning: "index of the fixed point; 0 for decaying" },
-        Column {
-            name: "fraction_lower",
-            unit: "",
-            meaning: "the fraction of the window with this fate is at least this …",
-        },
-        Column {
-            name: "fraction_upper",
-            unit: "",
-            meaning: "… and at most this, which has all that is undecided",
-        },
-        Column { name: "length_lower", unit: SPEED, meaning: "the same as a length …" },
-        Column { name: "length_upper", unit: SPEED, meaning: "… from and to" },
-        Column { name: "intervals", unit: "", meaning: "number of intervals found" },
+        Column::new("fate", "", "incessant: to α*ₙ; decaying: ever lower; grounded"),
+        Column::new("n", "", "index of the fixed point; 0 for decaying"),
+        Column::new(
+            "fraction_lower",
+            "",
+            "the fraction of the window with this fate is at least this …",
+        )
+        .bound(),
+        Column::new("fraction_upper", "", "… and at most this, which has all that is undecided")
+            .bound(),
+        Column::new("length_lower", SPEED, "the same as a length …").bound(),
+        Column::new("length_upper", SPEED, "… from and to").bound(),
+        Column::new("intervals", "", "number of intervals found"),
     ],
 };
 
@@ -96,25 +90,17 @@ static SEARCH: TableKind = TableKind {
     about: "one row: the window, and what the intervals stand on",
     long: false,
     columns: &[
-        Column { name: "from", unit: SPEED, meaning: "lower end of the window" },
-        Column { name: "to", unit: SPEED, meaning: "upper end of the window" },
-        Column {
-            name: "undecided",
-            unit: SPEED,
-            meaning: "length of the window that is in no interval",
-        },
-        Column { name: "stopped", unit: "", meaning: "why the search ended" },
-        Column {
-            name: "ground",
-            unit: "",
-            meaning: "what the labels stand on: branches of the map that are proved to be all, or enclosed images",
-        },
-        Column {
-            name: "probes",
-            unit: "",
-            meaning: "random speeds whose fate was compared with their interval",
-        },
-        Column { name: "wrong_probes", unit: "", meaning: "those with another fate" },
+        Column::new("from", SPEED, "lower end of the window").measured(),
+        Column::new("to", SPEED, "upper end of the window").measured(),
+        Column::new("undecided", SPEED, "length of the window that is in no interval").measured(),
+        Column::new("stopped", "", "why the search ended"),
+        Column::new(
+            "ground",
+            "",
+            "what the labels stand on: branches of the map that are proved to be all, or enclosed images",
+        ),
+        Column::new("probes", "", "random speeds whose fate was compared with their interval"),
+        Column::new("wrong_probes", "", "those with another fate"),
     ],
 };
 
@@ -123,15 +109,11 @@ static INTERVALS: TableKind = TableKind {
     about: "one row for each interval, from left to right; all its speeds have one fate",
     long: true,
     columns: &[
-        Column { name: "left", unit: SPEED, meaning: "lower end" },
-        Column { name: "right", unit: SPEED, meaning: "upper end" },
-        Column { name: "fate", unit: "", meaning: "incessant, decaying or grounded" },
-        Column { name: "n", unit: "", meaning: "index of the fixed point; 0 for decaying" },
-        Column {
-            name: "hops",
-            unit: "",
-            meaning: "hops until its orbits are in the trap, or grounded",
-        },
+        Column::new("left", SPEED, "lower end").bound(),
+        Column::new("right", SPEED, "upper end").bound(),
+        Column::new("fate", "", "incessant, decaying or grounded"),
+        Column::new("n", "", "index of the fixed point; 0 for decaying"),
+        Column::new("hops", "", "hops until its orbits are in the trap, or grounded"),
     ],
 };
 
@@ -161,7 +143,7 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
             intervals.push([left.into(), right.into(), fate.into(), n, part.level.into()]);
         }
     }
-    form.print(&[fractions(&found), search(&found), intervals], streams.output)
+    form.print(&[fractions(&found), search(&found, (from, to)), intervals], streams.output)
 }
 
 fn fractions(found: &HopperBasins) -> Table {
@@ -184,7 +166,7 @@ fn fractions(found: &HopperBasins) -> Table {
     table
 }
 
-fn search(found: &HopperBasins) -> Table {
+fn search(found: &HopperBasins, (from, to): (u64, u64)) -> Table {
     let mut table = Table::new(&SEARCH);
     let window = found.basins.window();
     let ground = match found.ground {
@@ -193,9 +175,9 @@ fn search(found: &HopperBasins) -> Table {
         BranchGround::Enclosures => "enclosures",
     };
     table.push([
-        window.left.into(),
-        window.right.into(),
-        found.basins.undecided().into(),
+        Cell::measured(window.left, FixedPointSpeed::new(from).error()),
+        Cell::measured(window.right, FixedPointSpeed::new(to).error()),
+        Cell::measured(found.basins.undecided(), found.basins.rounding()),
         stopped(found.basins.stop_reason()).into(),
         ground.into(),
         found.probes.compared.into(),

@@ -8,7 +8,7 @@ use crate::options::output_file::{self, OutputFile};
 use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
-use hopper_basin::{Trap, TrapEdge, crisis, grounding};
+use hopper_basin::{Crisis, Trap, TrapEdge, crisis, grounding};
 use hopper_figures::{MapPlot, cuts_between, graph_pieces};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star, index_below};
 
@@ -58,33 +58,25 @@ static FIXED_POINTS: TableKind = TableKind {
     about: "one row for each fixed point in the window",
     long: false,
     columns: &[
-        Column { name: "n", unit: "", meaning: "its index" },
-        Column {
-            name: "speed",
-            unit: SPEED,
-            meaning: "α*ₙ, the n-th root of tan α = α: a hop without loss, for every M",
-        },
-        Column {
-            name: "trap_length",
-            unit: SPEED,
-            meaning: "Δₙ(M): all orbits from [α*ₙ, α*ₙ + Δₙ] converge to α*ₙ",
-        },
-        Column { name: "trap_error", unit: SPEED, meaning: "bound on its error" },
-        Column {
-            name: "trap_end",
-            unit: "",
-            meaning: "crossing: f falls to α*ₙ there; contact end: f stays above up to (n+1)π; next fixed point",
-        },
-        Column {
-            name: "crisis",
-            unit: "",
-            meaning: "M from which orbits of the hump fall below α*ₙ, up to 1/M",
-        },
-        Column {
-            name: "grounding",
-            unit: "",
-            meaning: "M from which speeds of the hump are grounded, up to 1/M",
-        },
+        Column::new("n", "", "its index"),
+        Column::new(
+            "speed",
+            SPEED,
+            "α*ₙ, the n-th root of tan α = α: a hop without loss, for every M",
+        )
+        .measured(),
+        Column::new("trap_length", SPEED, "Δₙ(M): all orbits from [α*ₙ, α*ₙ + Δₙ] converge to α*ₙ")
+            .with_error("trap_error"),
+        Column::new("trap_error", SPEED, "bound on its error").error(),
+        Column::new(
+            "trap_end",
+            "",
+            "crossing: f falls to α*ₙ there; contact end: f stays above up to (n+1)π; next fixed point",
+        ),
+        Column::new("crisis", "", "M from which orbits of the hump fall below α*ₙ, up to 1/M")
+            .measured(),
+        Column::new("grounding", "", "M from which speeds of the hump are grounded, up to 1/M")
+            .measured(),
     ],
 };
 
@@ -93,9 +85,9 @@ static CURVE: TableKind = TableKind {
     about: "points of the map",
     long: true,
     columns: &[
-        Column { name: "piece", unit: "", meaning: "number of the smooth piece, from 1" },
-        Column { name: "speed", unit: SPEED, meaning: "lift-off speed α" },
-        Column { name: "next_speed", unit: SPEED, meaning: "next lift-off speed α′ = f(α; M)" },
+        Column::new("piece", "", "number of the smooth piece, from 1"),
+        Column::new("speed", SPEED, "lift-off speed α"),
+        Column::new("next_speed", SPEED, "next lift-off speed α′ = f(α; M)").measured(),
     ],
 };
 
@@ -128,7 +120,8 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
             graph_pieces(&map, &cuts, usize::try_from(options.points).unwrap_or(usize::MAX));
         for (at, piece) in (1u64..).zip(pieces) {
             for (speed, next) in piece {
-                curve.push([at.into(), speed.into(), next.into()]);
+                let error = map.bounded_hop(speed)?.next_error.unwrap_or(f64::INFINITY);
+                curve.push([at.into(), speed.into(), Cell::measured(next, error)]);
             }
         }
     }
@@ -146,15 +139,16 @@ fn fixed_points(map: &LiftOffMap, window: (f64, f64)) -> Result<Table, Error> {
             TrapEdge::NextFixedPoint => "next fixed point",
         };
         // Hump 0 has no crisis.
-        let crisis = if n == 0 { None } else { Some(crisis(n)?.mass_ratio) };
+        let touch = |touch: Crisis| Cell::measured(touch.mass_ratio, touch.error);
+        let crisis = if n == 0 { None } else { Some(touch(crisis(n)?)) };
         let cells: [Cell; 7] = [
             n.into(),
-            trap.fixed_point.value().into(),
-            trap.delta.into(),
-            trap.error.into(),
+            Cell::measured(trap.fixed_point.value(), trap.fixed_point.error()),
+            Cell::measured(trap.delta, trap.error),
+            Cell::Error(trap.error),
             end.into(),
             crisis.into(),
-            grounding(n)?.mass_ratio.into(),
+            touch(grounding(n)?),
         ];
         table.push(cells);
     }

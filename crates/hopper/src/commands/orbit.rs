@@ -12,7 +12,8 @@ use hopper_basin::{Fates, HOP_BUDGET};
 use hopper_figures::{AnimationForm, MapPlot, Motion, draw_motion, frame_png, frame_times};
 use journal_figures::{Svg, render};
 use passive_hopper::{
-    BoundedOrbit, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio, index_below,
+    BoundedOrbit, Enclosed, EnclosedHop, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio,
+    index_below,
 };
 use rayon::prelude::*;
 
@@ -83,28 +84,14 @@ static ORBIT: TableKind = TableKind {
     about: "one row for each lift-off",
     long: false,
     columns: &[
-        Column { name: "hop", unit: "", meaning: "hops before this lift-off" },
-        Column { name: "speed", unit: SPEED, meaning: "lift-off speed α" },
-        Column {
-            name: "error",
-            unit: SPEED,
-            meaning: "bound on the distance of the exact orbit from it",
-        },
-        Column {
-            name: "n",
-            unit: "",
-            meaning: "index of the fixed point α*ₙ at or below the speed",
-        },
-        Column { name: "offset", unit: SPEED, meaning: "α − α*ₙ" },
-        Column {
-            name: "sudden_lift_offs",
-            unit: "",
-            meaning: "sudden lift-offs in the hop from here",
-        },
-        Column { name: "flight_time", unit: "1/ω", meaning: "time in flight in this hop" },
-        Column {
-            name: "energy_loss", unit: "m₁m₂g²/k", meaning: "energy that its landings take"
-        },
+        Column::new("hop", "", "hops before this lift-off"),
+        Column::new("speed", SPEED, "lift-off speed α").with_error("error"),
+        Column::new("error", SPEED, "bound on the distance of the exact orbit from it").error(),
+        Column::new("n", "", "index of the fixed point α*ₙ at or below the speed"),
+        Column::new("offset", SPEED, "α − α*ₙ").measured(),
+        Column::new("sudden_lift_offs", "", "sudden lift-offs in the hop from here"),
+        Column::new("flight_time", "1/ω", "time in flight in this hop").measured(),
+        Column::new("energy_loss", "m₁m₂g²/k", "energy that its landings take").measured(),
     ],
 };
 
@@ -227,19 +214,27 @@ impl Orbit {
 /// The table of an orbit.
 fn table(map: &LiftOffMap, orbit: &Orbit) -> Result<Table, Error> {
     let mut table = Table::new(&ORBIT);
-    for (hop, (&speed, &error)) in orbit.speeds.iter().zip(&orbit.errors).enumerate() {
+    let speeds: Vec<(f64, f64)> =
+        orbit.speeds.iter().copied().zip(orbit.errors.iter().copied()).collect();
+    // An enclosed hop takes some tens of microseconds.
+    let known: Vec<Option<EnclosedHop>> =
+        speeds.par_iter().map(|&(speed, error)| map.enclosed_hop(speed, error).ok()).collect();
+    for (hop, (&(speed, error), known)) in speeds.iter().zip(known).enumerate() {
         let n = index_below(speed)?;
+        let of = |field: fn(&EnclosedHop) -> Enclosed| known.as_ref().map(field);
         // The hop of the rounded speed may be one that 1024 bits do not decide.
         let details = map.hop(speed).ok();
+        let energy_loss = details.map(|hop| hop.energy_loss(map.mass_ratio()));
+        let (offset, rounding) = FixedPointSpeed::new(n).bounded_offset_of(speed);
         let cells: [Cell; 8] = [
             hop.into(),
-            speed.into(),
-            error.into(),
+            Cell::measured(speed, error),
+            Cell::Error(error),
             n.into(),
-            FixedPointSpeed::new(n).offset_of(speed).into(),
+            Cell::measured(offset, error + rounding),
             details.map(|hop| hop.sudden).into(),
-            details.map(|hop| hop.flight_time).into(),
-            details.map(|hop| hop.energy_loss(map.mass_ratio())).into(),
+            Cell::of(details.map(|hop| hop.flight_time), of(|hop| hop.flight_time)),
+            Cell::of(energy_loss, of(|hop| hop.energy_loss)),
         ];
         table.push(cells);
     }

@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::options::form::OutputOptions;
 use crate::options::quantity::{self, Kind, Quantity};
 use crate::options::values;
-use crate::output::{Column, Table, TableKind};
+use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use passive_hopper::PhysicalHopper;
 
@@ -59,28 +59,19 @@ static UNITS: TableKind = TableKind {
     about: "the hopper and its units",
     long: false,
     columns: &[
-        Column { name: "mass_ratio", unit: "", meaning: "M = m₂/m₁, for -M" },
-        Column {
-            name: "length_unit",
-            unit: "m",
-            meaning: "m₂g/k: the stretch of the spring under the lower mass",
-        },
-        Column { name: "time_unit", unit: "s", meaning: "1/ω" },
-        Column {
-            name: "speed_unit",
-            unit: "m/s",
-            meaning: "m₂gω/k: a lift-off speed in m/s over this is α",
-        },
-        Column { name: "energy_unit", unit: "J", meaning: "m₁m₂g²/k" },
-        Column {
-            name: "angular_frequency",
-            unit: "1/s",
-            meaning: "ω = √(k(1+M)/m₂), of the spring in flight",
-        },
-        Column { name: "upper_mass", unit: "kg", meaning: "m₁" },
-        Column { name: "lower_mass", unit: "kg", meaning: "m₂" },
-        Column { name: "stiffness", unit: "N/m", meaning: "k" },
-        Column { name: "gravity", unit: "m/s²", meaning: "g" },
+        Column::new("mass_ratio", "", "M = m₂/m₁, for -M").measured(),
+        Column::new("length_unit", "m", "m₂g/k: the stretch of the spring under the lower mass")
+            .measured(),
+        Column::new("time_unit", "s", "1/ω").measured(),
+        Column::new("speed_unit", "m/s", "m₂gω/k: a lift-off speed in m/s over this is α")
+            .measured(),
+        Column::new("energy_unit", "J", "m₁m₂g²/k").measured(),
+        Column::new("angular_frequency", "1/s", "ω = √(k(1+M)/m₂), of the spring in flight")
+            .measured(),
+        Column::new("upper_mass", "kg", "m₁").measured(),
+        Column::new("lower_mass", "kg", "m₂").measured(),
+        Column::new("stiffness", "N/m", "k").measured(),
+        Column::new("gravity", "m/s²", "g").measured(),
     ],
 };
 
@@ -89,15 +80,16 @@ static VALUES: TableKind = TableKind {
     about: "one row for each QUANTITY and each --alpha",
     long: false,
     columns: &[
-        Column { name: "given", unit: "", meaning: "as it was given" },
-        Column { name: "value", unit: "", meaning: "in kilograms, metres and seconds" },
-        Column { name: "unit", unit: "", meaning: "the unit of `value`" },
-        Column {
-            name: "dimensionless",
-            unit: "",
-            meaning: "in the units of the model; for a speed at lift-off it is α",
-        },
-        Column { name: "model_unit", unit: "", meaning: "the unit of `dimensionless`" },
+        Column::new("given", "", "as it was given"),
+        Column::new("value", "", "in kilograms, metres and seconds").measured(),
+        Column::new("unit", "", "the unit of `value`"),
+        Column::new(
+            "dimensionless",
+            "",
+            "in the units of the model; for a speed at lift-off it is α",
+        )
+        .measured(),
+        Column::new("model_unit", "", "the unit of `dimensionless`"),
     ],
 };
 
@@ -111,43 +103,49 @@ pub(crate) fn run(options: &Options, streams: Streams<'_>) -> Result<(), Error> 
         ))
     })?;
     let mut units = Table::new(&UNITS);
+    let errors = PhysicalHopper::unit_errors(quantity::RELATIVE_ERROR);
+    let of = |value: f64, relative: f64| Cell::measured(value, relative * value.abs());
+    let given = |value: f64| of(value, quantity::RELATIVE_ERROR);
     units.push([
-        hopper.mass_ratio()?.value().into(),
-        hopper.length_unit().into(),
-        hopper.time_unit().into(),
-        hopper.speed_unit().into(),
-        hopper.energy_unit().into(),
-        hopper.angular_frequency().into(),
-        upper.into(),
-        lower.into(),
-        stiffness.into(),
-        gravity.into(),
+        of(hopper.mass_ratio()?.value(), errors.mass_ratio),
+        of(hopper.length_unit(), errors.length),
+        of(hopper.time_unit(), errors.time),
+        of(hopper.speed_unit(), errors.speed),
+        of(hopper.energy_unit(), errors.energy),
+        of(hopper.angular_frequency(), errors.angular_frequency),
+        given(upper),
+        given(lower),
+        given(stiffness),
+        given(gravity),
     ]);
     let mut values = Table::new(&VALUES);
     for Quantity { kind, value, text } in &options.quantities {
-        let (own, name) = match kind {
-            Kind::Length => (hopper.length_unit(), "m₂g/k"),
-            Kind::Time => (hopper.time_unit(), "1/ω"),
-            Kind::Speed => (hopper.speed_unit(), "m₂gω/k"),
-            Kind::Energy => (hopper.energy_unit(), "m₁m₂g²/k"),
+        let (own, error, name) = match kind {
+            Kind::Length => (hopper.length_unit(), errors.length, "m₂g/k"),
+            Kind::Time => (hopper.time_unit(), errors.time, "1/ω"),
+            Kind::Speed => (hopper.speed_unit(), errors.speed, "m₂gω/k"),
+            Kind::Energy => (hopper.energy_unit(), errors.energy, "m₁m₂g²/k"),
             Kind::Mass | Kind::Stiffness | Kind::Acceleration => {
                 let reason = "masses, stiffness and gravity have options; give a speed, a length, a time or an energy";
                 return Err(Error::misuse("QUANTITY", text, reason));
             }
         };
         let (value, unit) = (*value, kind.unit());
+        // The quantity, the unit, and the quotient.
+        let relative = quantity::RELATIVE_ERROR + error + f64::EPSILON;
         values.push([
             text.clone().into(),
-            value.into(),
+            given(value),
             unit.into(),
-            (value / own).into(),
+            of(value / own, relative),
             name.into(),
         ]);
     }
     for &alpha in &options.alpha {
-        let speed = alpha * hopper.speed_unit();
-        let given = format!("α = {}", crate::output::number(alpha));
-        values.push([given.into(), speed.into(), "m/s".into(), alpha.into(), "m₂gω/k".into()]);
+        let speed = of(alpha * hopper.speed_unit(), errors.speed + f64::EPSILON);
+        let text = format!("α = {}", crate::output::number(alpha));
+        let dimensionless = Cell::measured(alpha, 0.0);
+        values.push([text.into(), speed, "m/s".into(), dimensionless, "m₂gω/k".into()]);
     }
     let tables = if values.rows.is_empty() { vec![units] } else { vec![units, values] };
     form.print(&tables, streams.output)

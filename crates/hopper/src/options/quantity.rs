@@ -71,6 +71,10 @@ const UNITS: [(&str, Kind, i32, f64); 40] = [
     ("Nm", Kind::Energy, 0, 1.0),
 ];
 
+/// Bound on the relative error of a value that was read: half an ulp of the decimal number. For km/h the divisor 3.6 and the quotient are rounded
+/// too.
+pub(crate) const RELATIVE_ERROR: f64 = 1.51 * f64::EPSILON;
+
 impl Kind {
     /// Its name, with an article.
     fn name(self) -> &'static str {

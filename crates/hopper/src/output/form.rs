@@ -66,7 +66,7 @@ impl Form {
                 Style::Plain => plain::append_table(table, &mut text),
                 Style::Csv => {
                     csv::append_names(table.kind, &mut text);
-                    table.rows.iter().for_each(|row| csv::append_row(row, &mut text));
+                    table.rows.iter().for_each(|row| csv::append_row(table.kind, row, &mut text));
                 }
                 Style::Json => {
                     text += if at == 0 { "{" } else { "" };
@@ -128,7 +128,7 @@ impl Rows {
     pub(crate) fn append(&mut self, row: &[Cell], text: &mut String) {
         match self.style {
             Style::Plain => plain::append_row(row, &self.widths, text),
-            Style::Csv => csv::append_row(row, text),
+            Style::Csv => csv::append_row(self.kind, row, text),
             Style::Json => {
                 *text += if self.begun { ",\n    " } else { "\n    " };
                 json::append_row(self.kind, row, text);

@@ -1,8 +1,8 @@
 //! Tables as JSON: an object with an array for each table, one object a row, names in the order of the columns.
 
-use crate::output::table::{Cell, TableKind};
+use crate::output::table::{Cell, Table, TableKind};
 
-/// Appends a row as an object. What is missing is null.
+/// Appends a row as an object, with the errors of its numbers. What is missing is null.
 pub(crate) fn append_row(kind: &TableKind, row: &[Cell], text: &mut String) {
     text.push('{');
     for (at, (column, cell)) in kind.columns.iter().zip(row).enumerate() {
@@ -10,6 +10,10 @@ pub(crate) fn append_row(kind: &TableKind, row: &[Cell], text: &mut String) {
         *text += column.name;
         *text += "\": ";
         append_value(cell, text);
+    }
+    for (name, error) in Table::errors(kind, row) {
+        *text += &format!(", \"{name}_error\": ");
+        append_value(&error, text);
     }
     text.push('}');
 }

@@ -28,6 +28,73 @@ pub(crate) fn append_number(value: f64, text: &mut String) {
     }
 }
 
+/// Appends a bound on an error: rounded up to two digits.
+pub(crate) fn append_bound(bound: f64, text: &mut String) {
+    if bound == 0.0 || !bound.is_finite() {
+        return append_number(bound, text);
+    }
+    let digits = format!("{bound:e}");
+    let (mantissa, exponent) = digits.split_once('e').unwrap_or((&digits, "0"));
+    let mut two: u32 = mantissa
+        .chars()
+        .filter(char::is_ascii_digit)
+        .take(2)
+        .fold(0, |all, digit| 10 * all + digit.to_digit(10).unwrap_or(0));
+    match mantissa.len() {
+        1 => two *= 10,
+        ..=3 => {}
+        _ => two += 1, // the shortest digits do not end with 0
+    }
+    // 100 reads as 10e… and is the next power of ten.
+    let _ = match (two / 10, two % 10) {
+        (first, 0) => write!(text, "{first}e{exponent}"),
+        (first, second) => write!(text, "{first}.{second}e{exponent}"),
+    };
+}
+
+/// Appends the digits that are certain: those that all numbers within `error` share after rounding. Without one it appends the first two digits
+/// and the bound.
+pub(crate) fn append_certain(value: f64, error: f64, text: &mut String) {
+    if error == 0.0 {
+        return append_number(value, text);
+    }
+    if !error.is_finite() {
+        append_number(value, text);
+        *text += UNKNOWN;
+        return;
+    }
+    // The exact decimals of both ends, in units of the last of `DIGITS`.
+    let exact = format!("{value:.*e}", DIGITS - 1);
+    let (mantissa, exponent) = exact.split_once('e').unwrap_or((&exact, "0"));
+    let whole: i128 = mantissa.replace('.', "").parse().unwrap_or(0);
+    let last = exponent.parse().unwrap_or(0) + 1 - DIGITS as i32;
+    // Two more units for what is cut off, and some roundings.
+    let off = (ROOM * error / pxfm::f_exp10(f64::from(last))).min(1e36) as i128 + 2;
+    for digits in (1..=MOST_CERTAIN).rev() {
+        let unit = 10i128.pow((DIGITS - digits) as u32);
+        let rounded = |number: i128| (number + number.signum() * (unit / 2)) / unit;
+        let own = rounded(whole - off);
+        if own == rounded(whole + off) && own != 0 {
+            let exponent = last + (DIGITS - digits) as i32;
+            return append_number(format!("{own}e{exponent}").parse().unwrap_or(value), text);
+        }
+    }
+    let _ = write!(text, "{} ± ", format!("{value:.1e}").parse().map_or(value.to_string(), number));
+    append_bound(error, text);
+}
+
+/// Decimals with which the certain ones are found: more than an error has that matters.
+const DIGITS: usize = 30;
+
+/// Covers the rounding of an error in these units.
+const ROOM: f64 = 1.0 + 1e-14;
+
+/// The most digits of a number.
+const MOST_CERTAIN: usize = 17;
+
+/// After a number of whose error nothing is known.
+const UNKNOWN: &str = " ±?";
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -51,6 +118,48 @@ mod tests {
                 assert_eq!(text.parse::<f64>().unwrap().to_bits(), value.to_bits(), "{text}");
                 assert!(text.len() <= 24, "{text}");
             }
+        }
+    }
+
+    #[test]
+    fn bounds_are_rounded_up_to_two_digits() {
+        let texts = [
+            (4.3639590692056443e-13, "4.4e-13"),
+            (4e-13, "4e-13"),
+            (0.25, "2.5e-1"),
+            (9.91e5, "1e6"),
+            (1.01, "1.1e0"),
+            (0.0, "0"),
+            (9.9e-5, "9.9e-5"),
+            (5e-324, "5e-324"),
+            (f64::MAX, "1.8e308"),
+        ];
+        for (bound, expected) in texts {
+            let mut text = String::new();
+            append_bound(bound, &mut text);
+            assert_eq!(text, expected);
+        }
+    }
+
+    #[test]
+    fn texts_have_only_the_digits_that_are_certain() {
+        let texts = [
+            (5.4319312674983316, 2e-15, "5.43193126749833"),
+            (5.4319312674983316, 0.0, "5.4319312674983316"),
+            (4.493409457909064, 3.4e-17, "4.493409457909064"),
+            (1.5, 1e-13, "1.5"),
+            (0.1, 1e-17, "0.1"),
+            (2.0, 0.4, "2"),
+            (5.5, 0.3, "5.5 ± 3e-1"),
+            (1e-22, 3e-20, "1e-22 ± 3e-20"),
+            (-8.5e-9, 1e-11, "-8.5e-9"),
+            (12345.678, 0.2, "12346"),
+            (7.0, f64::INFINITY, "7 ±?"),
+        ];
+        for (value, error, expected) in texts {
+            let mut text = String::new();
+            append_certain(value, error, &mut text);
+            assert_eq!(text, expected, "{value} {error}");
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Tables for people: a table with one row as a list, other tables as aligned columns.
 
+use crate::output::number::append_certain;
 use crate::output::table::{Cell, Table, TableKind};
 
 /// Between two columns.
@@ -97,6 +98,7 @@ fn append_cell(cell: &Cell, text: &mut String) {
         Cell::Text(own) => *text += own,
         Cell::Truth(truth) => *text += if *truth { "yes" } else { "no" },
         Cell::Missing => *text += "–",
+        Cell::Measured(value, error) => append_certain(*value, *error, text),
         cell => cell.append_number(text),
     }
 }
@@ -115,10 +117,7 @@ mod tests {
         name: "pairs",
         about: "",
         long: false,
-        columns: &[
-            Column { name: "a", unit: "m₂gω/k", meaning: "first" },
-            Column { name: "second", unit: "", meaning: "second" },
-        ],
+        columns: &[Column::new("a", "m₂gω/k", "first"), Column::new("second", "", "second")],
     };
 
     #[test]

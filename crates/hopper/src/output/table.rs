@@ -1,6 +1,7 @@
 //! A table: named columns with units, and rows of cells.
 
-use crate::output::number::append_number;
+use crate::output::number::{append_bound, append_number};
+use passive_hopper::Enclosed;
 use std::borrow::Cow;
 use std::fmt::Write;
 
@@ -26,12 +27,60 @@ pub(crate) struct Column {
     pub(crate) unit: &'static str,
     /// Its meaning.
     pub(crate) meaning: &'static str,
+    /// Where the error of its numbers is.
+    pub(crate) accuracy: Accuracy,
+}
+
+/// Where the error of the numbers of a column is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Accuracy {
+    /// They are given, or counts.
+    Exact,
+    /// Each is a bound itself: what is said of it holds for this number.
+    Bound,
+    /// Each is a bound on an error.
+    Error,
+    /// In the column NAME_error, after all others.
+    Measured,
+    /// In the column of this name.
+    In(&'static str),
+}
+
+impl Column {
+    /// A column of texts, counts, or numbers that were given.
+    pub(crate) const fn new(name: &'static str, unit: &'static str, meaning: &'static str) -> Self {
+        Column { name, unit, meaning, accuracy: Accuracy::Exact }
+    }
+
+    /// The same for computed numbers, whose errors are in a column of their own after all others.
+    pub(crate) const fn measured(self) -> Self {
+        Column { accuracy: Accuracy::Measured, ..self }
+    }
+
+    /// The same for computed numbers, whose errors are in another column of the table.
+    pub(crate) const fn with_error(self, name: &'static str) -> Self {
+        Column { accuracy: Accuracy::In(name), ..self }
+    }
+
+    /// The same for numbers that are bounds themselves.
+    pub(crate) const fn bound(self) -> Self {
+        Column { accuracy: Accuracy::Bound, ..self }
+    }
+
+    /// The same for bounds on errors.
+    pub(crate) const fn error(self) -> Self {
+        Column { accuracy: Accuracy::Error, ..self }
+    }
 }
 
 /// A cell.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Cell {
     Number(f64),
+    /// A computed number, with a bound on its error; infinite if none is known.
+    Measured(f64, f64),
+    /// A bound on an error.
+    Error(f64),
     Whole(u64),
     Text(Cow<'static, str>),
     Truth(bool),
@@ -40,10 +89,38 @@ pub(crate) enum Cell {
 }
 
 impl Cell {
+    /// A computed number; missing if it is not finite.
+    pub(crate) fn measured(value: f64, error: f64) -> Self {
+        if value.is_finite() { Cell::Measured(value, error) } else { Cell::Missing }
+    }
+
+    /// A computed number, if there is one, and what is known of its error.
+    pub(crate) fn of(value: impl Into<Option<f64>>, known: Option<Enclosed>) -> Self {
+        let Some(value) = value.into() else { return Cell::Missing };
+        Cell::measured(value, known.map_or(f64::INFINITY, |known| known.error_of(value)))
+    }
+
+    /// The same cell, if of its error no more than this bound was known.
+    pub(crate) fn or_bound(self, bound: Option<f64>) -> Self {
+        match (self, bound) {
+            (Cell::Measured(value, error), Some(bound)) => Cell::Measured(value, error.min(bound)),
+            (cell, _) => cell,
+        }
+    }
+
+    /// The bound on the error of this cell; missing if none is known.
+    pub(crate) fn error(&self) -> Cell {
+        match self {
+            Cell::Measured(_, error) if error.is_finite() => Cell::Error(*error),
+            _ => Cell::Missing,
+        }
+    }
+
     /// Appends a number or a whole number. The other cells look different in every form, and append nothing here.
     pub(crate) fn append_number(&self, text: &mut String) {
         match self {
-            Cell::Number(value) => append_number(*value, text),
+            Cell::Number(value) | Cell::Measured(value, _) => append_number(*value, text),
+            Cell::Error(bound) => append_bound(*bound, text),
             // Writing to a string does not fail.
             Cell::Whole(value) => drop(write!(text, "{value}")),
             Cell::Text(_) | Cell::Truth(_) | Cell::Missing => {}
@@ -62,6 +139,19 @@ impl Table {
     /// A table without rows.
     pub(crate) fn new(kind: &'static TableKind) -> Self {
         Table { kind, rows: Vec::new() }
+    }
+
+    /// The errors of a row that stand in columns of their own.
+    pub(crate) fn errors<'a>(
+        kind: &'a TableKind,
+        row: &'a [Cell],
+    ) -> impl Iterator<Item = (&'static str, Cell)> {
+        let measured = kind
+            .columns
+            .iter()
+            .zip(row)
+            .filter(|(column, _)| column.accuracy == Accuracy::Measured);
+        measured.map(|(column, cell)| (column.name, cell.error()))
     }
 
     /// Adds a row, with as many cells as there are columns.

@@ -38,6 +38,9 @@ pub fn alpha_star(n: u64) -> f64 {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FixedPointSpeed(DoubleDouble);
 
+/// Bound on the error of the 100 bits of α*_n, relative to α*_n: 2⁻¹⁰⁰. The theorem gives 2⁻¹⁰¹ (docs/theory.md, Lemma 65).
+const RELATIVE_ERROR: f64 = 7.9e-31;
+
 impl FixedPointSpeed {
     /// α*_n; zero for n = 0.
     pub fn new(n: u64) -> Self {
@@ -52,6 +55,18 @@ impl FixedPointSpeed {
     /// α*_n − [`value`](Self::value), at most half an ulp of it.
     pub fn rest(self) -> f64 {
         self.0.low
+    }
+
+    /// Bound on the error of [`value`](Self::value): half an ulp.
+    pub fn error(self) -> f64 {
+        self.0.low.abs() + RELATIVE_ERROR * self.0.high
+    }
+
+    /// [`offset_of`](Self::offset_of) `alpha`, with a bound on its error.
+    pub fn bounded_offset_of(self, alpha: f64) -> (f64, f64) {
+        let offset = self.offset_of(alpha);
+        // Two sums round.
+        (offset, f64::EPSILON * offset.abs() + RELATIVE_ERROR * self.0.high)
     }
 
     /// Compares the speed `alpha` with α*_n: `Less` if `alpha` lies below α*_n.
@@ -134,6 +149,12 @@ pub(crate) fn fixed_point_in<R: Extended>(n: u64) -> R {
 /// n π to 100 bits. A first flight from this speed lasts n periods of the spring and lands at stretch one.
 pub(crate) fn n_pi(n: u64) -> DoubleDouble {
     DoubleDouble::multiple_of_pi(n as f64)
+}
+
+/// Compares the speed `alpha` with nπ, in 100 bits: `Less` if `alpha` lies below it; `None` if these bits do not tell.
+pub fn compare_with_multiple_of_pi(alpha: f64, n: u64) -> Option<Ordering> {
+    let offset = n_pi(n).offset_of(alpha);
+    (offset.abs() > RELATIVE_ERROR * alpha).then(|| offset.total_cmp(&0.0))
 }
 
 /// The largest n with α*_n ≤ `alpha`.
@@ -231,6 +252,14 @@ mod tests {
             assert!(rest < Long::<16>::EPSILON, "{n}: {rest:e}");
             assert_eq!(a.nearest(), alpha_star(n));
         }
+    }
+
+    #[test]
+    fn multiples_of_pi_are_compared_beyond_their_last_bit() {
+        let pi = std::f64::consts::PI;
+        assert_eq!(compare_with_multiple_of_pi(pi, 1), Some(Ordering::Less));
+        assert_eq!(compare_with_multiple_of_pi(pi.next_up(), 1), Some(Ordering::Greater));
+        assert_eq!(compare_with_multiple_of_pi(0.0, 0), None);
     }
 
     #[test]

@@ -13,6 +13,23 @@ pub struct PhysicalHopper {
     gravity: f64,
 }
 
+/// Bounds on the relative errors of the units of a [`PhysicalHopper`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct UnitErrors {
+    /// Of the mass ratio.
+    pub mass_ratio: f64,
+    /// Of the unit of length.
+    pub length: f64,
+    /// Of ω.
+    pub angular_frequency: f64,
+    /// Of the unit of time.
+    pub time: f64,
+    /// Of the unit of speed.
+    pub speed: f64,
+    /// Of the unit of energy.
+    pub energy: f64,
+}
+
 impl PhysicalHopper {
     /// m₁ (upper), m₂ (lower), k and g.
     ///
@@ -76,6 +93,24 @@ impl PhysicalHopper {
     /// The unit of energy, m₁m₂g²/k.
     pub fn energy_unit(&self) -> f64 {
         self.upper_mass * self.gravity * self.length_unit()
+    }
+
+    /// Bounds on the relative errors of the units, if each of the four given quantities has a relative error of `given` at most: that of their
+    /// conversion to metres, kilograms and seconds.
+    pub fn unit_errors(given: f64) -> UnitErrors {
+        // So many given quantities, and so many roundings of half an ulp, enter each of them.
+        let of = |quantities: f64, roundings: f64| {
+            1.01 * (quantities * given + roundings * 0.5 * f64::EPSILON)
+        };
+        // ω is a root, which halves the errors of k and of 1/m₁ + 1/m₂, and rounds once itself.
+        UnitErrors {
+            mass_ratio: of(2.0, 1.0),
+            length: of(3.0, 2.0),
+            angular_frequency: of(1.0, 2.5),
+            time: of(1.0, 3.5),
+            speed: of(4.0, 5.5),
+            energy: of(5.0, 4.0),
+        }
     }
 
     /// The dimensionless form of a state with dimensions (displacements from the relaxed spring on the ground).
