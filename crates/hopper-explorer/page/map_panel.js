@@ -8,7 +8,7 @@ let drawing = null;
 
 export const hideMap = (why = "") => { drawing = null; panel.textContent = why; };
 
-export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }, window) {
+export function showMap({ pieces, stars, undecided }, { massRatio, speeds, grounded, fate }, window) {
   drawing = new Drawing({ x: window, y: window, height: 400, xName: "α", yName: "f(α; M)",
     title: `The map at M = ${massRatio} with the orbit from ${speeds[0]}: ${fate.name}` });
   for (const { trap, light } of stars) drawing.band(trap.left, trap.right, light);
@@ -27,7 +27,7 @@ export function showMap({ pieces, stars }, { massRatio, speeds, grounded, fate }
     `<tr><td>${star(n)}</td><td>${show(trap.left, 6)}</td><td>${show(trap.length, 4)}</td><td>${trap.edge}</td>` +
     `<td>${crisis ? show(crisis.massRatio, 5) : "–"}</td><td>${show(grounding.massRatio, 5)}</td></tr>`).join("");
   panel.innerHTML = `<h2>The map at <i>M</i> = ${show(massRatio)}</h2><div class="picture">${drawing.markup()}</div>
-    <p class="soft">Red: the orbit. Bands: the traps, with their lengths below. Drag along the picture to move α.</p>
+    <p class="soft">Red: the orbit. Bands: the traps, with their lengths below. Drag along the picture to move α.${undecided ? ` ${undecided} points of the curve are not decided and left out.` : ""}</p>
     <div class="wide"><table><thead><tr><th></th><th>α*</th><th>trap</th><th>ends at</th><th>crisis <i>M</i></th><th>grounding <i>M</i></th></tr></thead><tbody>${rows}</tbody></table></div>`;
 }
 

@@ -4,7 +4,7 @@ use crate::json::{Json, numbers, objects};
 use crate::point::trap_json;
 use crate::refusal::Refusal;
 use hopper_basin::{Crisis, HopperFate, Trap, crisis, grounding};
-use hopper_figures::{cuts_between, fate_colors, graph_pieces};
+use hopper_figures::{Graph, cuts_between, fate_colors};
 use passive_hopper::{LiftOffMap, MassRatio, index_below};
 
 /// Fixed points whose traps and crises are listed. More are no longer told apart in the panel.
@@ -29,7 +29,7 @@ pub(crate) fn map_json(
 ) -> Result<Json, Refusal> {
     let ratio = MassRatio::new(mass_ratio)?;
     let map = LiftOffMap::new(ratio);
-    let pieces = graph_pieces(&map, &cuts_between(from, to)?, points.clamp(1, MOST_POINTS));
+    let graph = Graph::drawn(&map, &cuts_between(from, to)?, points.clamp(1, MOST_POINTS));
     let piece = |piece: &Vec<(f64, f64)>| {
         let both = piece.iter().flat_map(|&(alpha, next)| [alpha, next]);
         Json::object().json("points", numbers(both))
@@ -37,7 +37,8 @@ pub(crate) fn map_json(
     let inside = index_below(from)?..=index_below(to)?;
     let stars = inside.take(MOST_FIXED_POINTS).map(|n| star_json(n, ratio));
     Ok(Json::object()
-        .json("pieces", objects(pieces.iter().map(piece)))
+        .json("pieces", objects(graph.pieces.iter().map(piece)))
+        .integer("undecided", graph.undecided.len() as u64)
         .json("stars", objects(stars.collect::<Result<Vec<_>, Refusal>>()?)))
 }
 

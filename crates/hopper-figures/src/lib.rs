@@ -9,7 +9,7 @@
 //! | [`ZoomPixels`], [`draw_zoom_frame`], [`draw_zoom`] | the frames of a zoom into an edge, and all of them side by side |
 //! | [`draw_hops`], [`hop_color`] | a raster of numbers of hops, with axes and scale; one of its colours |
 //! | [`fate_colors`] | the colour and the name of every fate |
-//! | [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
+//! | [`Graph`], [`graph_pieces`], [`cuts`], [`cuts_between`] | the graph of the map, in pieces that are smooth |
 //! | [`MapPlot`] | the map with its fixed points and traps, and the cobweb of an orbit |
 //! | [`Motion`], [`MotionEvent`], [`draw_motion`] | the motion of both masses, sampled, with its events, and against time |
 //! | [`frame_times`], [`draw_frame`], [`frame_png`], [`animation`] | the frames of its animation, and the file |
@@ -37,6 +37,7 @@ mod hops;
 mod machine;
 mod map_plot;
 mod motion;
+mod motion_errors;
 mod motion_frames;
 mod motion_plot;
 mod shares;
@@ -46,11 +47,12 @@ pub use animation::{AnimationForm, animation, frame_png};
 pub use basins::{Inset, PIXELS, Window, draw_basins, draw_pixels, label_png, legend};
 pub use coverage::{coverage_pixels, coverage_png, draw_coverage};
 pub use error::Error;
-pub use graph::{cuts, cuts_between, graph_pieces};
+pub use graph::{Graph, cuts, cuts_between, graph_pieces};
 pub use hops::{draw_hops, hop_color};
 pub use machine::{draw_block, draw_ground, draw_spring};
 pub use map_plot::MapPlot;
 pub use motion::{Motion, MotionEvent, Sample};
+pub use motion_errors::{SampleError, motion_with_errors};
 pub use motion_frames::{SECONDS_A_FRAME, draw_frame, frame_times};
 pub use motion_plot::draw_motion;
 pub use shares::{draw_shares, share_pixels, share_png, share_words};

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::fate_colors;
-use crate::graph::{cuts_between, graph_pieces};
+use crate::graph::{Graph, cuts_between};
 use crate::motion_plot::short;
 use hopper_basin::{HopperFate, Trap};
 use journal_figures::{Anchor, Frame, Pen, Svg, ticks};
@@ -49,13 +49,13 @@ impl MapPlot<'_> {
     /// [`Error::TooWide`] and [`Error::EmptyWindow`] for such windows; [`Error::Hopper`] for an end that is no speed.
     pub fn draw(&self) -> Result<Svg, Error> {
         let (from, to) = self.window;
-        let pieces = graph_pieces(self.map, &cuts_between(from, to)?, POINTS);
+        let graph = Graph::drawn(self.map, &cuts_between(from, to)?, POINTS);
         let mut svg = Svg::new(560.0, 560.0);
         let frame = Frame::linear(74.0, 40.0, 466.0, 466.0, self.window, self.window);
         self.draw_traps(&mut svg, &frame)?;
         frame.clipped(&mut svg, |svg| {
             frame.polyline(svg, &[(from, from), (to, to)], DIAGONAL);
-            for piece in &pieces {
+            for piece in &graph.pieces {
                 frame.curve(svg, piece, GRAPH);
             }
             self.draw_web(svg, &frame);
@@ -74,6 +74,14 @@ impl MapPlot<'_> {
         };
         svg.text(frame.left + frame.width, 27.0, Anchor::End, 12.0, &title);
         svg.text(frame.left, 27.0, Anchor::Start, 12.0, "coloured: the traps of the fixed points");
+        if !graph.undecided.is_empty() {
+            let text = "red, below the frame: speeds whose hop is not decided";
+            svg.text(frame.left, 12.0, Anchor::Start, 12.0, text);
+            for &alpha in &graph.undecided {
+                let (x, y) = frame.at((alpha, from));
+                svg.line((x, y + 1.0), (x, y + 5.0), WEB);
+            }
+        }
         Ok(svg)
     }
 

@@ -53,6 +53,12 @@ pub struct Motion {
     pub grounded: bool,
 }
 
+/// A phase of a motion, and all samples up to its end.
+pub(crate) struct Arc<'a> {
+    pub(crate) samples: &'a [Sample],
+    pub(crate) phase: Phase,
+}
+
 impl Motion {
     /// The motion that begins with a gradual lift-off with speed `alpha`, over `hops` hops or until the hopper is grounded.
     ///
@@ -75,6 +81,16 @@ impl Motion {
     /// [`Error::Hopper`] for a wrong speed, and for a hop that cannot be decided; [`Error::TooLong`] for a motion of more than a
     /// million samples.
     pub fn new(mass_ratio: MassRatio, alpha: f64, hops: usize) -> Result<Self, Error> {
+        Self::watched(mass_ratio, alpha, hops, |_| ())
+    }
+
+    /// The same; `see` receives each phase after its samples were added.
+    pub(crate) fn watched(
+        mass_ratio: MassRatio,
+        alpha: f64,
+        hops: usize,
+        mut see: impl FnMut(Arc<'_>),
+    ) -> Result<Self, Error> {
         let map = LiftOffMap::new(mass_ratio);
         map.check_speed(alpha)?;
         let events = vec![(0.0, MotionEvent::GradualLiftOff)];
@@ -86,6 +102,7 @@ impl Motion {
             for landing in map.landings(speed)? {
                 let flight = Flight::new(mass_ratio, &state);
                 motion.sample(hop, Phase::Flight, time, landing.time, |at| flight.state(at))?;
+                see(Arc { samples: &motion.samples, phase: Phase::Flight });
                 time += landing.time;
                 state = after(&landing);
                 let kind =
@@ -104,6 +121,7 @@ impl Motion {
             let duration = next.map_or(period.min(time), |(_, contact)| contact);
             let flow = |at| contact_flow(mass_ratio, &state, at);
             motion.sample(hop, Phase::Contact, time, duration, flow)?;
+            see(Arc { samples: &motion.samples, phase: Phase::Contact });
             let Some((speed, _)) = next else {
                 motion.grounded = true;
                 return Ok(motion);

@@ -48,9 +48,22 @@ pub fn graph_pieces(
     cuts: &[f64],
     count: usize,
 ) -> Vec<Vec<(f64, f64)>> {
+    graph_pieces_to(TO_AN_ULP, value, cuts, count)
+}
+
+/// 54 halvings reach neighbouring `f64` if both ends are of one size. The others are for a bracket with an end near 0.
+const TO_AN_ULP: usize = 80;
+
+/// As [`graph_pieces`], with edges that are found by so many halvings of a 64th of a piece: a dozen are enough for a drawing.
+pub fn graph_pieces_to(
+    halvings: usize,
+    value: impl Fn(f64) -> Option<f64>,
+    cuts: &[f64],
+    count: usize,
+) -> Vec<Vec<(f64, f64)>> {
     let mut pieces = Vec::new();
     for pair in cuts.windows(2) {
-        for (left, right) in valued(&value, pair[0], pair[1]) {
+        for (left, right) in valued(halvings, &value, pair[0], pair[1]) {
             let piece = (0..=count).filter_map(|k| {
                 let angle = std::f64::consts::PI * (k as f64 / count as f64);
                 let x = left + (right - left) * (0.5 - 0.5 * pxfm::f_cos(angle));
@@ -63,7 +76,12 @@ pub fn graph_pieces(
 }
 
 /// The parts of [left, right] on which `value` exists. A gap or a part shorter than a 64th may be missed.
-fn valued(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Vec<(f64, f64)> {
+fn valued(
+    halvings: usize,
+    value: &impl Fn(f64) -> Option<f64>,
+    left: f64,
+    right: f64,
+) -> Vec<(f64, f64)> {
     /// A piece of a drawing has some hundred points. A gap between two probes is therefore at most a few points wide.
     const PROBES: usize = 64;
     let at = |k: usize| left + (right - left) * (k as f64 / PROBES as f64);
@@ -72,9 +90,9 @@ fn valued(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Vec<(f6
     for k in 1..=PROBES {
         let (a, b) = (at(k - 1), at(k));
         match (start, value(b).is_some()) {
-            (None, true) => start = Some(edge(value, a, b)),
+            (None, true) => start = Some(edge(halvings, value, a, b)),
             (Some(from), false) => {
-                parts.push((from, edge(value, b, a)));
+                parts.push((from, edge(halvings, value, b, a)));
                 start = None;
             }
             _ => {}
@@ -85,9 +103,13 @@ fn valued(value: &impl Fn(f64) -> Option<f64>, left: f64, right: f64) -> Vec<(f6
 }
 
 /// The last point with a value on the way from `inside` to `outside`.
-fn edge(value: &impl Fn(f64) -> Option<f64>, mut outside: f64, mut inside: f64) -> f64 {
-    // 54 halvings reach neighbouring f64 if both ends are of one size. The others are for a bracket with an end near 0.
-    for _ in 0..80 {
+fn edge(
+    halvings: usize,
+    value: &impl Fn(f64) -> Option<f64>,
+    mut outside: f64,
+    mut inside: f64,
+) -> f64 {
+    for _ in 0..halvings {
         let middle = 0.5 * (inside + outside);
         if value(middle).is_some() { inside = middle } else { outside = middle }
     }

@@ -59,7 +59,7 @@ mod svg;
 
 pub use animation::{animated_gif, animated_png};
 pub use axes::{Frame, Scale, decades, ticks};
-pub use curve::{graph_pieces, smooth};
+pub use curve::{graph_pieces, graph_pieces_to, smooth};
 pub use data::{DataFile, csv_file, csv_text};
 pub use error::Error;
 pub use label::html;

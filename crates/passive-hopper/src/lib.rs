@@ -94,6 +94,7 @@ pub use evidence::bounded_hop::{BoundedHop, BoundedLanding, StateError};
 pub use evidence::compared::Compared;
 pub use evidence::enclosed::Enclosed;
 pub use evidence::enclosed_hop::{EnclosedHop, EnclosedLanding};
+pub use evidence::enclosed_state::{EnclosedStart, EnclosedState};
 pub use evidence::enclosed_touch::{EnclosedTouch, enclosed_touch};
 pub use evidence::function_errors::{SineErrors, sine_errors};
 pub use evidence::reference_hop::{FirstFlightErrors, HopErrors, LandingErrors, ReferenceHop};

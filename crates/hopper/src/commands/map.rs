@@ -9,7 +9,7 @@ use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind};
 use crate::streams::Streams;
 use hopper_basin::{Crisis, Trap, TrapEdge, crisis, grounding};
-use hopper_figures::{MapPlot, cuts_between, graph_pieces};
+use hopper_figures::{Graph, MapPlot, cuts_between};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star, index_below};
 
 /// Options.
@@ -39,7 +39,8 @@ pub(crate) const PAGE: Page = Page {
     units: "Speeds in m₂gω/k.",
     limits: "Windows of up to 200 humps; speeds up to 8796093022208 = 2⁴³; mass ratios from 2⁻¹⁰²² to 2¹⁰²².\n\
              The curve is cut at nπ and at the fixed points α*ₙ. Where the hopper is grounded there is no curve; a gap narrower\n\
-             than a 64th of a piece may be missed.",
+             than a 64th of a piece may be missed. A figure shows where a hop is not decided. It takes seconds from M = 10⁶ on, and up to a\n\
+             minute from 10⁷ on; the table `curve` has all digits, and takes minutes from 10⁵ on.",
     tables: &[&FIXED_POINTS, &CURVE],
     examples: &[
         Example { about: "Fixed points, traps and crises.", line: "hopper map -M 0.2" },
@@ -116,13 +117,20 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
     }
     let mut curve = Table::new(&CURVE);
     if form.shows(&CURVE, PAGE.tables) {
-        let pieces =
-            graph_pieces(&map, &cuts, usize::try_from(options.points).unwrap_or(usize::MAX));
-        for (at, piece) in (1u64..).zip(pieces) {
+        let count = usize::try_from(options.points).unwrap_or(usize::MAX);
+        let graph = Graph::exact(&map, &cuts, count);
+        for (at, piece) in (1u64..).zip(graph.pieces) {
             for (speed, next) in piece {
                 let error = map.bounded_hop(speed)?.next_error.unwrap_or(f64::INFINITY);
                 curve.push([at.into(), speed.into(), Cell::measured(next, error)]);
             }
+        }
+        if let Some(&first) = graph.undecided.first() {
+            let (count, first) = (graph.undecided.len(), crate::output::number(first));
+            let text = format!(
+                "1024 bits do not decide the hop from {count} speeds, such as {first}; they are left out"
+            );
+            options.output.note(&mut streams, text);
         }
     }
     form.print(&[fixed_points(&map, window)?, curve], streams.output)

@@ -9,7 +9,9 @@ use crate::options::values;
 use crate::output::{Cell, Column, Table, TableKind, motion_table};
 use crate::streams::Streams;
 use hopper_basin::{Fates, HOP_BUDGET};
-use hopper_figures::{AnimationForm, MapPlot, Motion, draw_motion, frame_png, frame_times};
+use hopper_figures::{
+    AnimationForm, MapPlot, Motion, draw_motion, frame_png, frame_times, motion_with_errors,
+};
 use journal_figures::{Svg, render};
 use passive_hopper::{
     BoundedOrbit, Enclosed, EnclosedHop, ExtendedStep, FixedPointSpeed, LiftOffMap, MassRatio,
@@ -62,7 +64,8 @@ pub(crate) const PAGE: Page = Page {
              A picture of an orbit whose fate is known at once shows 3 hops. A cobweb shows up to 200 humps of the map, a motion\n\
              has up to 1000000 samples, an animation up to 1200 frames, which is a minute.\n\
              The columns of --motion FILE.csv: time, hop, phase (flight or contact), upper_position y₁, upper_velocity ẏ₁,\n\
-             lower_position y₂, lower_velocity ẏ₂. At a landing there are two lines: before the collision and after it.",
+             lower_position y₂, lower_velocity ẏ₂, and the errors of these numbers. At a landing there are two lines: before the collision and\n\
+             after it. A time that is not that of an event is exact, and the errors of the others hold at the time that is printed.",
     tables: &[&ORBIT, &fate::FATES],
     examples: &[
         Example { about: "The orbit, hop by hop.", line: "hopper orbit 7.0 -M 0.2" },
@@ -129,10 +132,14 @@ pub(crate) fn run(options: &Options, mut streams: Streams<'_>) -> Result<(), Err
         motion.map_err(|error| refused(&format!("{option}, --hops {hops}"), error))
     };
     if let Some(file) = &options.motion {
-        let motion = motion("--motion")?;
         let bytes = match file.format {
-            Format::Csv => motion_table(&motion).into_bytes(),
-            format => drawing("motion", format, &draw_motion(&motion))?,
+            Format::Csv => {
+                let found = motion_with_errors(options.mass_ratio, options.speed, hops);
+                let (motion, errors) =
+                    found.map_err(|error| refused(&format!("--motion, --hops {hops}"), error))?;
+                motion_table(&motion, &errors).into_bytes()
+            }
+            format => drawing("motion", format, &draw_motion(&motion("--motion")?))?,
         };
         files.push((file, bytes));
     }

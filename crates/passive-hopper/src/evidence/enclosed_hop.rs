@@ -131,9 +131,7 @@ struct Masses<R> {
 
 impl<R: Extended> Masses<R> {
     fn new(masses: ExtendedMasses<R>) -> Self {
-        // A sum and two quotients: each errs by an eighth of EPSILON.
-        let near = |middle: R| Ball { middle, radius: R::EPSILON * middle.nearest().abs() };
-        let (mu, kappa) = (near(masses.mu), near(masses.kappa));
+        let (mu, kappa) = (Ball::near(masses.mu), Ball::near(masses.kappa));
         Masses { mu, kappa, share: mu / kappa }
     }
 }
@@ -260,12 +258,12 @@ impl<R: Extended> Path<R> {
 }
 
 /// 1 − cos t, without cancellation.
-fn versine<R: Extended>(t: Ball<R>) -> Ball<R> {
+pub(crate) fn versine<R: Extended>(t: Ball<R>) -> Ball<R> {
     (t * 0.5).sin_cos().0.squared() * 2.0
 }
 
 /// G(t; x, V), the height of the lower mass times 1 + M.
-fn height<R: Extended>(t: Ball<R>, x: Ball<R>, v: Ball<R>) -> Ball<R> {
+pub(crate) fn height<R: Extended>(t: Ball<R>, x: Ball<R>, v: Ball<R>) -> Ball<R> {
     let (sin, cos) = t.sin_cos();
     let (lag, bend) = t.sine_remainders(sin, cos);
     x * versine(t) + v * lag - bend
@@ -293,29 +291,42 @@ fn enclosed_time<R: Extended>(time: R, f: impl Fn(Ball<R>) -> Ball<R>) -> Option
 /// Newton steps of the contact's time from an `f64`, of which each doubles the right bits: 1024 need five.
 const CONTACT_STEPS: usize = 6;
 
+/// The stretch less 1 on the ground, a time t after (x, V): x cos θ + V sin θ/ν − (1 − cos θ)/κ with θ = νt, ν = √κ.
+pub(crate) fn contact_excess<R: Extended>(
+    x: Ball<R>,
+    v: Ball<R>,
+    kappa: Ball<R>,
+    t: Ball<R>,
+) -> Ball<R> {
+    let nu = kappa.sqrt();
+    let angle = nu * t;
+    let one_less_cos = versine(angle);
+    x - x * one_less_cos + v * angle.sin_cos().0 / nu - one_less_cos / kappa
+}
+
+/// The speed of the upper mass then.
+pub(crate) fn contact_speed<R: Extended>(
+    x: Ball<R>,
+    v: Ball<R>,
+    kappa: Ball<R>,
+    t: Ball<R>,
+) -> Ball<R> {
+    let nu = kappa.sqrt();
+    let (sin, cos) = (nu * t).sin_cos();
+    v * cos - (x * kappa + 1.0.into()) * sin / nu
+}
+
 /// The time from (x, V), x < 0, until the stretch is 1 again, near `plain`.
-///
-/// x(t) = x cos θ + V sin θ/ν − (1 − cos θ)/κ with θ = νt, ν = √κ.
 fn enclosed_contact<R: Extended>(
     x: Ball<R>,
     v: Ball<R>,
     kappa: Ball<R>,
     plain: f64,
 ) -> Option<Ball<R>> {
-    let nu = kappa.sqrt();
-    let excess = |t: Ball<R>| {
-        let angle = nu * t;
-        let (sin, _) = angle.sin_cos();
-        let one_less_cos = versine(angle);
-        x - x * one_less_cos + v * sin / nu - one_less_cos / kappa
-    };
-    let speed = |t: Ball<R>| {
-        let (sin, cos) = (nu * t).sin_cos();
-        v * cos - (x * kappa + 1.0.into()) * sin / nu
-    };
+    let excess = |t: Ball<R>| contact_excess(x, v, kappa, t);
     let mut time = Ball::exact(plain);
     for _ in 0..CONTACT_STEPS {
-        let step = excess(time) / speed(time);
+        let step = excess(time) / contact_speed(x, v, kappa, time);
         time = Ball { middle: (time - step).middle, radius: 0.0 };
     }
     enclosed_time(time.middle, |t| -excess(t))

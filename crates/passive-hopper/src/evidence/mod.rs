@@ -6,6 +6,7 @@
 //!   bounded_hop.rs     a hop as users see it, with its bounds
 //!   enclosed.rs        a number with a bound on its error
 //!   enclosed_hop.rs    a hop with all its numbers enclosed
+//!   enclosed_state.rs  the positions and velocities of both masses, enclosed
 //!   enclosed_touch.rs  the mass ratio at which the map's minimum touches a fixed point or zero, enclosed
 //!   reference_hop.rs   a hop in longer arithmetic, and the errors of other ways against it
 //!   reference_local_hop.rs   a hop near a fixed point in 512 or 1024 bits
@@ -19,6 +20,7 @@ pub(crate) mod bounded_hop;
 pub(crate) mod compared;
 pub(crate) mod enclosed;
 pub(crate) mod enclosed_hop;
+pub(crate) mod enclosed_state;
 pub(crate) mod enclosed_touch;
 pub(crate) mod function_errors;
 pub(crate) mod reference_hop;

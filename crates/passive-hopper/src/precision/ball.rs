@@ -25,6 +25,11 @@ impl<R: Extended> Ball<R> {
         Ball { middle: R::from(value), radius: 0.0 }
     }
 
+    /// A number of `R` after some sums and quotients, each of which errs by an eighth of EPSILON.
+    pub(crate) fn near(middle: R) -> Self {
+        Ball { middle, radius: R::EPSILON * middle.nearest().abs() }
+    }
+
     /// A number of `R`, rounded by one operation, and whatever lies within `error` of it.
     fn rounded(middle: R, error: f64) -> Self {
         let radius = error + R::EPSILON * middle.nearest().abs();
