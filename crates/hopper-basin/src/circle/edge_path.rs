@@ -205,3 +205,22 @@ fn derivatives(map: &LiftOffMap, hops: usize, start: f64) -> Option<(f64, f64, f
         by_mass_ratio,
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// dp/dM is enclosed to many digits, and holds the slope along the orbit in `f64`.
+    #[test]
+    fn slopes_of_edges_are_enclosed() {
+        for (m, speed) in [(0.12, 11.92), (0.12, 11.9206)] {
+            let fates = Fates::new(MassRatio::new(m).unwrap()).unwrap();
+            let chart = EdgeChart::near(&fates, speed).unwrap();
+            let edge = FollowedEdge::new(&chart).unwrap();
+            let found = enclosed_edge_slope(fates.map(), &chart).unwrap();
+            let off = (found.value - edge.by_mass_ratio).abs();
+            assert!(off <= found.error + 1e-9 * off.max(found.value.abs()), "{found:?} {edge:?}");
+            assert!(found.error < 1e-6 * found.value.abs(), "{found:?}");
+        }
+    }
+}

@@ -45,8 +45,9 @@ pub(crate) fn append_bound(bound: f64, text: &mut String) {
         ..=3 => {}
         _ => two += 1, // the shortest digits do not end with 0
     }
-    // 100 reads as 10e… and is the next power of ten.
+    // Writing to a string does not fail.
     let _ = match (two / 10, two % 10) {
+        (10, _) => write!(text, "1e{}", exponent.parse().unwrap_or(0) + 1),
         (first, 0) => write!(text, "{first}e{exponent}"),
         (first, second) => write!(text, "{first}.{second}e{exponent}"),
     };
@@ -76,7 +77,13 @@ pub(crate) fn append_certain(value: f64, error: f64, text: &mut String) {
         let own = rounded(whole - off);
         if own == rounded(whole + off) && own != 0 {
             let exponent = last + (DIGITS - digits) as i32;
-            return append_number(format!("{own}e{exponent}").parse().unwrap_or(value), text);
+            let certain: f64 = format!("{own}e{exponent}").parse().unwrap_or(value);
+            if exponent > 0 {
+                // Zeros before the point would look like digits.
+                let _ = write!(text, "{certain:.*e}", digits - 1);
+                return;
+            }
+            return append_number(certain, text);
         }
     }
     let _ = write!(text, "{} ± ", format!("{value:.1e}").parse().map_or(value.to_string(), number));
@@ -153,7 +160,7 @@ mod tests {
             (5.5, 0.3, "5.5 ± 3e-1"),
             (1e-22, 3e-20, "1e-22 ± 3e-20"),
             (-8.5e-9, 1e-11, "-8.5e-9"),
-            (12345.678, 0.2, "12346"),
+            (12345.678, 0.2, "1.235e4"),
             (7.0, f64::INFINITY, "7 ±?"),
         ];
         for (value, error, expected) in texts {
