@@ -58,20 +58,31 @@ impl IntervalBasins {
         known: &[(Interval, Label)],
         stop_reason: StopReason,
     ) -> Result<IntervalBasins, Error> {
-        let mut end = f64::NEG_INFINITY;
-        for &(Interval { left, right }, _) in known {
-            Interval::new(left, right)?;
-            Interval::new(end.max(f64::MIN), left)?;
-            end = right;
-        }
         let part = |&(interval, label): &(Interval, Label)| LabelledInterval {
             interval,
             label,
             level: None,
         };
-        let parts = known.iter().map(part).collect();
-        let all = IntervalBasins { window, parts, stop_reason, grounds: Vec::new() };
+        let all = Self::from_parts(window, known.iter().map(part).collect(), stop_reason)?;
         Ok(all.within(window)?.without_undecided())
+    }
+
+    /// The intervals that [`intervals`](Self::intervals) gave, with their levels: to take up what was stored.
+    ///
+    /// # Errors
+    /// [`Error::BadInterval`] unless they are disjoint and from left to right.
+    pub fn from_parts(
+        window: Interval,
+        parts: Vec<LabelledInterval>,
+        stop_reason: StopReason,
+    ) -> Result<IntervalBasins, Error> {
+        let mut end = f64::NEG_INFINITY;
+        for LabelledInterval { interval: Interval { left, right }, .. } in &parts {
+            Interval::new(*left, *right)?;
+            Interval::new(end.max(f64::MIN), *left)?;
+            end = *right;
+        }
+        Ok(IntervalBasins { window, parts, stop_reason, grounds: Vec::new() })
     }
 
     /// The window.
@@ -232,7 +243,7 @@ impl IntervalBasins {
     /// the sum.
     pub fn rounding(&self) -> f64 {
         let ulp = f64::EPSILON * self.window.left.abs().max(self.window.right.abs());
-        3.0 * (1 + self.parts.len()) as f64 * ulp
+        3.0 * self.parts.len().max(1) as f64 * ulp
     }
 
     /// The number and the total length of the intervals with a label, by level; those without a level are left out.

@@ -78,7 +78,8 @@ fn draw_machine(svg: &mut Svg, motion: &Motion, time: f64) {
     let room = GROUND - TOP - BLOCKS;
     let (_, highest) = motion.range(|s| s.upper_position);
     let (shortest, _) = motion.range(|s| s.stretch());
-    let lift = (highest - shortest).max(f64::MIN_POSITIVE);
+    // A single state has no range; it is drawn in units of its length.
+    let lift = if highest > shortest { highest - shortest } else { 1.0 };
     let scale = (1.0 - SHORTEST) * room / lift;
     let relaxed = SHORTEST * room - scale * shortest;
     let (y1, y2) = (state.upper_position, state.lower_position);

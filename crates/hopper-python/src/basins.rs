@@ -3,11 +3,16 @@
 use crate::arrays::shaped;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background, progress_function};
+use crate::pickling::{Reduced, plain, reduced, restoring};
 use crate::whole::{two_whole, whole};
-use basin_of_attraction::{Grid, Interval, Label, Refinement, columns_in_parallel};
-use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, basin_columns};
+use basin_of_attraction::{
+    Grid, Interval, Label, LabelledInterval, Refinement, StopReason, columns_in_parallel,
+};
+use hopper_basin::{BranchGround, Fates, HopperBasins, HopperFate, Probes, basin_columns};
 use passive_hopper::MassRatio;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 
@@ -137,8 +142,14 @@ pub(crate) struct Bounds {
     pub(crate) upper: f64,
 }
 
+plain!(Bounds { lower, upper });
+
 #[pymethods]
 impl Bounds {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __repr__(&self) -> String {
         format!("Bounds(lower={:?}, upper={:?})", self.lower, self.upper)
     }
@@ -149,13 +160,68 @@ impl Bounds {
 }
 
 /// All basins at one mass ratio, as intervals of the lift-off speed.
-#[pyclass(frozen, module = "passive_hopper")]
+#[pyclass(frozen, eq, module = "passive_hopper")]
+#[derive(PartialEq)]
 pub(crate) struct IntervalBasins {
     found: HopperBasins,
 }
 
+/// An interval for pickle: its ends, its label and its level.
+type Part = (f64, f64, u16, Option<usize>);
+/// All intervals for pickle: the window, the intervals, the numbers of the reason and of the ground, and the probes.
+type Stored = ((f64, f64), Vec<Part>, usize, usize, (usize, usize, Option<f64>));
+
+const REASONS: [StopReason; 7] = [
+    StopReason::Resolved,
+    StopReason::AllFollowed,
+    StopReason::SampledBranches,
+    StopReason::Contradiction,
+    StopReason::ShortestInterval,
+    StopReason::LevelLimit,
+    StopReason::IntervalLimit,
+];
+const GROUNDS: [BranchGround; 3] =
+    [BranchGround::Proved, BranchGround::Enclosures, BranchGround::ContactParts];
+
+/// The number of a value in a list that has them all.
+fn number_of<T: PartialEq>(all: &[T], value: &T) -> usize {
+    all.iter().position(|own| own == value).unwrap_or(all.len())
+}
+
+/// The intervals that pickle has stored.
+pub(crate) fn restored_basins(py: Python<'_>, values: &Bound<'_, PyTuple>) -> PyResult<Py<PyAny>> {
+    let ((left, right), parts, reason, ground, probes): Stored = values.extract()?;
+    let wrong = || PyValueError::new_err("the pickle of these intervals has a wrong number");
+    let window = Interval::new(left, right).map_err(value_error)?;
+    let part = |(left, right, label, level): Part| {
+        let interval = Interval::new(left, right).map_err(value_error)?;
+        Ok(LabelledInterval { interval, label: Label::from_code(label), level })
+    };
+    let parts = parts.into_iter().map(part).collect::<PyResult<Vec<_>>>()?;
+    let reason = *REASONS.get(reason).ok_or_else(wrong)?;
+    let basins = basin_of_attraction::IntervalBasins::from_parts(window, parts, reason)
+        .map_err(value_error)?;
+    let (compared, wrong_probes, first_wrong) = probes;
+    let probes = Probes { compared, wrong: wrong_probes, first_wrong };
+    let found = HopperBasins { basins, ground: *GROUNDS.get(ground).ok_or_else(wrong)?, probes };
+    Ok(Py::new(py, IntervalBasins { found })?.into_any())
+}
+
 #[pymethods]
 impl IntervalBasins {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, HopperBasins { basins, ground, probes }) = (slf.py(), &slf.get().found);
+        let part = |part: &LabelledInterval| {
+            (part.interval.left, part.interval.right, part.label.code(), part.level)
+        };
+        let window = (basins.window().left, basins.window().right);
+        let parts: Vec<Part> = basins.intervals().iter().map(part).collect();
+        let numbers = (number_of(&REASONS, &basins.stop_reason()), number_of(&GROUNDS, ground));
+        let probes = (probes.compared, probes.wrong, probes.first_wrong);
+        let stored: Stored = (window, parts, numbers.0, numbers.1, probes);
+        restoring(py, "IntervalBasins", stored.into_pyobject(py)?)
+    }
+
     /// The lower ends, the upper ends and the labels (uint16) of all intervals, from below.
     fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Labels<'py>> {
         let parts = self.found.basins.intervals();

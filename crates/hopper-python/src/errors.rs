@@ -25,13 +25,21 @@ pub(crate) fn map_error(error: passive_hopper::Error) -> PyErr {
     }
 }
 
+/// The exception of a result that a function of the user should not have returned: it names the function.
+pub(crate) fn of_result(py: Python<'_>, what: &str, error: PyErr) -> PyErr {
+    let text = format!("{what} returned something wrong: {}", error.value(py));
+    let own = PyErr::from_type(error.get_type(py), text);
+    own.set_cause(py, Some(error));
+    own
+}
+
 /// The exception of a function of the user. StopIteration would end a loop over the results as if they were complete: it becomes a
 /// RuntimeError with it as its cause, as in a generator (PEP 479).
 pub(crate) fn of_callback(py: Python<'_>, what: &str, error: PyErr) -> PyErr {
     if !error.is_instance_of::<PyStopIteration>(py) {
         return error;
     }
-    let own = PyRuntimeError::new_err(format!("the function {what} raised StopIteration"));
+    let own = PyRuntimeError::new_err(format!("{what} raised StopIteration"));
     own.set_cause(py, Some(error));
     own
 }

@@ -2,6 +2,7 @@
 
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background};
+use crate::pickling::{Reduced, plain, reduced};
 use crate::whole::whole;
 use basin_of_attraction::Label;
 use hopper_basin::{Fates, HOP_BUDGET, HopperFate};
@@ -47,8 +48,14 @@ impl Fate {
     }
 }
 
+plain!(Fate { label, name, hops });
+
 #[pymethods]
 impl Fate {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __repr__(&self) -> String {
         format!("Fate(label={}, name={:?}, hops={})", self.label, self.name, self.hops)
     }

@@ -1,6 +1,7 @@
 //! Fixed points, traps and crises.
 
 use crate::errors::value_error;
+use crate::pickling::{Reduced, plain, reduced};
 use crate::whole::whole;
 use hopper_basin::TrapEdge;
 use passive_hopper::MassRatio;
@@ -14,10 +15,17 @@ const LOOK: usize = 1 << 12;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Trap {
     trap: hopper_basin::Trap,
+    mass_ratio: f64,
 }
 
 #[pymethods]
 impl Trap {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, own) = (slf.py(), slf.get());
+        let make = py.import("passive_hopper")?.getattr("trap")?;
+        Ok((make, (own.trap.n, own.mass_ratio).into_pyobject(py)?))
+    }
+
     /// The index of the fixed point.
     #[getter]
     fn n(&self) -> u64 {
@@ -76,12 +84,20 @@ pub(crate) struct Crisis {
     n: u64,
     /// The mass ratio M ≤ 1 at the touch; it happens at 1/M as well.
     mass_ratio: f64,
-    /// The lift-off speed of the minimum at the touch.
+    /// Bound on the error of the mass ratio.
+    error: f64,
+    /// The lift-off speed of the minimum at the touch, to an ulp.
     alpha: f64,
 }
 
+plain!(Crisis { n, mass_ratio, error, alpha });
+
 #[pymethods]
 impl Crisis {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __repr__(&self) -> String {
         format!("Crisis(n={}, mass_ratio={:?}, alpha={:?})", self.n, self.mass_ratio, self.alpha)
     }
@@ -119,12 +135,12 @@ pub(crate) fn alpha_star<'py>(
 #[pyfunction]
 pub(crate) fn trap(#[pyo3(from_py_with = whole)] n: u64, mass_ratio: f64) -> PyResult<Trap> {
     let ratio = MassRatio::new(mass_ratio).map_err(value_error)?;
-    hopper_basin::Trap::new(n, ratio).map(|trap| Trap { trap }).map_err(value_error)
+    hopper_basin::Trap::new(n, ratio).map(|trap| Trap { trap, mass_ratio }).map_err(value_error)
 }
 
 impl From<hopper_basin::Crisis> for Crisis {
     fn from(of: hopper_basin::Crisis) -> Self {
-        Crisis { n: of.n, mass_ratio: of.mass_ratio, alpha: of.alpha }
+        Crisis { n: of.n, mass_ratio: of.mass_ratio, error: of.error, alpha: of.alpha }
     }
 }
 

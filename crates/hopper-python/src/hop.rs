@@ -1,10 +1,11 @@
 //! One hop, landing by landing.
 
+use crate::pickling::{Reduced, plain, reduced};
 use passive_hopper::{BoundedHop, BoundedLanding};
 use pyo3::prelude::*;
 
 /// One landing of a hop.
-#[pyclass(frozen, get_all, eq, module = "passive_hopper")]
+#[pyclass(frozen, get_all, eq, from_py_object, module = "passive_hopper")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Landing {
     /// Time of flight before the landing, in units of 1/ω.
@@ -62,8 +63,14 @@ impl From<BoundedHop> for Hop {
     }
 }
 
+plain!(Landing { time, closing_speed, excess, velocity, sudden });
+
 #[pymethods]
 impl Landing {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __repr__(&self) -> String {
         let Landing { time, closing_speed, excess, velocity, sudden } = self;
         let sudden = if *sudden { "True" } else { "False" };
@@ -74,8 +81,14 @@ impl Landing {
     }
 }
 
+plain!(Hop { speed, next, next_error, loss, next_speed_squared, sudden, flight_time, landings });
+
 #[pymethods]
 impl Hop {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __repr__(&self) -> String {
         let next = self.next.map_or("None".into(), |next| format!("{next:?}"));
         format!("Hop(speed={:?}, next={next}, sudden={})", self.speed, self.sudden)

@@ -9,6 +9,7 @@ use crate::whole::whole;
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{HopStatus, MassRatio};
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 use std::sync::{Arc, OnceLock};
 
 /// Speeds of a piece of labels, after which a call that is no longer wanted ends in the background.
@@ -42,8 +43,8 @@ impl LiftOffMap {
     }
 
     /// For pickle and copy: a worker of a cluster gets the mass ratio alone.
-    fn __getnewargs__(&self) -> (f64,) {
-        (self.mass_ratio(),)
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> (Bound<'py, PyType>, (f64,)) {
+        (slf.get_type(), (slf.get().mass_ratio(),))
     }
 
     /// M = m₂/m₁.
@@ -164,7 +165,8 @@ impl LiftOffMap {
                     break;
                 }
                 // NaN is what the map gives for a grounded hopper, and it stays grounded.
-                let known: Vec<f64> = piece.iter().copied().filter(|speed| !speed.is_nan()).collect();
+                let known: Vec<f64> =
+                    piece.iter().copied().filter(|speed| !speed.is_nan()).collect();
                 let labels = fates.labels(&known)?;
                 let mut labels = labels.iter();
                 codes.extend(piece.iter().map(|speed| {

@@ -32,7 +32,7 @@ def test_a_store_gives_the_same_dataset(tmp_path):
     xarray.testing.assert_identical(memory, stored.load())
     xarray.testing.assert_identical(memory, xarray.open_zarr(tmp_path / "basins.zarr").load())
     assert memory.attrs["sha256"] == hashlib.sha256(memory.label.values).hexdigest()
-    assert memory.alpha.attrs["units"] == "m2 g omega/k" and "basins(M=(0.15, 0.9)" in memory.attrs["command"]
+    assert memory.alpha.attrs["units"] == "1" and "m2 g omega/k" in memory.alpha.attrs["long_name"] and "basins(M=(0.15, 0.9)" in memory.attrs["command"]
     # A finished store is not computed again.
     before = files(tmp_path / "basins.zarr")
     hopper.basins(**JOB, store=tmp_path / "basins.zarr", progress=lambda *done: pytest.fail("computed again"))

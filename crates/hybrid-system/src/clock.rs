@@ -115,6 +115,11 @@ pub struct PresetTimes {
 }
 
 impl PresetTimes {
+    /// All of them.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
     /// The given times, which must be finite and rise strictly.
     ///
     /// # Errors

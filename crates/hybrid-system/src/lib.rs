@@ -128,8 +128,8 @@ pub use arc::{Arc, ArcEnd, Event};
 pub use checkpoint::Checkpoint;
 pub use clock::{PeriodicTimes, PresetTimes};
 pub use crossing::{
-    Certainty, Crossing, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial, Search,
-    bracketed_root, golden_section_minimum,
+    Certainty, Crossing, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
+    QuasiPolynomialPart, Search, bracketed_root, golden_section_minimum,
 };
 pub use error::Error;
 pub use execution::Execution;

@@ -30,4 +30,12 @@ def function_of(progress):
         return _Bar()
     if not callable(progress):
         raise TypeError(f"progress is a function of (done, all), True for a bar of tqdm, or None, not {progress!r}")
-    return progress
+
+    def told(done, all):
+        try:
+            return progress(done, all)
+        except StopIteration as error:
+            # It would end a loop of the caller as if all were done.
+            raise RuntimeError("progress raised StopIteration") from error
+
+    return told

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._conventions import CONVENTIONS, complete, flag_attributes
 
 if TYPE_CHECKING:
     import distributed
@@ -48,7 +49,12 @@ def basins(
     shape = tuple(operator.index(side) for side in shape)
     if any(side < 1 for side in shape):
         raise ValueError(f"a raster has at least one pixel across and up, not {shape}")
-    _native.pixel_middles((M, alpha), shape)
+    for name, window in (("M", M), ("alpha", alpha)):
+        if not 0 <= window[0] < window[1] < float("inf"):
+            raise ValueError(f"{name}={window!r} is no window: give its lower and its upper end, not negative and finite")
+    for name, window, values in zip(("M", "alpha"), (M, alpha), _native.pixel_middles((M, alpha), shape)):
+        if len(values) > 1 and not (values[1:] > values[:-1]).all():
+            raise ValueError(f"{name}={window!r} has fewer floats than the {len(values)} pixels across it; give a wider window or fewer pixels")
     if store is not None:
         if client is not None and not callable(getattr(client, "submit", None)):
             raise TypeError(f"client is a dask.distributed.Client, not {client!r}")
@@ -78,34 +84,41 @@ def coordinates(M, alpha, shape):
     ratios, speeds = _native.pixel_middles((M, alpha), shape)
     return {
         "M": (ratios, {"long_name": "mass ratio m2/m1", "units": "1"}),
-        "alpha": (speeds, {"long_name": "lift-off speed", "units": "m2 g omega/k"}),
+        "alpha": (speeds, {"long_name": "lift-off speed, in units of m2 g omega/k", "units": "1"}),
     }
 
 
 def job_attributes(M, alpha, shape):
     """The attributes that say which job it is: the same for the same labels."""
     return {
-        "Conventions": "CF-1.11",
+        "Conventions": CONVENTIONS,
         "title": "basins of a passive hopper",
         "source": f"passive_hopper {_native.__version__}",
         "computation": int(_native.RASTER_VERSION),
         "command": f"passive_hopper.basins(M={M!r}, alpha={alpha!r}, shape={shape!r})",
+        # Without a date: the same call gives the same file.
+        "history": f"computed by passive_hopper {_native.__version__}",
     }
 
 
-def flag_attributes(codes):
-    """The attributes of labels, for the codes that occur."""
-    codes = sorted(int(code) for code in codes)
-    meanings = [_native.label_name(code).replace(" ", "_") for code in codes]
-    return {"long_name": "fate", "units": "1", "flag_values": codes, "flag_meanings": " ".join(meanings)}
+def label_attributes(codes):
+    """The attributes of labels, for the codes that occur; without any, those of labels that are not there yet."""
+    import numpy
+
+    if not len(codes):
+        return {"long_name": "fate"}
+    codes = numpy.array(sorted(codes), dtype="uint16")
+    return flag_attributes(codes, [_native.label_name(int(code)) for code in codes], "fate")
 
 
 def dataset(M, alpha, shape, labels, codes, sha256):
     """A raster in memory."""
     import xarray
 
-    return xarray.Dataset(
-        {"label": (("M", "alpha"), labels, flag_attributes(codes))},
-        coords={name: (name, *own) for name, own in coordinates(M, alpha, shape).items()},
-        attrs=job_attributes(M, alpha, shape) | {"sha256": sha256},
+    return complete(
+        xarray.Dataset(
+            {"label": (("M", "alpha"), labels, label_attributes(codes))},
+            coords={name: (name, *own) for name, own in coordinates(M, alpha, shape).items()},
+            attrs=job_attributes(M, alpha, shape) | {"sha256": sha256},
+        )
     )

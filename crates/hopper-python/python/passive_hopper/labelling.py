@@ -24,6 +24,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._conventions import CONVENTIONS, complete, flag_attributes
 from ._native import Attractors, BoxCount, Interval, LabelImage, UncertaintyExponent
 from ._progress import function_of
 
@@ -119,6 +120,11 @@ def basins_of(
         raise TypeError(f"a window names its coordinates, as {{'x': (-2, 2), 'y': (-2, 2)}}, and is not {window!r}")
     if len(window) != 2:
         raise ValueError(f"a window has two coordinates with their ends, not {len(window)}")
+    for name in window:
+        if not (isinstance(name, str) and name.isidentifier() and name != "label"):
+            raise ValueError(f"a coordinate is named by a word of letters, digits and _, other than 'label', not {name!r}")
+    if names is not None and not isinstance(names, Mapping):
+        raise TypeError(f"names maps labels to their names, as {{1: 'above'}}, and is not {names!r}")
     (first, across), (second, up) = window.items()
     xs, ys = _native.pixel_middles((across, up), shape)
     progress = function_of(progress)
@@ -132,12 +138,18 @@ def basins_of(
             progress(end, len(xs))
     codes = numpy.unique(labels)
     names = {code: name.lower() for name, code in _CODES.items()} | (names or {})
-    meanings = [str(names.get(int(code), f"basin {code}")).replace(" ", "_") for code in codes]
-    attributes = {"long_name": "basin", "flag_values": codes, "flag_meanings": " ".join(meanings)}
-    return xarray.Dataset(
-        {"label": ((first, second), labels, attributes)},
-        coords={first: xs, second: ys},
-        attrs={"source": f"passive_hopper {_native.__version__}"},
+    meanings = [str(names.get(int(code), f"basin {code}")) for code in codes]
+    return complete(
+        xarray.Dataset(
+            {"label": ((first, second), labels, flag_attributes(codes, meanings, "basin"))},
+            coords={first: (first, xs, {"long_name": first}), second: (second, ys, {"long_name": second})},
+            attrs={
+                "Conventions": CONVENTIONS,
+                "title": "basins of attraction",
+                "source": f"passive_hopper {_native.__version__}",
+                "history": f"computed by passive_hopper {_native.__version__}",
+            },
+        )
     )
 
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _native
+from ._conventions import CONVENTIONS, complete, flag_attributes
 from ._files import write_whole
 
 if TYPE_CHECKING:
@@ -43,36 +44,43 @@ def motion(alpha: float, M: float = 0.2, hops: int = 10) -> xarray.Dataset:
     states = arrays["states"]
     length, speed, time = "m2 g/k", "m2 g omega/k", "1/omega"
 
-    def column(k, name, units):
-        return ("time", numpy.ascontiguousarray(states[:, k]), {"long_name": name, "units": units})
+    def scaled(name, scale):
+        return {"long_name": f"{name}, in units of {scale}", "units": "1"}
 
-    return xarray.Dataset(
+    def column(k, name, scale):
+        return ("sample", numpy.ascontiguousarray(states[:, k]), scaled(name, scale))
+
+    found = xarray.Dataset(
         {
             "upper_position": column(0, "position of the upper mass, y1", length),
             "upper_velocity": column(1, "velocity of the upper mass", speed),
             "lower_position": column(2, "position of the lower mass, y2", length),
             "lower_velocity": column(3, "velocity of the lower mass", speed),
-            "hop": ("time", arrays["hops"], {"long_name": "gradual lift-offs before, without the first", "units": "1"}),
-            "contact": ("time", arrays["contact"], {"long_name": "whether the lower mass is on the ground"}),
+            "hop": ("sample", arrays["hops"], {"long_name": "gradual lift-offs before, without the first", "units": "1"}),
+            "contact": ("sample", arrays["contact"], {"long_name": "whether the lower mass is on the ground"}),
             "event_kind": (
                 "event_time",
                 arrays["event_kinds"],
-                {"flag_values": numpy.array(codes, dtype="uint8"), "flag_meanings": " ".join(names)},
+                flag_attributes(numpy.array(codes, dtype="uint8"), names, "what happens at event_time"),
             ),
         },
         coords={
-            "time": ("time", arrays["times"], {"long_name": "time since the first lift-off", "units": time}),
-            "event_time": ("event_time", arrays["event_times"], {"long_name": "time of an event", "units": time}),
+            # A landing has two samples at one time, so that the time is no dimension.
+            "time": ("sample", arrays["times"], scaled("time since the first lift-off", time)),
+            "event_time": ("event_time", arrays["event_times"], scaled("time of an event", time)),
         },
         attrs={
+            "Conventions": CONVENTIONS,
             "title": "motion of a passive hopper",
             "source": f"passive_hopper {_native.__version__}",
+            "history": f"computed by passive_hopper {_native.__version__}",
             "mass_ratio": float(M),
             "alpha": float(alpha),
             "hops": int(hops),
             "grounded": int(arrays["grounded"]),
         },
     )
+    return complete(found)
 
 
 def animate(
@@ -96,8 +104,14 @@ def animate(
         ratio = float(motion.attrs["mass_ratio"])
         times, hops, contact, *states = (numpy.asarray(motion[name]) for name in ("time", "hop", "contact", *columns))
     except (AttributeError, KeyError, TypeError) as error:
-        needed = ", ".join(("time", "hop", "contact", *columns))
-        raise ValueError(f"animate needs the Dataset of motion(…), or a part of it: {needed}, and the attribute mass_ratio; {error} is missing") from error
+        needed = ("time", "hop", "contact", *columns)
+        missing = [name for name in needed if name not in motion] if isinstance(motion, Mapping) else []
+        found = f"{', '.join(missing)} is missing" if missing else f"it is {type(motion).__name__}" if not isinstance(motion, Mapping) else "mass_ratio is missing"
+        raise ValueError(f"animate needs the Dataset of motion(…), or a part of it: {', '.join(needed)}, and the attribute mass_ratio; {found}") from error
+    if not numpy.isfinite(numpy.asarray(hops, dtype=float)).all():
+        raise ValueError("animate needs whole numbers in hop, not NaN")
+    if len(times) and times[-1] == times[0]:
+        raise ValueError(f"the motion lasts no time: it begins and ends at {times[0]}; give a longer part of it")
     content = _native.animation_bytes(
         ratio,
         times.astype(float).tolist(),

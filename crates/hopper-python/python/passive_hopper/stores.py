@@ -21,7 +21,8 @@ from pathlib import Path
 from . import _native
 from ._files import write_whole
 from ._progress import function_of
-from .datasets import coordinates, flag_attributes, import_xarray, job_attributes
+from ._conventions import complete
+from .datasets import coordinates, import_xarray, job_attributes, label_attributes
 
 #: Columns of a region. More make larger files and later progress; fewer make many small files. 64 columns of 16384 pixels are 2 MB.
 REGION = 64
@@ -58,7 +59,22 @@ def write_basins(store, job, client=None, progress=None):
     else:
         _by_cluster(client, path, job, missing, count)
     _finish(path, job, regions)
-    return xarray.open_zarr(path, chunks=None if client is None else {}, consolidated=False)
+    return _opened(xarray.open_zarr(path, chunks=None if client is None else {}, consolidated=False))
+
+
+def _stored(attributes):
+    """Attributes as JSON has them."""
+    return {name: value.tolist() if hasattr(value, "tolist") else value for name, value in attributes.items()}
+
+
+def _opened(found):
+    """A store as a dataset. JSON forgets the type of its flags."""
+    import numpy
+
+    flags = found["label"].attrs
+    if "flag_values" in flags:
+        flags["flag_values"] = numpy.array(flags["flag_values"], dtype="uint16")
+    return complete(found)
 
 
 def _import_zarr():
@@ -106,7 +122,7 @@ def _open_or_make(path, job):
             compressors=[zarr.codecs.ZstdCodec(level=5, checksum=True)],
             fill_value=_native.label_codes()["OUTSIDE"],
             dimension_names=("M", "alpha"),
-            attributes=flag_attributes([]),
+            attributes=label_attributes([]),
         )
         os.chmod(beside, 0o777 & ~_mask())
         os.rename(beside, path)
@@ -229,7 +245,7 @@ def _finish(path, job, regions):
         digest.update(labels)
         codes |= set(numpy.unique(labels).tolist())
     group = zarr.open_group(path, mode="r", use_consolidated=False)
-    attributes = flag_attributes(codes)
+    attributes = _stored(label_attributes(sorted(codes)))
     if group.attrs.get("sha256") == digest.hexdigest() and dict(group["label"].attrs) == attributes:
         return
     _labels(path, "r+").attrs.put(attributes)

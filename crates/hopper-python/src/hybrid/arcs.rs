@@ -6,6 +6,7 @@ use super::names::{ExecutionMode, ExecutionSurface};
 use super::sliding::Sliding;
 use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
+use crate::pickling::{Reduced, equal, plain, reduced, refused};
 use hybrid_system::{Arc as LibraryArc, ArcEnd, Certainty, EventKind, StateVector};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -34,9 +35,9 @@ pub(crate) struct Event {
     /// The state after it; None if the execution ends here.
     after: Option<Py<PyAny>>,
     /// "crossing", "touch", "at start" or "clock".
-    kind: &'static str,
+    kind: String,
     /// How certain it is that no event came before: "exact", "certain", "interpolated" or "sampled".
-    certainty: &'static str,
+    certainty: String,
 }
 
 /// The limit of infinitely many events in finite time.
@@ -147,8 +148,8 @@ impl HybridArc {
             before: copied(py, &event.before),
             next_mode,
             after,
-            kind: kind(event.kind),
-            certainty: certainty(event.certainty),
+            kind: kind(event.kind).to_owned(),
+            certainty: certainty(event.certainty).to_owned(),
         }))
     }
 
@@ -190,15 +191,42 @@ impl HybridArc {
                 "a time after the start of an arc must be finite and not negative, not {bad:?}"
             )));
         }
+        if let Some(at) = elapsed.windows(2).position(|pair| pair[1] < pair[0]) {
+            return Err(PyValueError::new_err(format!(
+                "the times after the start of an arc must rise: elapsed[{}]={:?} is before elapsed[{at}]={:?}",
+                at + 1,
+                elapsed[at + 1],
+                elapsed[at]
+            )));
+        }
+        if let Some(&late) = elapsed.iter().find(|&&time| time > self.own.duration) {
+            return Err(PyValueError::new_err(format!(
+                "the arc lasts {:?}, and has no state {late:?} after its start",
+                self.own.duration
+            )));
+        }
         let system = Callables::with_sliding(py, &self.model);
         let found = self.own.states(&system, &elapsed);
         if let Some(exception) = system.system().exception() {
             return Err(exception);
         }
-        let states = found.map_err(|error| self.model.exception(py, &error))?;
+        let states = found.map_err(|error| system.system().raised(&error))?;
         let dimension = self.own.start.dimension();
         let rows = states.iter().flat_map(|state| state.components().to_vec()).collect();
         shaped(py, rows, &[states.len(), dimension])
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {
+        Err(refused(py, "an Arc, which computes its states", &self.model.functions()))
+    }
+
+    /// It never changes.
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: Py<PyAny>) -> Py<Self> {
+        slf
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
@@ -245,16 +273,48 @@ pub(crate) fn certainty(certainty: Certainty) -> &'static str {
     }
 }
 
+plain!(Event {
+    surface,
+    time,
+    time_error,
+    time_rounding,
+    at_time_limit,
+    jump,
+    before,
+    next_mode,
+    after,
+    kind,
+    certainty
+});
+
 #[pymethods]
 impl Event {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        equal(slf, other)
+    }
+
     fn __repr__(&self) -> String {
         let Event { surface, time, kind, certainty, .. } = self;
         format!("Event({surface:?}, time={time:?}, kind={kind:?}, certainty={certainty:?})")
     }
 }
 
+plain!(Zeno { time, time_error, state, state_error, ratio, period, next_mode, after });
+
 #[pymethods]
 impl Zeno {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        equal(slf, other)
+    }
+
     fn __repr__(&self) -> String {
         let Zeno { time, time_error, ratio, period, .. } = self;
         format!("Zeno(time={time:?}, time_error={time_error:?}, ratio={ratio:?}, period={period})")

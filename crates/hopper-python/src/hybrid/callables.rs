@@ -8,13 +8,13 @@ use super::model::{Model, Watched};
 use super::names::{Mode, Surface};
 use super::quasi_polynomial::QuasiPolynomial;
 use super::sliding::Sliding;
-use super::vectors::{State, array, vector};
-use crate::errors::of_callback;
+use super::vectors::{State, array, numbers, vector};
+use crate::errors::{of_callback, of_result};
 use hybrid_system::{
     Enclosure, Error, Filippov, FilippovMode, FilippovSurface, Guard, NextEvent, Reset, Search,
-    StateVector, default_search, integrated_crossing, integrated_flow, integrated_states,
+    StateVector, default_search, integrated_crossing, integrated_states,
 };
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::cell::RefCell;
@@ -24,11 +24,13 @@ pub(crate) struct Callables<'py, 'a> {
     py: Python<'py>,
     pub(crate) model: &'a Model,
     exception: RefCell<Option<PyErr>>,
+    /// The first number of a function that is not finite, in words: the cause of what follows from it.
+    not_finite: RefCell<Option<String>>,
 }
 
 impl<'py, 'a> Callables<'py, 'a> {
     pub(crate) fn new(py: Python<'py>, model: &'a Model) -> Self {
-        Callables { py, model, exception: RefCell::new(None) }
+        Callables { py, model, exception: RefCell::new(None), not_finite: RefCell::new(None) }
     }
 
     /// The same with the motion along surfaces, if the user wants it.
@@ -42,8 +44,30 @@ impl<'py, 'a> Callables<'py, 'a> {
         self.exception.borrow_mut().take()
     }
 
+    /// The exception of an error of the library. Where a number is not finite it names the function that gave it first.
+    pub(crate) fn raised(&self, error: &Error) -> PyErr {
+        self.model.exception(self.py, error, self.not_finite.borrow_mut().take())
+    }
+
+    /// Remembers a result that is not finite, and where the function was called.
+    fn seen(&self, what: &str, found: &[f64], mode: Mode, state: &State) {
+        if found.iter().all(|number| number.is_finite()) || self.not_finite.borrow().is_some() {
+            return;
+        }
+        let mode = self
+            .mode(mode)
+            .bind(self.py)
+            .repr()
+            .map_or_else(|_| "?".into(), |text| text.to_string());
+        let text = format!(
+            "{what} returned {found:?} in mode {mode} from the state {:?}",
+            state.as_slice()
+        );
+        *self.not_finite.borrow_mut() = Some(text.replace("NaN", "nan"));
+    }
+
     /// The value of a call, unless it or an earlier one has raised an exception.
-    fn kept<T>(&self, call: impl FnOnce() -> PyResult<T>) -> Option<T> {
+    fn kept<T>(&self, what: &str, call: impl FnOnce() -> PyResult<T>) -> Option<T> {
         if self.exception.borrow().is_some() {
             return None;
         }
@@ -51,7 +75,7 @@ impl<'py, 'a> Callables<'py, 'a> {
         match self.py.check_signals().and_then(|()| call()) {
             Ok(value) => Some(value),
             Err(error) => {
-                let error = of_callback(self.py, "of the model", error);
+                let error = of_callback(self.py, what, error);
                 *self.exception.borrow_mut() = Some(error);
                 None
             }
@@ -80,7 +104,14 @@ impl<'py, 'a> Callables<'py, 'a> {
             let text = format!("{what} must return a pair (mode, state), or None, not {found}");
             return Err(PyTypeError::new_err(text));
         };
-        Ok(Some((self.model.modes.number(&mode)?, vector(&state, dimension, what)?)))
+        let mode =
+            self.model.modes.number(&mode).map_err(|error| of_result(self.py, what, error))?;
+        let next = vector(&state, dimension, what)?;
+        if next.iter().any(|number| !number.is_finite()) {
+            let text = format!("{what} returned the state {state}; its numbers must be finite");
+            return Err(PyValueError::new_err(text));
+        }
+        Ok(Some((mode, next)))
     }
 
     fn nan(state: &State) -> State {
@@ -95,13 +126,25 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
 
     fn flow(&self, mode: Mode, start: &State, time: f64) -> State {
         let Some(flow) = &self.model.functions.flow else {
-            return integrated_flow(self, mode, start, time, self.model.tolerances);
+            let found = integrated_states(self, mode, start, &[time], self.model.tolerances);
+            // Without this the reason would be lost in a state of NaN.
+            return match found.map(|mut states| states.pop()) {
+                Ok(Some(state)) => state,
+                Ok(None) => Self::nan(start),
+                Err(error) => {
+                    let raised = self.raised(&error);
+                    self.kept("field", || Err::<(), _>(raised));
+                    Self::nan(start)
+                }
+            };
         };
         let call = || {
             let found = flow.bind(self.py).call1((self.mode(mode), self.array(start), time))?;
             vector(&found, start.len(), "flow")
         };
-        self.kept(call).unwrap_or_else(|| Self::nan(start))
+        let found = self.kept("flow", call).unwrap_or_else(|| Self::nan(start));
+        self.seen(&format!("flow over the time {time:?}"), found.as_slice(), mode, start);
+        found
     }
 
     fn flow_at(&self, mode: Mode, start: &State, times: &[f64]) -> Result<Vec<State>, Error> {
@@ -119,8 +162,17 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
         let Some(Watched::Guard(guard)) = self.model.watched.get(surface.0) else {
             return f64::NAN;
         };
-        let call = || guard.get().value.bind(self.py).call1((self.array(state),))?.extract();
-        self.kept(call).unwrap_or(f64::NAN)
+        let what = || format!("the value of {:?}", guard.get().name());
+        let call = || {
+            let found = guard.get().value.bind(self.py).call1((self.array(state),))?;
+            found.extract().map_err(|error| of_result(self.py, &what(), error))
+        };
+        let found = self.kept(&what(), call).unwrap_or(f64::NAN);
+        if !found.is_finite() && self.not_finite.borrow().is_none() {
+            let text = format!("{} is {found:?} at the state {:?}", what(), state.as_slice());
+            *self.not_finite.borrow_mut() = Some(text.replace("NaN", "nan"));
+        }
+        found
     }
 
     fn reset(&self, mode: Mode, surface: Surface, before: &State) -> Reset<Mode, State> {
@@ -135,7 +187,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
             let found = reset.bind(self.py).call1((self.mode(mode), self.array(before)))?;
             self.pair(&found, before.len(), &what())
         };
-        match self.kept(call).flatten() {
+        match self.kept(&what(), call).flatten() {
             Some((mode, state)) => Reset::Jump { mode, state },
             None => Reset::Stop,
         }
@@ -147,7 +199,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
             let found = rest.call1((self.mode(mode), self.array(limit)))?;
             self.pair(&found, limit.len(), "rest")
         };
-        self.kept(call).flatten()
+        self.kept("rest", call).flatten()
     }
 
     fn slide(
@@ -169,7 +221,7 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
             let point = Sliding::of(self.py, self.model, &point)?;
             self.pair(&slide.call1((point,))?, sliding.state.len(), "slide")
         };
-        self.kept(call).flatten()
+        self.kept("slide", call).flatten()
     }
 
     fn vector_field(&self, mode: Mode, state: &State) -> Option<State> {
@@ -178,7 +230,9 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
             let found = field.call1((self.mode(mode), self.array(state)))?;
             vector(&found, state.len(), "field")
         };
-        Some(self.kept(call).unwrap_or_else(|| Self::nan(state)))
+        let found = self.kept("field", call).unwrap_or_else(|| Self::nan(state));
+        self.seen("field", found.as_slice(), mode, state);
+        Some(found)
     }
 
     fn next_time(&self, _: Mode, surface: Surface, after: f64) -> Option<f64> {
@@ -187,7 +241,19 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
             Times::Preset(times) => times.next_after(after),
             Times::Periodic(times) => times.next_after(after),
             Times::Function(next) => {
-                self.kept(|| next.bind(self.py).call1((after,))?.extract::<Option<f64>>()).flatten()
+                let what = format!("the times of {:?}", clock.get().name());
+                let call = || {
+                    let found = next.bind(self.py).call1((after,))?;
+                    let time: Option<f64> =
+                        found.extract().map_err(|error| of_result(self.py, &what, error))?;
+                    match time {
+                        Some(time) if !(time > after) => Err(PyValueError::new_err(format!(
+                            "{what} returned {found} for the time after {after:?}; give a later time, or None"
+                        ))),
+                        time => Ok(time),
+                    }
+                };
+                self.kept(&what, call).flatten()
             }
         }
     }
@@ -213,7 +279,8 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
                 ))),
             }
         };
-        self.kept(call).flatten()
+        let what = format!("the signal of {:?}", guard.get().name());
+        self.kept(&what, call).flatten()
     }
 
     fn guard_enclosure(
@@ -226,13 +293,21 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
     ) -> Option<Enclosure> {
         let Some(Watched::Guard(guard)) = self.model.watched.get(surface.0) else { return None };
         let enclosure = guard.get().enclosure.as_ref()?.bind(self.py);
+        let what = format!("the enclosure of {:?}", guard.get().name());
         let call = || {
             let times = PyTuple::new(self.py, [times.0, times.1])?;
             let found = enclosure.call1((self.mode(mode), self.array(start), order, times))?;
-            let ends: Option<(f64, f64)> = found.extract()?;
-            Ok(ends.map(|(low, high)| Enclosure::new(low, high)))
+            if found.is_none() {
+                return Ok(None);
+            }
+            match numbers(&found).map_err(|error| of_result(self.py, &what, error))?[..] {
+                [low, high] => Ok(Some(Enclosure::new(low, high))),
+                _ => Err(PyTypeError::new_err(format!(
+                    "{what} must return a pair of bounds (low, high), or None, not {found}"
+                ))),
+            }
         };
-        self.kept(call).flatten()
+        self.kept(&what, call).flatten()
     }
 
     fn first_crossing(

@@ -139,7 +139,7 @@ fn fixed_derivative<D: Derivative, const N: usize>(
     let found = of.of(&system, &arcs);
     match system.system().0.exception() {
         Some(exception) => Err(exception),
-        None => found.map_err(|error| model.exception(py, &error)),
+        None => found.map_err(|error| system.system().0.raised(&error)),
     }
 }
 

@@ -6,6 +6,7 @@ use super::model::Model;
 use super::names::{ExecutionMode, ExecutionSurface, Mode};
 use super::vectors::{State, copied, numbers};
 use crate::arrays::shaped;
+use crate::pickling::refused;
 use hybrid_system::{
     Checkpoint, Error, Execution as LibraryExecution, Filippov, FilippovMode, Limits, Stop,
 };
@@ -68,7 +69,7 @@ impl Execution {
         *self.at.lock().unwrap_or_else(PoisonError::into_inner) = Some(at);
         match exception {
             Some(exception) => Err(exception),
-            None => found.map_err(|error| self.model.exception(py, &error)),
+            None => found.map_err(|error| system.system().raised(&error)),
         }
     }
 
@@ -181,6 +182,10 @@ impl Execution {
             Stop::Failed => "failed",
         };
         Ok(self.seen(Checkpoint::stop)?.map(name))
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {
+        Err(refused(py, "an Execution", &self.model.functions()))
     }
 
     fn __repr__(&self) -> PyResult<String> {

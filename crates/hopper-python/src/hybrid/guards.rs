@@ -3,9 +3,12 @@
 use super::quasi_polynomial::direction_of;
 use super::vectors::numbers;
 use crate::errors::value_error;
+use crate::pickling::refused;
 use hybrid_system::{Direction, PeriodicTimes, PresetTimes, Role, Touch};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// What follows an event.
 #[derive(Debug)]
@@ -104,12 +107,45 @@ impl Guard {
         Ok(Guard { name, value, direction, role, touch, after, modes, signal, enclosure })
     }
 
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {
+        Err(refused(py, &format!("the guard {:?}", self.name), &self.functions()))
+    }
+
+    /// It never changes.
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: Py<PyAny>) -> Py<Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
         format!("Guard({:?})", self.name)
     }
 }
 
+/// What an event calls, by its name.
+fn reset_of(after: &After) -> Option<(String, &Py<PyAny>)> {
+    match after {
+        After::Reset(reset) => Some(("reset".to_owned(), reset)),
+        After::Nothing | After::End => None,
+    }
+}
+
 impl Guard {
+    /// Its functions, by their names.
+    pub(crate) fn functions(&self) -> Vec<(String, &Py<PyAny>)> {
+        let optional = [("signal", &self.signal), ("enclosure", &self.enclosure)];
+        let optional =
+            optional.into_iter().filter_map(|(name, own)| Some((name.to_owned(), own.as_ref()?)));
+        [("value".to_owned(), &self.value)]
+            .into_iter()
+            .chain(reset_of(&self.after))
+            .chain(optional)
+            .collect()
+    }
+
     pub(crate) fn name(&self) -> &str {
         &self.name
     }
@@ -137,6 +173,8 @@ pub(crate) struct Clock {
     pub(crate) times: Times,
     pub(crate) after: After,
     pub(crate) modes: Option<Vec<Py<PyAny>>>,
+    /// The period, if it has one, and the first time, as they were given.
+    periodic: (Option<f64>, f64),
 }
 
 #[pymethods]
@@ -153,6 +191,13 @@ impl Clock {
         modes: Option<Vec<Py<PyAny>>>,
     ) -> PyResult<Self> {
         callable(py, "reset", reset.as_ref())?;
+        if period.is_none() && first != 0.0 {
+            let text = format!(
+                "clock {name:?} has first={first:?}, which counts with period= alone; begin times= with it"
+            );
+            return Err(PyValueError::new_err(text));
+        }
+        let periodic = (period, first);
         let times = match (times, period) {
             (Some(times), None) if times.is_callable() => Times::Function(times.unbind()),
             (Some(times), None) => {
@@ -161,12 +206,71 @@ impl Clock {
             (None, Some(period)) => {
                 Times::Periodic(PeriodicTimes::new(first, period).map_err(value_error)?)
             }
-            _ => {
-                let text = format!("clock {name:?} needs either times= or period=");
+            (given, _) => {
+                let found = if given.is_some() { "both" } else { "neither" };
+                let text =
+                    format!("clock {name:?} needs either times= or period=, and has {found}");
                 return Err(PyValueError::new_err(text));
             }
         };
-        Ok(Clock { name, times, after: reset.map_or(After::Nothing, After::Reset), modes })
+        let after = reset.map_or(After::Nothing, After::Reset);
+        Ok(Clock { name, times, after, modes, periodic })
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, ())> {
+        let (py, own) = (slf.py(), slf.get());
+        let functions = own.functions();
+        if !functions.is_empty() {
+            return Err(refused(py, &format!("the clock {:?}", own.name), &functions));
+        }
+        let given = PyDict::new(py);
+        match &own.times {
+            Times::Preset(times) => given.set_item("times", times.times().to_vec())?,
+            _ => {
+                given.set_item("period", own.periodic.0)?;
+                given.set_item("first", own.periodic.1)?;
+            }
+        }
+        given.set_item("modes", own.modes.as_ref())?;
+        let partial = py.import("functools")?.getattr("partial")?;
+        Ok((partial.call((slf.get_type(), &own.name), Some(&given))?, ()))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: Py<PyAny>) -> Py<Self> {
+        slf
+    }
+
+    /// Clocks with functions are equal if they are the same object.
+    fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        if slf.as_any().is(other) {
+            return Ok(true);
+        }
+        let Ok(other) = other.cast::<Self>() else { return Ok(false) };
+        let (own, other) = (slf.get(), other.get());
+        let plain = own.functions().is_empty() && other.functions().is_empty();
+        let times = match (&own.times, &other.times) {
+            (Times::Preset(one), Times::Preset(two)) => one == two,
+            (Times::Periodic(one), Times::Periodic(two)) => one == two,
+            _ => false,
+        };
+        let modes = match (&own.modes, &other.modes) {
+            (None, None) => true,
+            (Some(one), Some(two)) => {
+                PyList::new(slf.py(), one)?.eq(PyList::new(slf.py(), two)?)?
+            }
+            _ => false,
+        };
+        Ok(plain && own.name == other.name && times && modes)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.name.hash(&mut hasher);
+        hasher.finish()
     }
 
     fn __repr__(&self) -> String {
@@ -175,6 +279,15 @@ impl Clock {
 }
 
 impl Clock {
+    /// Its functions, by their names.
+    pub(crate) fn functions(&self) -> Vec<(String, &Py<PyAny>)> {
+        let times = match &self.times {
+            Times::Function(times) => Some(("times".to_owned(), times)),
+            Times::Preset(_) | Times::Periodic(_) => None,
+        };
+        times.into_iter().chain(reset_of(&self.after)).collect()
+    }
+
     pub(crate) fn name(&self) -> &str {
         &self.name
     }

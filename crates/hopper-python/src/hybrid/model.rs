@@ -128,6 +128,23 @@ impl Model {
         Ok(Model { functions, tolerances, follows, watched, modes, lists, everywhere })
     }
 
+    /// The functions of the user, by their names.
+    pub(crate) fn functions(&self) -> Vec<(String, &Py<PyAny>)> {
+        let Functions { flow, field, rest, slide } = &self.functions;
+        let own = [("flow", flow), ("field", field), ("rest", rest), ("slide", slide)];
+        let own = own.into_iter().filter_map(|(name, own)| Some((name.to_owned(), own.as_ref()?)));
+        let of_guards = self.watched.iter().flat_map(|watched| {
+            let functions = match watched {
+                Watched::Guard(guard) => guard.get().functions(),
+                Watched::Clock(clock) => clock.get().functions(),
+            };
+            functions
+                .into_iter()
+                .map(move |(name, own)| (format!("{} of {:?}", name, watched.name()), own))
+        });
+        own.chain(of_guards).collect()
+    }
+
     /// The name of a guard.
     pub(crate) fn surface_name(&self, surface: Surface) -> String {
         self.watched.get(surface.0).map_or_else(String::new, |watched| watched.name().to_owned())
@@ -162,7 +179,7 @@ impl Model {
 
     /// The exception of an error: UndecidedError where rounding hides what happens, ArithmeticError where a computation cannot go on,
     /// ValueError for wrong input. Modes and guards have their names in the message.
-    pub(crate) fn exception(&self, py: Python<'_>, error: &Error) -> PyErr {
+    pub(crate) fn exception(&self, py: Python<'_>, error: &Error, cause: Option<String>) -> PyErr {
         let mut text = error.to_string();
         for number in 0..self.modes.count() {
             let name = self.modes.name(py, Mode(number));
@@ -182,6 +199,17 @@ impl Model {
             ] {
                 text = text.replace(&own, &shown);
             }
+        }
+        // A number that is not finite matters only where the library met one.
+        let of_number = matches!(
+            error,
+            Error::StateNotFinite { .. }
+                | Error::FieldNotFinite { .. }
+                | Error::NotFinite { .. }
+                | Error::NoSensitivity { .. }
+        );
+        if let Some(cause) = cause.filter(|_| of_number) {
+            text = format!("{cause}; so {text}");
         }
         match error {
             Error::Grazing { .. } | Error::UndecidedStart { .. } | Error::UndecidedSign { .. } => {

@@ -1,9 +1,11 @@
 //! Guards along closed-form flows as functions of time.
 
 use crate::errors::value_error;
+use crate::pickling::{Reduced, restoring};
 use hybrid_system::{Direction, FirstCrossing};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 /// A sum of polynomials times exponentials, sines and cosines of time: g(t) = Σ exp(σt) (p(t) cos ωt + q(t) sin ωt).
 ///
@@ -15,8 +17,8 @@ use pyo3::prelude::*;
 /// >>> time = height.first_crossing("falling", 20)
 /// >>> abs(height(time)) < 1e-14
 /// True
-#[pyclass(frozen, module = "passive_hopper.hybrid")]
-#[derive(Debug, Clone)]
+#[pyclass(frozen, eq, module = "passive_hopper.hybrid")]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct QuasiPolynomial {
     pub(crate) own: hybrid_system::QuasiPolynomial,
 }
@@ -67,6 +69,11 @@ impl QuasiPolynomial {
                 "the first crossing cannot be decided: {other:?}"
             ))),
         }
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let terms = slf.get().own.to_parts().into_pyobject(slf.py())?;
+        restoring(slf.py(), "QuasiPolynomial", PyTuple::new(slf.py(), [terms])?)
     }
 
     fn __call__(&self, time: f64) -> f64 {

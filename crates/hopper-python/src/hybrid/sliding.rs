@@ -3,6 +3,7 @@
 use super::model::Model;
 use super::names::{ExecutionMode, ExecutionSurface};
 use super::vectors::{State, copied};
+use crate::pickling::{Reduced, equal, plain, reduced};
 use pyo3::prelude::*;
 
 /// A point of a surface at which the fields on both sides point.
@@ -43,8 +44,18 @@ impl Sliding {
     }
 }
 
+plain!(Sliding { surface, below, above, time, state, rates, field });
+
 #[pymethods]
 impl Sliding {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
+    fn __eq__(slf: &Bound<'_, Self>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
+        equal(slf, other)
+    }
+
     fn __repr__(&self) -> String {
         format!("Sliding({:?}, time={:?}, rates={:?})", self.surface, self.time, self.rates)
     }

@@ -1,5 +1,6 @@
 //! Sliding modes as Python objects.
 
+use crate::pickling::{Reduced, plain, reduced};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
@@ -23,8 +24,14 @@ impl SlidingMode {
     }
 }
 
+plain!(SlidingMode { surface, below, above });
+
 #[pymethods]
 impl SlidingMode {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __eq__(&self, py: Python<'_>, other: &Bound<'_, PyAny>) -> PyResult<bool> {
         match other.cast::<SlidingMode>() {
             Ok(other) => self.parts(py)?.eq(other.get().parts(py)?),

@@ -6,6 +6,7 @@ use super::model::{Functions, Model, Watched};
 use super::sliding_mode::SlidingMode;
 use super::vectors::numbers;
 use crate::errors::value_error;
+use crate::pickling::refused;
 use crate::whole::whole;
 use hybrid_system::{Error, Limits, Tolerances};
 use nalgebra::DVector;
@@ -81,6 +82,21 @@ impl HybridSystem {
         if flow.is_none() && field.is_none() {
             return Err(PyValueError::new_err("a hybrid system needs flow= or field="));
         }
+        let positive = [("longest_step", longest_step), ("check_interval", check_interval)];
+        let sampling = sampled.map(|value| ("sampled", value));
+        let finite = [("tolerance", tolerance)].into_iter().chain(sampling);
+        for (name, value) in positive.into_iter().chain(finite.clone()) {
+            if !(value > 0.0) {
+                return Err(PyValueError::new_err(format!(
+                    "{name} must be positive, not {value:?}"
+                )));
+            }
+        }
+        for (name, value) in finite {
+            if !value.is_finite() {
+                return Err(PyValueError::new_err(format!("{name} must be finite, not {value:?}")));
+            }
+        }
         let tolerances =
             Tolerances::both(tolerance).longest_step(longest_step).check_interval(check_interval);
         let functions = Functions { flow, field, rest, slide };
@@ -106,6 +122,12 @@ impl HybridSystem {
         if !start_time.is_finite() {
             return Err(value_error(Error::BadLimit { what: "the start time", value: start_time }));
         }
+        if !(time >= start_time) {
+            let text = format!(
+                "time={time:?} is before start_time={start_time:?}: the execution would end before it starts"
+            );
+            return Err(PyValueError::new_err(text));
+        }
         if mode.as_ref().is_some_and(|mode| mode.is_instance_of::<SlidingMode>()) {
             let text = "an execution starts in a mode of the model: on a surface it slides at once";
             return Err(PyValueError::new_err(text));
@@ -114,6 +136,19 @@ impl HybridSystem {
         let mode = self.model.modes.number(&mode)?;
         let limits = Limits { sampling_interval: self.sampled, ..Limits::new(time, events) };
         Ok(Execution::new(py, Arc::clone(&self.model), mode, state, (start_time, limits)))
+    }
+
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {
+        Err(refused(py, "a HybridSystem", &self.model.functions()))
+    }
+
+    /// It never changes.
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: Py<PyAny>) -> Py<Self> {
+        slf
     }
 
     fn __repr__(&self) -> String {

@@ -1,6 +1,7 @@
 //! States as arrays of NumPy, and back.
 
 use crate::arrays::Numbers;
+use crate::errors::of_result;
 use nalgebra::DVector;
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -45,7 +46,7 @@ pub(crate) fn vector(
     dimension: usize,
     what: &str,
 ) -> PyResult<DVector<f64>> {
-    let numbers = numbers(object)?;
+    let numbers = numbers(object).map_err(|error| of_result(object.py(), what, error))?;
     let found = numbers.len();
     if found != dimension {
         let text = format!("{what} returned {found} numbers, and the state has {dimension}");

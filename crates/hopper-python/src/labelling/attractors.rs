@@ -3,10 +3,9 @@
 use crate::arrays::shaped;
 use crate::errors::{of_callback, value_error};
 use crate::interruptible::{Watch, in_background};
+use crate::pickling::refused;
 use crate::whole::whole;
-use basin_of_attraction::{
-    Error, Hyperrectangle, Interval, Label, RecurrenceLimits,
-};
+use basin_of_attraction::{Error, Hyperrectangle, Interval, Label, RecurrenceLimits};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -169,10 +168,25 @@ impl Attractors {
         shaped(py, own.unless_raised(codes)?, &[count])
     }
 
+    fn __reduce__(&self, py: Python<'_>) -> PyResult<()> {
+        Err(refused(py, "Attractors", &[("map".to_owned(), &self.function)]))
+    }
+
+    /// It never changes.
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: Py<PyAny>) -> Py<Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
         let (count, unmatched) = (self.found.attractors().len(), self.found.unmatched().len());
         match self.found.remedy() {
-            Some(remedy) => format!("Attractors(none found, {unmatched} starts unmatched; try {remedy})"),
+            Some(remedy) => {
+                format!("Attractors(none found, {unmatched} starts unmatched; try {remedy})")
+            }
             None => format!("Attractors({count} found, {unmatched} starts unmatched)"),
         }
     }

@@ -1,10 +1,11 @@
 //! A number with an interval.
 
+use crate::pickling::{Reduced, plain, reduced};
 use basin_of_attraction::{Bounds, ConfidenceInterval};
 use pyo3::prelude::*;
 
 /// A number, and an interval in which it lies: a 95 % confidence interval, or bounds. The source says which.
-#[pyclass(frozen, get_all, eq, module = "passive_hopper")]
+#[pyclass(frozen, get_all, eq, from_py_object, module = "passive_hopper.labelling")]
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Interval {
     /// The estimate. It need not be the middle.
@@ -15,8 +16,14 @@ pub(crate) struct Interval {
     upper: f64,
 }
 
+plain!(Interval { value, lower, upper });
+
 #[pymethods]
 impl Interval {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     pub(crate) fn __repr__(&self) -> String {
         let Interval { value, lower, upper } = self;
         format!("Interval(value={value:?}, lower={lower:?}, upper={upper:?})")

@@ -1,21 +1,24 @@
 //! Images of labels: fractions, boxes, entropies.
 
 use super::interval::Interval;
+use crate::arrays::shaped;
 use crate::basins::Bounds;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background};
+use crate::pickling::{Reduced, plain, reduced};
 use crate::whole::whole;
 use basin_of_attraction::{Grid, Label, Ln2Criterion};
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
+use pyo3::types::PyType;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Labels of the pixels of a window: an array of uint16 with the shape (x, y).
 ///
 /// passive_hopper.labelling.label_image makes it of any array of integers.
-#[pyclass(frozen, module = "passive_hopper.labelling")]
-#[derive(Debug)]
+#[pyclass(frozen, eq, module = "passive_hopper.labelling")]
+#[derive(Debug, PartialEq)]
 pub(crate) struct LabelImage {
     image: Arc<basin_of_attraction::LabelImage>,
 }
@@ -52,6 +55,21 @@ impl LabelImage {
         let image = basin_of_attraction::LabelImage { grid: Grid { x, y, columns, rows }, labels };
         image.check().map_err(value_error)?;
         Ok(LabelImage { image: Arc::new(image) })
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyType>, (Bound<'py, PyAny>,))> {
+        let labels = Self::array(slf.get(), slf.py())?;
+        Ok((slf.get_type(), (labels,)))
+    }
+
+    /// The labels, an array of uint16 with the shape (x, y).
+    fn array<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let Grid { columns, rows, .. } = self.image.grid;
+        let pixel = |column: usize| (0..rows).map(move |row| row * columns + column);
+        let codes = (0..columns).flat_map(pixel).map(|at| self.image.labels[at].code());
+        shaped(py, codes.collect::<Vec<u16>>(), &[columns, rows])
     }
 
     /// The number of pixels of each label.
@@ -118,8 +136,14 @@ impl LabelImage {
     }
 }
 
+plain!(BoxCount { size, boxes, mixed, open, basin_entropy, boundary_entropy });
+
 #[pymethods]
 impl BoxCount {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __repr__(&self) -> String {
         let BoxCount { size, boxes, mixed, open, .. } = self;
         format!("BoxCount(size={size}, boxes={boxes}, mixed={mixed}, open={open})")

@@ -7,6 +7,7 @@
 use super::interval::Interval;
 use crate::errors::{of_callback, value_error};
 use crate::interruptible::{Watch, in_background};
+use crate::pickling::{Reduced, plain, reduced};
 use crate::whole::whole;
 use basin_of_attraction::{Error, Hyperrectangle, Label};
 use numpy::{PyArray1, PyReadonlyArray1};
@@ -119,8 +120,14 @@ pub(crate) struct UncertaintyExponent {
     fractions: Vec<(f64, Interval)>,
 }
 
+plain!(UncertaintyExponent { exponent, follows_a_power_law, fractions });
+
 #[pymethods]
 impl UncertaintyExponent {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf)
+    }
+
     fn __repr__(&self) -> String {
         let law = if self.follows_a_power_law { "True" } else { "False" };
         format!("UncertaintyExponent({}, follows_a_power_law={law})", self.exponent.__repr__())

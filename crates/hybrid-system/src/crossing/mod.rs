@@ -66,7 +66,7 @@ pub(crate) use guard_rounding::{
 pub(crate) use guard_rounding::{guard_rounding, is_far, spread, stated_or_measured};
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
-pub use quasi_polynomial::QuasiPolynomial;
+pub use quasi_polynomial::{QuasiPolynomial, QuasiPolynomialPart};
 #[cfg(feature = "ode")]
 pub(crate) use same_instant::sooner;
 pub(crate) use search_request::MOST_INTERVALS;

@@ -38,7 +38,35 @@ fn exact(coefficients: &[f64]) -> Vec<Rounded> {
     coefficients.iter().copied().map(Rounded::exact).collect()
 }
 
+/// A number and the bound on its error.
+type WithError = (f64, f64);
+
+/// A term exp(σt) (p(t) cos ωt + q(t) sin ωt): σ, ω, and the coefficients of p and q, each with the bound on its error.
+pub type QuasiPolynomialPart = (WithError, WithError, Vec<WithError>, Vec<WithError>);
+
 impl QuasiPolynomial {
+    /// All that it has, to be stored.
+    pub fn to_parts(&self) -> Vec<QuasiPolynomialPart> {
+        let pair = |number: &Rounded| (number.value, number.error);
+        let all = |numbers: &[Rounded]| numbers.iter().map(pair).collect();
+        let part =
+            |term: &Term| (pair(&term.sigma), pair(&term.omega), all(&term.cos), all(&term.sin));
+        self.terms.iter().map(part).collect()
+    }
+
+    /// The function with the parts that [`to_parts`](Self::to_parts) gave.
+    pub fn from_parts(parts: Vec<QuasiPolynomialPart>) -> Self {
+        let number = |(value, error): WithError| Rounded { value, error };
+        let all = |pairs: Vec<WithError>| pairs.into_iter().map(number).collect();
+        let term = |(sigma, omega, cos, sin): QuasiPolynomialPart| Term {
+            sigma: number(sigma),
+            omega: number(omega),
+            cos: all(cos),
+            sin: all(sin),
+        };
+        QuasiPolynomial { terms: parts.into_iter().map(term).collect() }
+    }
+
     /// A polynomial, lowest power first.
     pub fn polynomial(coefficients: &[f64]) -> Self {
         Self::of(Term { cos: exact(coefficients), ..Term::default() })
