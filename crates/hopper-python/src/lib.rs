@@ -12,6 +12,7 @@ mod labelling;
 mod map;
 mod motion;
 mod pickling;
+mod restored;
 mod whole;
 
 use pyo3::prelude::*;
@@ -26,7 +27,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("UndecidedError", module.py().get_type::<errors::UndecidedError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add_function(wrap_pyfunction!(interruptible::after_fork, module)?)?;
-    module.add_function(wrap_pyfunction!(pickling::_restored, module)?)?;
+    module.add_function(wrap_pyfunction!(restored::_restored, module)?)?;
     module.add_class::<map::LiftOffMap>()?;
     module.add_class::<hop::Hop>()?;
     module.add_class::<hop::Landing>()?;

@@ -138,3 +138,18 @@ fn an_interval_across_a_change_of_flights_is_undecided() {
     assert!(map(0.2).enclosed_hop(boundary, 1e-9).is_err());
     assert!(map(0.2).enclosed_hop(boundary, 0.0).is_ok());
 }
+
+/// Speeds and mass ratios at both ends of the exponents end at once, with an enclosure or without.
+#[test]
+fn extreme_hops_end() {
+    for alpha in [5e-324, 1e-300, 1e-160, 1e-30, 8e12] {
+        for m in [1e-307, 1e-150, 0.2, 1e12, 1e300] {
+            let found = map(m).enclosed_hop(alpha, 0.0);
+            let Ok(Some(next)) = found.map(|hop| hop.next) else { continue };
+            assert!(
+                !next.error.is_nan() && (next.value - alpha).abs() <= alpha,
+                "{alpha} {m} {next:?}"
+            );
+        }
+    }
+}

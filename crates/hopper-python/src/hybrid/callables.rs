@@ -247,9 +247,11 @@ impl hybrid_system::HybridSystem for Callables<'_, '_> {
                     let time: Option<f64> =
                         found.extract().map_err(|error| of_result(self.py, &what, error))?;
                     match time {
-                        Some(time) if !(time > after) => Err(PyValueError::new_err(format!(
-                            "{what} returned {found} for the time after {after:?}; give a later time, or None"
-                        ))),
+                        Some(time) if time.is_nan() || time <= after => {
+                            Err(PyValueError::new_err(format!(
+                                "{what} returned {found} for the time after {after:?}; give a later time, or None"
+                            )))
+                        }
                         time => Ok(time),
                     }
                 };

@@ -86,7 +86,7 @@ impl HybridSystem {
         let sampling = sampled.map(|value| ("sampled", value));
         let finite = [("tolerance", tolerance)].into_iter().chain(sampling);
         for (name, value) in positive.into_iter().chain(finite.clone()) {
-            if !(value > 0.0) {
+            if value.is_nan() || value <= 0.0 {
                 return Err(PyValueError::new_err(format!(
                     "{name} must be positive, not {value:?}"
                 )));
@@ -122,7 +122,7 @@ impl HybridSystem {
         if !start_time.is_finite() {
             return Err(value_error(Error::BadLimit { what: "the start time", value: start_time }));
         }
-        if !(time >= start_time) {
+        if time.is_nan() || time < start_time {
             let text = format!(
                 "time={time:?} is before start_time={start_time:?}: the execution would end before it starts"
             );

@@ -60,7 +60,7 @@ impl LiftOffMap {
     /// The hop from a speed within `error` of `alpha`, with all its numbers enclosed.
     ///
     /// It takes some tens of microseconds, and milliseconds where 106 bits do not suffice. The balls grow from flight to flight, up to fourfold: a
-    /// hop with some 300 sudden lift-offs, as at M = 10⁴, has no enclosure in 1024 bits.
+    /// hop with more than 300 sudden lift-offs, as at M = 10⁴, has no enclosure.
     ///
     /// ```
     /// use passive_hopper::{LiftOffMap, MassRatio};
@@ -73,35 +73,31 @@ impl LiftOffMap {
     /// # Errors
     /// The errors of [`hop`](Self::hop), and [`Error::Undecided`] if `error` or 1024 bits leave a decision of the hop open.
     pub fn enclosed_hop(&self, alpha: f64, error: f64) -> Result<EnclosedHop, Error> {
-        self.check_speed(alpha)?;
-        let longer = [enclose::<Long<4>> as Enclose, enclose::<Long<8>>, enclose::<Long<16>>];
+        // Most hops are known at once, and those of too many flights need not be tried.
+        let sudden = self.hop(alpha)?.sudden;
+        if sudden > MOST_SUDDEN {
+            return Err(Error::Undecided { alpha, sudden });
+        }
         let mut found = enclose::<DoubleDouble>(self, alpha, error)?;
+        let longer = [enclose::<Long<4>> as Enclose, enclose::<Long<8>>, enclose::<Long<16>>];
+        // What an error of the start leaves open no arithmetic decides.
+        let longer = if error > 0.0 { &[][..] } else { &longer };
         for longer in longer {
-            // An error of the start stays, in any arithmetic.
-            if found.as_ref().is_some_and(|found| error > 0.0 || found.is_sharp()) {
+            if found.as_ref().is_some_and(EnclosedHop::is_sharp) {
                 break;
             }
             found = longer(self, alpha, error)?.or(found);
         }
-        let found = found.ok_or(Error::Undecided { alpha, sudden: DoubleDouble::SUDDEN_BUDGET })?;
-        Ok(if error > 0.0 { found.about(&self.enclosed_hop(alpha, 0.0)?, error) } else { found })
+        found.ok_or(Error::Undecided { alpha, sudden })
     }
 }
+
+/// The most sudden lift-offs of a hop that is enclosed. The balls of some 300 flights fill 1024 bits, which take half a second.
+const MOST_SUDDEN: usize = 300;
 
 type Enclose = fn(&LiftOffMap, f64, f64) -> Result<Option<EnclosedHop>, Error>;
 
 impl EnclosedHop {
-    /// The hop with α′ from that of the `middle` of its speeds, by the mean value theorem: where f′ is known, the balls of the landings bound the
-    /// change of α′ a hundred times too widely.
-    fn about(self, middle: &EnclosedHop, error: f64) -> Self {
-        let moved =
-            |slope: Enclosed, at: Enclosed| at.plus(slope.times(Enclosed { value: 0.0, error }));
-        let narrow = self.by_speed.zip(middle.next).map(|(slope, at)| moved(slope, at));
-        let next =
-            self.next.map(|wide| narrow.filter(|own| own.error < wide.error).unwrap_or(wide));
-        EnclosedHop { next, ..self }
-    }
-
     fn is_sharp(&self) -> bool {
         let of_landings = self.landings.iter().flat_map(|landing| {
             [landing.time, landing.closing_speed, landing.excess, landing.velocity]
@@ -288,7 +284,8 @@ const FARTHER: f64 = 8.0;
 /// The zero next to `time`, where the function falls from above 0 to below 0. `None` if no two signs are found within half of the time.
 fn enclosed_time<R: Extended>(time: R, f: impl Fn(Ball<R>) -> Ball<R>) -> Option<Ball<R>> {
     let size = time.nearest().abs();
-    let mut reach = FIRST_REACH * R::EPSILON * size;
+    // A reach of zero would never grow.
+    let mut reach = (FIRST_REACH * R::EPSILON * size).max(f64::MIN_POSITIVE);
     let at = |offset: f64| Ball { middle: time + offset, radius: 0.0 };
     while reach < 0.5 * size {
         if f(at(-reach)).is_positive() && f(at(reach)).is_negative() {
