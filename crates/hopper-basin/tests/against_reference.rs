@@ -320,3 +320,36 @@ fn errors_name_the_wrong_argument() {
         Err(Error::LargestMassRatio { n: 1, largest: 9.7 })
     );
 }
+
+/// A speed of a trap is in it after no hop, up to the last `f64`: π, and those next to an end where f falls to α*_n.
+#[test]
+fn the_last_speeds_of_a_trap_need_no_hop() {
+    let mut counts = [0, 0];
+    for m in [0.12, 0.2, 0.5, 1.0] {
+        let ratio = MassRatio::new(m).unwrap();
+        let fates = Fates::new(ratio).unwrap();
+        let pi = fates.fate_within(std::f64::consts::PI, 100).unwrap();
+        assert!(m > 0.3 || pi == (HopperFate::Decaying, 0), "{pi:?}");
+        for n in 1..4 {
+            let trap = Trap::new(n, ratio).unwrap();
+            if trap.edge != TrapEdge::Crossing {
+                continue;
+            }
+            let mut speed = trap.right();
+            for _ in 0..12 {
+                speed = speed.next_down();
+            }
+            for _ in 0..24 {
+                speed = speed.next_up();
+                let next = fates.map().enclosed_hop(speed, 0.0).unwrap().next.unwrap();
+                let offset = trap.fixed_point.offset_of(next.value);
+                let (fate, hops) = fates.fate_within(speed, 1_000_000).unwrap();
+                if offset.abs() > next.error + 1e-29 {
+                    assert_eq!(hops == 0, offset > 0.0, "{m} {n} {speed:?} {fate:?} {hops}");
+                    counts[usize::from(hops == 0)] += 1;
+                }
+            }
+        }
+    }
+    assert!(counts[0] > 50 && counts[1] > 50, "{counts:?}");
+}
