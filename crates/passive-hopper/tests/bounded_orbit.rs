@@ -1,7 +1,7 @@
 //! Orbits with bounds: the exact orbit, computed in 1024 bits, lies within them.
 
 use passive_hopper::{
-    Arithmetic, BoundedOrbit, Error, ExtendedOrbit, ExtendedStep, LiftOffMap, MassRatio, alpha_star,
+    Arithmetic, BoundedOrbit, Error, ExtendedOrbit, ExtendedStep, LiftOffMap, MassRatio,
 };
 
 /// The golden ratio's fraction spreads k over [0, 1).
@@ -33,19 +33,37 @@ fn the_exact_orbit_is_within_the_bounds() {
     assert!(hops > 500 && grounded > 5, "{hops} {grounded}");
 }
 
-/// Left of a fixed point the bound in `f64` reaches the fixed point after some hops.
+/// A chaotic orbit: the one in `f64` leaves the exact one after some hops.
 #[test]
 fn an_orbit_that_f64_leaves_open_goes_on_in_longer_arithmetic() {
-    let map = LiftOffMap::new(MassRatio::new(0.2).unwrap());
-    let mut orbit = BoundedOrbit::new(&map, alpha_star(1).next_up()).unwrap();
-    let mut needed = None;
-    for _ in 0..20 {
+    let map = LiftOffMap::new(MassRatio::new(20.0).unwrap());
+    let mut orbit = BoundedOrbit::new(&map, 60.0).unwrap();
+    let mut exact = ExtendedOrbit::new(&map, 60.0, Arithmetic::Bits1024).unwrap();
+    for hop in 1..=40 {
         assert_eq!(orbit.hop().unwrap(), ExtendedStep::LiftsOff);
-        needed = needed.max(orbit.arithmetic());
-        assert!(orbit.speed() >= alpha_star(1));
+        assert_eq!(exact.hop().unwrap(), ExtendedStep::LiftsOff);
+        let (off, error) = (exact.minus(orbit.speed()).abs(), orbit.error());
+        assert!(off <= error + exact.error() && error < 1e-9 * orbit.speed(), "{hop} {off:e}");
     }
-    assert!(needed.is_some());
-    assert_eq!(orbit.hops(), 20);
+    assert!(orbit.arithmetic().is_some());
+    assert_eq!(orbit.hops(), 40);
+}
+
+/// The bound tells the distance that the orbit really has, up to the rounding of 106 bits.
+#[test]
+fn bounds_are_sharp() {
+    for k in 0..50 {
+        let (m, alpha) = (0.05 + 0.9 * spread(k), 1.0 + 25.0 * spread(7 * k + 3));
+        let map = LiftOffMap::new(MassRatio::new(m).unwrap());
+        let orbit = BoundedOrbit::follow(&map, alpha, 3).unwrap();
+        let mut exact = ExtendedOrbit::new(&map, alpha, Arithmetic::Bits512).unwrap();
+        for (speed, error) in orbit.speeds.iter().zip(&orbit.errors).skip(1) {
+            exact.hop().unwrap();
+            let off = exact.minus(*speed).abs();
+            assert!(off <= error + exact.error(), "M = {m}, α = {alpha}: {error:e} {off:e}");
+            assert!(*error <= 1.001 * off + 1e-20, "M = {m}, α = {alpha}: {error:e} {off:e}");
+        }
+    }
 }
 
 #[test]

@@ -176,11 +176,12 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
     ///
     /// Up to the first fall f is not below α*_n, and beyond it f is below (docs/theory.md, Theorem 29). So the next speed decides.
     fn is_at_end_of(&self, trap: &Trap, speed: f64) -> Result<bool, Error> {
-        if trap.edge == TrapEdge::ContactEnd {
-            return Ok(compare_with_multiple_of_pi(speed, trap.n + 1) == Some(Ordering::Less));
-        }
+        // Beside a crisis the error is large, whatever the computed edge is.
         if !(trap.error < CERTAIN_END * trap.delta) {
             return Ok(false);
+        }
+        if trap.edge == TrapEdge::ContactEnd {
+            return Ok(compare_with_multiple_of_pi(speed, trap.n + 1) == Some(Ordering::Less));
         }
         for arithmetic in Arithmetic::ALL {
             let mut orbit = ExtendedOrbit::new(self.map, speed, arithmetic)?;

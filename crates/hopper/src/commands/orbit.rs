@@ -64,7 +64,8 @@ pub(crate) const PAGE: Page = Page {
     units: "Speeds in m₂gω/k, times in 1/ω, lengths in m₂g/k, energies in m₁m₂g²/k; ω² = k(1+M)/m₂.",
     limits: "Speeds up to 8796093022208 = 2⁴³; mass ratios from 2⁻¹⁰²² to 2¹⁰²²; up to 1000000 hops.\n\
              The first 20000 hops have errors of flight_time and energy_loss.\n\
-             The orbit ends early if the hopper is grounded, or at a hop that 1024 bits do not decide. A note says so.\n\
+             The orbit ends early if the hopper is grounded, or at a hop that is not decided: f64 leaves some open, and 106 to\n\
+             1024 bits have time for the first 2048 to 64 hops. A note says so.\n\
              A picture of an orbit whose fate is known at once shows 3 hops. A cobweb shows up to 200 humps of the map, a motion\n\
              has up to 1000000 samples, an animation up to 1200 frames, which is a minute.\n\
              The columns of --motion FILE.csv: time, hop, phase (flight or contact), upper_position y₁, upper_velocity ẏ₁,\n\
@@ -175,7 +176,8 @@ fn note_the_end(options: &Options, orbit: &Orbit, hops: usize, streams: &mut Str
     }
     if orbit.undecided {
         let hop = orbit.speeds.len();
-        let text = format!("1024 bits do not decide hop {hop}; the orbit ends before it");
+        let text =
+            format!("the bounds of errors do not decide hop {hop}; the orbit ends before it");
         options.output.note(streams, text);
     }
     options.output.explain(streams, format_args!("arithmetic: {}", orbit.arithmetic));

@@ -39,7 +39,10 @@ impl EnclosedStart {
     /// The state of the start itself.
     fn state(self) -> EnclosedState {
         let none = Enclosed { value: 0.0, error: 0.0 };
-        let upper_position = Enclosed::of(ball(self.excess) + Ball::exact(1.0));
+        let upper_position = match self.excess == none {
+            true => Enclosed { value: 1.0, error: 0.0 },
+            false => Enclosed::of(ball(self.excess) + Ball::exact(1.0)),
+        };
         EnclosedState {
             upper_position,
             upper_velocity: self.velocity,
@@ -59,8 +62,9 @@ impl EnclosedStart {
         let (x, v, t) = (ball(self.excess), ball(self.velocity), ball(time));
         let (sin, cos) = t.sin_cos();
         let stretched = x + Ball::exact(1.0);
-        let (lower, falling) = (share * height(t, x, v), t - sin - v * versine(t) - x * sin);
-        let lower_velocity = -(share * falling);
+        let (lag, _) = t.sine_remainders(sin, cos);
+        let lower = share * height(t, x, v);
+        let lower_velocity = -(share * (lag - v * versine(t) - x * sin));
         EnclosedState {
             upper_position: Enclosed::of(stretched * cos + v * sin + lower),
             upper_velocity: Enclosed::of(v * cos - stretched * sin + lower_velocity),

@@ -5,6 +5,9 @@
 //! ```
 //!
 //! The orbit goes one step to the right if a hop is inconclusive, or if its bound is larger than [`COARSE`].
+//!
+//! The bounds in `f64` grow by a factor of some hundred in a hop. So the orbit in 106 bits is followed beside the first hops in `f64`: the
+//! distance from it is the error that they really have.
 
 use crate::error::Error;
 use crate::map::extended_orbit::{Arithmetic, ExtendedOrbit, ExtendedStep};
@@ -15,7 +18,8 @@ use crate::map::lift_off_map::LiftOffMap;
 /// least. A smaller number costs time, since a hop in 106 bits takes fifty times as long; a larger one shows fewer digits.
 const COARSE: f64 = 1e-9;
 
-/// Most hops in each of [`Arithmetic::ALL`]: they take some tenths of a second. An orbit that needs more is inconclusive.
+/// Most hops in each of [`Arithmetic::ALL`]: they take some tenths of a second. After them the orbit goes on in `f64`, from the last speed and
+/// its error: one that is caught by a fixed point forgets them.
 const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
 
 /// The exact orbit of a speed, with a bound on the error of each speed that it shows.
@@ -26,7 +30,7 @@ const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
 /// let mut orbit = BoundedOrbit::new(&map, 5.5)?;
 /// assert_eq!((orbit.speed(), orbit.error()), (5.5, 0.0));
 /// assert_eq!(orbit.hop()?, ExtendedStep::LiftsOff);
-/// assert!((orbit.speed() - 3.783365713345068).abs() <= orbit.error() && orbit.error() < 1e-11);
+/// assert!((orbit.speed() - 3.783365713345068).abs() <= orbit.error() && orbit.error() < 1e-15);
 /// # Ok::<(), passive_hopper::Error>(())
 /// ```
 #[derive(Debug)]
@@ -36,6 +40,8 @@ pub struct BoundedOrbit<'a> {
     hops: usize,
     speed: f64,
     error: f64,
+    /// The orbit in 106 bits beside that in `f64`, as far as it goes.
+    beside: Option<ExtendedOrbit>,
     /// The orbit in longer arithmetic, once `f64` does not suffice.
     extended: Option<(Arithmetic, ExtendedOrbit)>,
 }
@@ -88,7 +94,9 @@ impl<'a> BoundedOrbit<'a> {
     /// The errors of [`LiftOffMap::check_speed`].
     pub fn new(map: &'a LiftOffMap, alpha: f64) -> Result<Self, Error> {
         map.check_speed(alpha)?;
-        Ok(BoundedOrbit { map, start: alpha, hops: 0, speed: alpha, error: 0.0, extended: None })
+        let beside = Some(ExtendedOrbit::new(map, alpha, Arithmetic::ALL[0])?);
+        let (start, speed) = (alpha, alpha);
+        Ok(BoundedOrbit { map, start, hops: 0, speed, error: 0.0, beside, extended: None })
     }
 
     /// The number of hops since the start.
@@ -116,11 +124,11 @@ impl<'a> BoundedOrbit<'a> {
     /// # Errors
     /// [`Error::SuddenLiftOffBudget`] after a million sudden lift-offs in a hop.
     pub fn hop(&mut self) -> Result<ExtendedStep, Error> {
-        if self.extended.is_none() {
+        if self.is_in_f64() {
             match self.plain_hop() {
                 HopWithin::Next { speed, error } => {
-                    (self.speed, self.error) = (speed, error);
                     self.hops += 1;
+                    (self.speed, self.error) = (speed, self.sharp_error(speed)?.min(error));
                     return Ok(ExtendedStep::LiftsOff);
                 }
                 HopWithin::Grounded => return Ok(ExtendedStep::Grounded),
@@ -128,6 +136,7 @@ impl<'a> BoundedOrbit<'a> {
             }
         }
         let needed = self.arithmetic();
+        let mut coarse = None;
         let longer = Arithmetic::ALL.into_iter().zip(EXTENDED_BUDGETS);
         for (arithmetic, most) in longer.filter(|(other, _)| needed <= Some(*other)) {
             if self.hops >= most {
@@ -139,13 +148,10 @@ impl<'a> BoundedOrbit<'a> {
             };
             let Some(mut orbit) = orbit else { continue };
             match orbit.hop()? {
-                ExtendedStep::LiftsOff => {
-                    (self.speed, self.hops) = (orbit.speed(), self.hops + 1);
-                    // The speed shown is rounded to `f64`.
-                    self.error = orbit.error() + 0.5 * f64::EPSILON * self.speed;
-                    self.extended = Some((arithmetic, orbit));
-                    return Ok(ExtendedStep::LiftsOff);
+                ExtendedStep::LiftsOff if orbit.error() > COARSE * orbit.speed() => {
+                    coarse = Some((arithmetic, orbit));
                 }
+                ExtendedStep::LiftsOff => return Ok(self.move_to(arithmetic, orbit)),
                 ExtendedStep::Grounded => {
                     self.extended = Some((arithmetic, orbit));
                     return Ok(ExtendedStep::Grounded);
@@ -153,7 +159,38 @@ impl<'a> BoundedOrbit<'a> {
                 ExtendedStep::Inconclusive => {}
             }
         }
-        Ok(ExtendedStep::Inconclusive)
+        // No arithmetic is finer within its hops.
+        let known = coarse.map(|(arithmetic, orbit)| self.move_to(arithmetic, orbit));
+        Ok(known.unwrap_or(ExtendedStep::Inconclusive))
+    }
+
+    /// Whether the next hop is tried in `f64`: up to the first one that needs more, and after the last that longer arithmetic has time for.
+    fn is_in_f64(&self) -> bool {
+        let most = |own: Arithmetic| EXTENDED_BUDGETS[own as usize];
+        self.arithmetic().is_none_or(|own| self.hops >= most(own))
+    }
+
+    /// Takes the speed after one more hop from the orbit in longer arithmetic.
+    fn move_to(&mut self, arithmetic: Arithmetic, orbit: ExtendedOrbit) -> ExtendedStep {
+        (self.speed, self.hops) = (orbit.speed(), self.hops + 1);
+        // The speed shown is rounded to `f64`.
+        self.error = orbit.error() + 0.5 * f64::EPSILON * self.speed;
+        (self.extended, self.beside) = (Some((arithmetic, orbit)), None);
+        ExtendedStep::LiftsOff
+    }
+
+    /// The distance of `speed`, that of the last hop, from the orbit in 106 bits; infinite where that ends.
+    fn sharp_error(&mut self, speed: f64) -> Result<f64, Error> {
+        let within = self.beside.take().filter(|_| self.hops <= EXTENDED_BUDGETS[0]);
+        let Some(mut orbit) = within else { return Ok(f64::INFINITY) };
+        if orbit.hop()? != ExtendedStep::LiftsOff {
+            return Ok(f64::INFINITY);
+        }
+        let off = orbit.minus(speed).abs();
+        // The difference is rounded.
+        let error = (off + orbit.error()) * (1.0 + f64::EPSILON);
+        self.beside = Some(orbit);
+        Ok(error)
     }
 
     /// The next hop in `f64`; inconclusive also if its bound is too large.
