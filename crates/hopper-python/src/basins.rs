@@ -4,7 +4,7 @@ use crate::arrays::shaped;
 use crate::errors::value_error;
 use crate::interruptible::{Watch, in_background, progress_function};
 use crate::pickling::{Reduced, plain, reduced, restoring};
-use crate::whole::{two_whole, whole};
+use crate::whole::{room_for, two_whole, whole};
 use basin_of_attraction::{
     Grid, Interval, Label, LabelledInterval, Refinement, StopReason, columns_in_parallel,
 };
@@ -87,6 +87,8 @@ pub(crate) fn basin_region<'py>(
             grid.columns
         )));
     }
+    // The labels of the threads, and those of the array.
+    room_for((end - begin).saturating_mul(grid.rows), 2 * size_of::<u16>())?;
     // rayon takes 0 for the number of processors.
     let pool = threads.map(|threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build());
     let pool = pool.transpose().map_err(value_error)?;
@@ -127,6 +129,7 @@ pub(crate) fn pixel_middles<'py>(
     #[pyo3(from_py_with = two_whole)] shape: [usize; 2],
 ) -> PyResult<Middles<'py>> {
     let grid = grid_of(window, shape)?;
+    room_for(grid.columns.max(grid.rows), 2 * size_of::<f64>())?;
     let across = (0..grid.columns).map(|column| grid.x_at(column)).collect();
     let up = (0..grid.rows).map(|row| grid.y_at(row)).collect();
     Ok((shaped::<f64>(py, across, &[grid.columns])?, shaped::<f64>(py, up, &[grid.rows])?))

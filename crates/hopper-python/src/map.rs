@@ -5,7 +5,7 @@ use crate::errors::{map_error, value_error};
 use crate::fates::Fate;
 use crate::hop::Hop;
 use crate::interruptible::{Pace, Watch, in_background};
-use crate::whole::whole;
+use crate::whole::{no_room, whole};
 use hopper_basin::{Fates, HopperFate};
 use passive_hopper::{HopStatus, MassRatio};
 use pyo3::prelude::*;
@@ -130,6 +130,7 @@ impl LiftOffMap {
         {
             let piece = pace.next(py)?.min(left);
             left -= piece;
+            speeds.try_reserve(piece).map_err(|_| no_room(hops, size_of::<f64>()))?;
             let follow = || {
                 for _ in 0..piece {
                     let Some(next) = self.map.image(speed)? else { return Ok(None) };

@@ -1,7 +1,7 @@
-//! Whole numbers of a user.
+//! Whole numbers of a user, and the memory that they ask for.
 
 use crate::errors::value_error;
-use pyo3::exceptions::PyOverflowError;
+use pyo3::exceptions::{PyMemoryError, PyOverflowError};
 use pyo3::prelude::*;
 
 /// An int, or what Python takes for one, as a number of Rust without a sign: the `from_py_with` of every count and index.
@@ -27,4 +27,19 @@ pub(crate) fn whole<T: TryFrom<u64>>(object: &Bound<'_, PyAny>) -> PyResult<T> {
 pub(crate) fn two_whole(object: &Bound<'_, PyAny>) -> PyResult<[usize; 2]> {
     let [first, second]: [Bound<'_, PyAny>; 2] = object.extract()?;
     Ok([whole(&first)?, whole(&second)?])
+}
+
+/// Whether there is memory for `count` results of about `bytes` bytes each. Without this question a count that is too large ends the process.
+///
+/// # Errors
+/// MemoryError with the size, as NumPy has it.
+pub(crate) fn room_for(count: usize, bytes: usize) -> PyResult<()> {
+    let room = Vec::<u8>::new().try_reserve_exact(count.saturating_mul(bytes));
+    room.map_err(|_| no_room(count, bytes))
+}
+
+/// The exception where there is no memory for results.
+pub(crate) fn no_room(count: usize, bytes: usize) -> PyErr {
+    let all = count as f64 * bytes as f64 / 1e9;
+    PyMemoryError::new_err(format!("{count} results need {all:.3} GB of memory, which cannot be had"))
 }

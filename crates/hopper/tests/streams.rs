@@ -110,7 +110,9 @@ fn figures_and_motions_go_to_standard_output() {
     assert!(svg.code == 0 && svg.output.starts_with("<svg") && svg.output.ends_with("</svg>\n"));
     let csv = call(&["orbit", "7", "-M", "0.2", "--hops", "1", "--motion", "-"], b"").output;
     let mut lines = csv.lines();
-    assert_eq!(lines.next().unwrap().split(',').count(), 7);
+    let names: Vec<&str> = lines.next().unwrap().split(',').collect();
+    assert_eq!(names.len(), 12);
+    assert!(names[7..].iter().all(|name| name.ends_with("_error")), "{names:?}");
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0][..5], ["0", "0", "flight", "1", "7"]);
     // The last line is the next lift-off, with the speed of the table.

@@ -8,7 +8,7 @@ use super::interval::Interval;
 use crate::errors::{of_callback, value_error};
 use crate::interruptible::{Watch, in_background};
 use crate::pickling::{Reduced, plain, reduced};
-use crate::whole::whole;
+use crate::whole::{room_for, whole};
 use basin_of_attraction::{Error, Hyperrectangle, Label};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
@@ -79,6 +79,12 @@ fn labelled<T: Send + 'static>(
     }
 }
 
+/// Bytes for each coordinate of a point: its bits as a key, in the list of the unknown, and in a column for Python.
+const COORDINATE: usize = 3 * size_of::<f64>();
+
+/// Bytes for each point beside its coordinates: two lists and an entry of a table, which is half empty.
+const POINT: usize = 2 * size_of::<Vec<f64>>() + 2 * size_of::<(Vec<u64>, Label)>();
+
 /// The bits of the coordinates of a point.
 fn bits(point: &[f64]) -> Vec<u64> {
     point.iter().map(|x| x.to_bits()).collect()
@@ -101,6 +107,7 @@ pub(crate) fn region_fractions(
     #[pyo3(from_py_with = whole)] seed: u64,
 ) -> PyResult<BTreeMap<u16, Interval>> {
     let region = region_of(&window)?;
+    room_for(count, POINT + window.len() * COORDINATE)?;
     let counts = labelled(py, label, window.len(), move |label| {
         basin_of_attraction::region_fractions(&region, count, seed, label)
     })?;
@@ -145,6 +152,8 @@ pub(crate) fn uncertainty_exponent(
     #[pyo3(from_py_with = whole)] seed: u64,
 ) -> PyResult<UncertaintyExponent> {
     let region = region_of(&window)?;
+    let pairs = count.saturating_mul(epsilons.len());
+    room_for(pairs, 2 * (POINT + window.len() * COORDINATE))?;
     let found = labelled(py, label, window.len(), move |label| {
         basin_of_attraction::uncertainty_exponent(&region, &epsilons, count, seed, label)
     })?;

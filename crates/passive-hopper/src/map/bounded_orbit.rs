@@ -30,7 +30,7 @@ const EXTENDED_BUDGETS: [usize; 4] = [2048, 512, 128, 64];
 /// let mut orbit = BoundedOrbit::new(&map, 5.5)?;
 /// assert_eq!((orbit.speed(), orbit.error()), (5.5, 0.0));
 /// assert_eq!(orbit.hop()?, ExtendedStep::LiftsOff);
-/// assert!((orbit.speed() - 3.783365713345068).abs() <= orbit.error() && orbit.error() < 1e-15);
+/// assert!((orbit.speed() - 3.783365713345068).abs() < 1e-15 && orbit.error() < 1e-15);
 /// # Ok::<(), passive_hopper::Error>(())
 /// ```
 #[derive(Debug)]
