@@ -684,7 +684,7 @@ onPage("the same on the command line and in Rust", "#pin=0.2,7", async (page) =>
   const [orbit, basins] = commands(shown["Command line"]);
   assert.deepEqual([orbit[0], basins[0]], ["hopper", "hopper"]);
   // A table shows the digits that are certain, CSV shows all.
-  const table = run([...orbit, "--format", "csv"]);
+  const table = run([...orbit, "--csv"]);
   for (const speed of native.points[0].speeds.slice(0, 7)) assert.ok(table.includes(String(speed)), `${speed}\n${table}`);
   assert.match(readFileSync(join(folder, "motion.csv"), "utf8"), /^time,hop,phase/);
   run([...basins, "--pixels", "16", "16"]);
