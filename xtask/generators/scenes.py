@@ -1,4 +1,4 @@
-"""Times of the events of scenes whose answers are known, and the state at the end (crates/hopper-measurements).
+"""Times of the events of scenes whose answers are known, and the state at the end (crates/hopper/hopper-studies).
 
     ball          x'' = -9.81 from x = 1 at rest, x' -> -0.8 x' at x = 0; the first 40 impacts; at rest at t = 5
     pendulum      x'' = -sin x from x = 2 at rest; x = 0 up to t = 400

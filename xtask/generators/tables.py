@@ -39,7 +39,7 @@ class Table(NamedTuple):
 
 def _table(file, remake, sample):
     """The table of a file, wherever among the crates' test data it stands."""
-    paths = sorted(ROOT.glob(f"crates/*/tests/data/{file}"))
+    paths = sorted(ROOT.glob(f"crates/*/*/tests/data/{file}"))
     if not paths:
         raise FileNotFoundError(f"no crate has tests/data/{file}")
     return Table(file.split(".")[0], tuple(path.relative_to(ROOT).as_posix() for path in paths), remake, sample)

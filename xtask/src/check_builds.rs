@@ -19,7 +19,7 @@ use std::process::{Command, ExitCode, Stdio};
 use std::time::Instant;
 
 /// The fuzz target's package.
-const FUZZ: &str = "crates/hopper-basin/fuzz";
+const FUZZ: &str = "crates/hopper/hopper-basin/fuzz";
 
 /// A build to try.
 struct Build {
@@ -163,7 +163,7 @@ mod tests {
     fn the_manifest_tells_members_and_the_oldest_rust() {
         let manifest = std::fs::read_to_string(repository().join("Cargo.toml")).unwrap();
         let members = members(&manifest);
-        assert!(members.contains(&"crates/hybrid-system".to_owned()), "{members:?}");
+        assert!(members.contains(&"crates/any-system/hybrid-system".to_owned()), "{members:?}");
         assert!(members.iter().all(|m| repository().join(m).join("Cargo.toml").exists()));
         let version = rust_version(&manifest).unwrap();
         assert!(version.starts_with("1.") && version.len() > 3, "{version}");

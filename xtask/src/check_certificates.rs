@@ -46,7 +46,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
         // The file of an earlier run must not pass for a new one.
         arguments.iter().for_each(|name| drop(std::fs::remove_file(file(name))));
         let mut prove = Command::new(&cargo);
-        prove.args(["run", "--quiet", "--release", "--package", "hopper-paper", "--", "prove"]);
+        prove.args(["run", "--quiet", "--release", "--package", "hopper-studies", "--", "prove"]);
         prove.args(arguments).arg("--out").arg(&folder).current_dir(repository());
         prove.status().map_err(|source| Error::Cargo { program: cargo.clone(), source })
     };

@@ -72,7 +72,7 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
     let site = folder.join("site");
     // Ends with this process.
     std::thread::spawn(move || serve(&listener, &site));
-    let tests = repository().join("crates/hopper-explorer/tests/browser");
+    let tests = repository().join("crates/hopper/hopper-explorer/tests/browser");
     let mut node = Command::new("node");
     if measure {
         node.arg(tests.join("measure.mjs"));
@@ -107,7 +107,7 @@ fn has_driver(folder: &Path) -> Result<bool, Error> {
         move |source| Error::File { path, source }
     };
     std::fs::create_dir_all(&driver).map_err(at(&driver))?;
-    let lists = repository().join("crates/hopper-explorer/tests/browser");
+    let lists = repository().join("crates/hopper/hopper-explorer/tests/browser");
     let (wanted, there) = (lists.join("package-lock.json"), driver.join("installed.json"));
     let text = std::fs::read(&wanted).map_err(at(&wanted))?;
     if std::fs::read(&there).is_ok_and(|installed| installed == text) {

@@ -14,7 +14,7 @@ use std::process::{Command, ExitCode, Stdio};
 /// Builds, installs, tests.
 pub(crate) fn run() -> Result<ExitCode, Error> {
     let root = repository();
-    let package = root.join("crates/hopper-python");
+    let package = root.join("crates/both/python-package");
     let target = root.join("target/python");
     let python = first_python();
     if !succeeds(Command::new(&python).args(["-c", NEW_ENOUGH])) {
@@ -24,7 +24,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let mut fetch = Command::new(&cargo);
     fetch.args(["fetch", "--quiet", "--locked", "--manifest-path"]).arg(package.join("Cargo.toml"));
     if !succeeds(&mut fetch) {
-        return skip("its crates cannot be had (cargo fetch fails in crates/hopper-python)");
+        return skip("its crates cannot be had (cargo fetch fails in crates/both/python-package)");
     }
     let list = package.join("tests/requirements.txt");
     let Ok(inside) = environment_python(&python, &target.join("environment"), &list) else {
@@ -53,7 +53,7 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
 /// The program `hopper`, built: a test compares its files with those of the package.
 fn hopper_program(cargo: &OsStr) -> Result<PathBuf, Error> {
     let mut build = Command::new(cargo);
-    build.args(["build", "--quiet", "--locked", "--package", "hopper"]).current_dir(repository());
+    build.args(["build", "--quiet", "--locked", "--package", "passive-hopper-cli"]).current_dir(repository());
     match build.status() {
         Ok(status) if status.success() => {}
         Ok(_) => return Err(Error::Builds(1)),

@@ -1,146 +1,113 @@
-//! The commands: one table of names, and the programs that run them.
+//! The commands: those of this program in a table, those of the studies read from where they are defined.
 
-use crate::check_builds;
-use crate::check_certificates;
-use crate::check_explorer;
-use crate::check_python;
 use crate::error::Error;
-use crate::explore;
 use crate::process::become_program;
-use crate::regenerate;
 use crate::repository::repository;
-use crate::tidy;
+use crate::{check_builds, check_certificates, check_dependencies, check_explorer, check_python};
+use crate::{explore, regenerate, tidy};
 use std::ffi::{OsStr, OsString};
 use std::io::Write;
 use std::process::{Command, ExitCode};
 
-/// A command.
+/// A command of this program.
 struct Task {
     name: &'static str,
     /// The effect of the command, in one line.
     about: &'static str,
-    /// The program that runs the command; `None` for a command of this program.
-    program: Option<Program>,
+    run: Run,
 }
 
-/// The packages of the repository's own programs. Their commands have the same names here.
-const PAPER: Option<Program> = Some(("hopper-paper", None));
-const MEASUREMENTS: Option<Program> = Some(("hopper-measurements", None));
+/// How a command is run.
+enum Run {
+    /// With its arguments.
+    WithArguments(fn(&[OsString]) -> Result<ExitCode, Error>),
+    /// It takes none.
+    Alone(fn() -> Result<ExitCode, Error>),
+    /// A command of the program for users.
+    OfProgram(&'static str),
+}
 
-/// The program for users, with the name of its command.
-const BASINS: Option<Program> = Some(("hopper", Some("basins")));
+use Run::{Alone, OfProgram, WithArguments};
 
-/// A package, and the name of the command in its program if it is another one.
-type Program = (&'static str, Option<&'static str>);
+/// The package of the program for users, and that of the studies.
+const PROGRAM: &str = "passive-hopper-cli";
+const STUDIES: &str = "hopper-studies";
 
-/// All commands, in the order of the help.
-const TASKS: [Task; 21] = [
-    Task {
-        name: "reproduce-paper",
-        about: "Compute every figure and number of the paper, check every claim, write a report",
-        program: PAPER,
-    },
-    Task {
-        name: "verify-invariance",
-        about: "Check only the invariance under M → 1/M, with its figure",
-        program: PAPER,
-    },
-    Task {
-        name: "basin-raster",
-        about: "Compute the basins over any window: the command `hopper basins`",
-        program: BASINS,
-    },
-    Task {
-        name: "explore",
-        about: "Build the browser explorer of the basins, and serve it on the loopback address",
-        program: None,
-    },
-    Task {
-        name: "beyond-paper",
-        about: "Compute results about the basins that the paper does not have, with a report",
-        program: PAPER,
-    },
-    Task {
-        name: "prove",
-        about: "Prove theorems about the basins, by interval arithmetic",
-        program: PAPER,
-    },
-    Task {
-        name: "model-figures",
-        about: "Draw figures of the generic crates: how guards are met, and a valve's bifurcations",
-        program: PAPER,
-    },
-    Task {
-        name: "check-reference",
-        about: "Compare the map and the fates with files of reference values",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "check-bounds",
-        about: "Compare every error bound with the actual error, on millions of hops",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "interval-coverage",
-        about: "Measure how often every interval of basin-of-attraction contains the true number",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "work-precision",
-        about: "Measure time against error of every way to compute a hop",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "speed",
-        about: "Measure how fast hops and rasters are; the output of each is checked first",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "scale",
-        about: "Measure the CPU time of rasters by size, and simulate many workers with it",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "compare-peers",
-        about: "Compare with heyoka, SciPy and numba on the same hops: needs Python and its package index",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "compare-events",
-        about: "Compare the events of known scenes with SciPy, heyoka and diffsol: needs Python and package indices",
-        program: MEASUREMENTS,
-    },
-    Task {
-        name: "regenerate",
-        about: "Make the committed reference values and constants again and compare: needs Python and its package index",
-        program: None,
-    },
-    Task {
-        name: "check-builds",
-        about: "Build each crate alone, the fuzz target, and all with the oldest Rust promised",
-        program: None,
-    },
-    Task {
-        name: "check-python",
-        about: "Build the Python package and run its tests: needs Python and package indices",
-        program: None,
-    },
-    Task {
-        name: "check-certificates",
-        about: "Prove theorems, and check their certificates by a second program: needs Python and its package index",
-        program: None,
-    },
-    Task {
-        name: "check-explorer",
-        about: "Test the explorer in a headless Chromium: needs node, npm and Chromium",
-        program: None,
-    },
-    Task { name: "tidy", about: "Check the repository's rules", program: None },
+const fn task(name: &'static str, run: Run, about: &'static str) -> Task {
+    Task { name, about, run }
+}
+
+/// The commands of this program, in the order of the help.
+const TASKS: [Task; 9] = [
+    task(
+        "basin-raster",
+        OfProgram("basins"),
+        "Compute the basins over any window: the command `hopper basins`",
+    ),
+    task(
+        "explore",
+        WithArguments(explore::run),
+        "Build the browser explorer of the basins, and serve it on the loopback address",
+    ),
+    task(
+        "regenerate",
+        WithArguments(regenerate::run),
+        "Make the committed reference values and constants again and compare: needs Python and its package index",
+    ),
+    task(
+        "check-builds",
+        Alone(check_builds::run),
+        "Build each crate alone, the fuzz target, and all with the oldest Rust promised",
+    ),
+    task(
+        "check-dependencies",
+        Alone(check_dependencies::run),
+        "Check sources, versions and licences of packages from outside by cargo-deny",
+    ),
+    task(
+        "check-python",
+        Alone(check_python::run),
+        "Build the Python package and run its tests: needs Python and package indices",
+    ),
+    task(
+        "check-certificates",
+        Alone(check_certificates::run),
+        "Prove theorems, and check their certificates by a second program: needs Python and its package index",
+    ),
+    task(
+        "check-explorer",
+        WithArguments(check_explorer::run),
+        "Test the explorer in a headless Chromium: needs node, npm and Chromium",
+    ),
+    task("tidy", Alone(tidy::run), "Check the repository's rules"),
 ];
+
+/// The file in which the commands of the studies are defined: between `commands! {` and `}`, a line of documentation
+/// before each `Variant: module,`.
+const STUDY_COMMANDS: &str = include_str!("../../crates/hopper/hopper-studies/src/cli.rs");
+
+/// Names and effects of the commands of the studies.
+fn studies() -> impl Iterator<Item = (String, &'static str)> {
+    let lines = STUDY_COMMANDS.lines().skip_while(|line| *line != "commands! {").skip(1);
+    let mut about = "";
+    lines.take_while(|line| *line != "}").map(str::trim).filter_map(move |line| {
+        if let Some(text) = line.strip_prefix("/// ") {
+            about = text;
+            return None;
+        }
+        let (_, module) = line.trim_end_matches(',').split_once(": ")?;
+        Some((module.replace('_', "-"), about))
+    })
+}
+
+/// Names and effects of all commands.
+fn all() -> impl Iterator<Item = (String, &'static str)> {
+    studies().chain(TASKS.iter().map(|task| (task.name.to_owned(), task.about)))
+}
 
 /// The names of all commands.
 fn names() -> String {
-    TASKS.map(|task| task.name).join(", ")
+    all().map(|(name, _)| name).collect::<Vec<_>>().join(", ")
 }
 
 /// Runs the command that the arguments name.
@@ -161,28 +128,23 @@ pub(crate) fn run(arguments: &[OsString]) -> Result<ExitCode, Error> {
 }
 
 fn start(name: &str, arguments: &[OsString]) -> Result<ExitCode, Error> {
-    let known = TASKS.iter().find(|task| task.name == name);
-    let task =
-        known.ok_or_else(|| Error::UnknownCommand { name: name.to_owned(), known: names() })?;
-    if let Some((package, name)) = task.program {
-        return run_program(package, name.unwrap_or(task.name), arguments);
-    }
-    match task.name {
-        "regenerate" => return regenerate::run(arguments),
-        "explore" => return explore::run(arguments),
-        "check-explorer" => return check_explorer::run(arguments),
-        _ => {}
-    }
-    match arguments.first().map(|argument| argument.to_string_lossy()) {
-        None if task.name == "check-builds" => check_builds::run(),
-        None if task.name == "check-python" => check_python::run(),
-        None if task.name == "check-certificates" => check_certificates::run(),
-        None => tidy::run(),
-        Some(option) if option == "--help" || option == "-h" => print(&format!(
+    let Some(task) = TASKS.iter().find(|task| task.name == name) else {
+        let known = studies().any(|(study, _)| study == name);
+        return if known {
+            run_program(STUDIES, name, arguments)
+        } else {
+            Err(Error::UnknownCommand { name: name.to_owned(), known: names() })
+        };
+    };
+    match (&task.run, arguments.first().map(|argument| argument.to_string_lossy())) {
+        (WithArguments(run), _) => run(arguments),
+        (OfProgram(name), _) => run_program(PROGRAM, name, arguments),
+        (Alone(run), None) => run(),
+        (Alone(_), Some(option)) if option == "--help" || option == "-h" => print(&format!(
             "{}\n\nUsage: cargo xtask {}\n\nOptions:\n  -h, --help  Print help\n",
             task.about, task.name
         )),
-        Some(option) => {
+        (Alone(_), Some(option)) => {
             Err(Error::UnknownOption { command: task.name, option: option.into_owned() })
         }
     }
@@ -201,12 +163,12 @@ fn run_program(package: &str, name: &str, arguments: &[OsString]) -> Result<Exit
 }
 
 fn help() -> String {
-    let widest = TASKS.iter().map(|task| task.name.len()).max().unwrap_or(0);
+    let widest = all().map(|(name, _)| name.len()).max().unwrap_or(0);
     let line = |name: &str, about: &str| format!("  {name:widest$}  {about}\n");
     let mut text = "Figures, claims and rules of the hybrid-hopper workspace\n\n\
                     Usage: cargo xtask <COMMAND>\n\nCommands:\n"
         .to_owned();
-    TASKS.iter().for_each(|task| text.push_str(&line(task.name, task.about)));
+    all().for_each(|(name, about)| text.push_str(&line(&name, about)));
     text.push_str(&line("help", "Print this message or the help of the given command"));
     text + "\nOptions:\n  -h, --help     Print help\n  -V, --version  Print version\n"
 }
@@ -224,9 +186,11 @@ mod tests {
     #[test]
     fn the_help_has_one_line_for_each_command() {
         let text = help();
-        for task in TASKS {
-            let lines = text.lines().filter(|line| line.trim_start().starts_with(task.name));
-            assert_eq!(lines.count(), 1, "{}", task.name);
+        assert_eq!(studies().count(), 13, "{text}");
+        for (name, about) in all() {
+            let lines = text.lines().filter(|line| line.split_whitespace().next() == Some(&name));
+            assert_eq!(lines.count(), 1, "{name}");
+            assert!(about.len() > 20, "{name}: {about}");
         }
     }
 

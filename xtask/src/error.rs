@@ -23,6 +23,8 @@ pub(crate) enum Error {
     Explorer(String),
     /// A program of the certificates failed; it has printed what.
     Certificates(&'static str),
+    /// Packages from outside break a rule, or could not be checked.
+    Dependencies(String),
     /// Builds failed; each has been printed with the compiler's messages.
     Builds(usize),
     /// The workspace's manifest promises no oldest Rust.
@@ -53,6 +55,7 @@ impl fmt::Display for Error {
             ),
             Error::Explorer(reason) => write!(f, "the explorer: {reason}"),
             Error::Certificates(name) => write!(f, "{name} failed; its messages stand above"),
+            Error::Dependencies(reason) => write!(f, "packages from outside: {reason}"),
             Error::Builds(count) => write!(f, "{count} builds failed"),
             Error::NoRustVersion => {
                 write!(f, "Cargo.toml has no rust-version; write the oldest Rust that is supported")

@@ -34,7 +34,7 @@ pub(crate) fn target_folder() -> PathBuf {
 
 /// The manifest of the explorer's core.
 pub(crate) fn manifest() -> PathBuf {
-    repository().join("crates/hopper-explorer/Cargo.toml")
+    repository().join("crates/hopper/hopper-explorer/Cargo.toml")
 }
 
 pub(crate) fn cargo() -> OsString {
@@ -101,7 +101,7 @@ fn without_comments(text: &str) -> String {
 
 /// The files of the page.
 pub(crate) fn page_files() -> Result<Vec<PathBuf>, Error> {
-    let path = repository().join("crates/hopper-explorer/page");
+    let path = repository().join("crates/hopper/hopper-explorer/page");
     let at = |source| Error::File { path: path.clone(), source };
     let entries = std::fs::read_dir(&path).map_err(at)?;
     let mut files =

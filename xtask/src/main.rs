@@ -5,6 +5,7 @@
 
 mod check_builds;
 mod check_certificates;
+mod check_dependencies;
 mod check_explorer;
 mod check_python;
 mod commands;

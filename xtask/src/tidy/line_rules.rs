@@ -5,11 +5,11 @@ use super::crate_classes::{CrateClass, GENERIC, class_of};
 use super::sources::Source;
 
 /// The crate and the file that look for Ctrl-C now and then. No result depends on the clock.
-const WITH_CLOCK: (&str, &str) = ("hopper-python", "interruptible.rs");
+const WITH_CLOCK: (&str, &str) = ("python-package", "interruptible.rs");
 /// The crate and the file with calls of loops compiled for wider vectors, after a check of the processor.
 const WITH_UNSAFE_CODE: (&str, &str) = ("passive-hopper", "simd.rs");
 /// The crate and the file with calls of the root finder of the `roots` crate, on brackets that are certain.
-const WITH_ROOTS: (&str, &str) = ("hybrid-system", "bracketed_root.rs");
+const WITH_ROOTS: (&str, &str) = ("interval-arithmetic", "bracketed_root.rs");
 /// Largest number of lines of a file. The numerical crates that were read as examples stay below it. In this project
 /// each longer file contained more than one concept.
 const LONGEST_FILE: usize = 400;
@@ -84,7 +84,7 @@ pub(super) fn check(source: &Source, breaches: &mut Vec<Breach>) {
             breach(at, "unsafe code is in simd.rs of passive-hopper alone");
         }
         if code.contains("roots::") && !is(source, WITH_ROOTS) {
-            breach(at, "only bracketed_root.rs of hybrid-system uses the roots crate");
+            breach(at, "only bracketed_root.rs of interval-arithmetic uses the roots crate");
         }
     }
 }
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn breaches_are_found() {
-        let generic = "crates/return-map/src/x.rs";
+        let generic = "crates/any-system/return-map/src/x.rs";
         assert_eq!(
             rules(generic, "//! Of the Hopper.\n"),
             ["a generic crate does not know the hopper"]
@@ -138,10 +138,10 @@ mod tests {
         assert_eq!(rules(generic, "//! X.\nprintln!(\"{x}\");\n").len(), 1);
         assert_eq!(rules(generic, "//! X.\n#![allow(unsafe_code)]\nunsafe { x() };\n").len(), 2);
         assert!(
-            rules("crates/passive-hopper/src/kernel/simd.rs", "//! X.\nunsafe { x() };\n")
+            rules("crates/hopper/passive-hopper/src/kernel/simd.rs", "//! X.\nunsafe { x() };\n")
                 .is_empty()
         );
-        assert_eq!(rules("crates/x/Cargo.toml", "[dependencies]\nserde = \"1\"\n").len(), 1);
+        assert_eq!(rules("crates/both/x/Cargo.toml", "[dependencies]\nserde = \"1\"\n").len(), 1);
         assert!(rules("xtask/src/x.rs", &"\n".repeat(401)).len() == 1);
         assert!(
             rules(generic, "//! X.\n/// x.unwrap()\n#[cfg(test)]\nmod tests {\nassert!(x);\n")
@@ -152,10 +152,10 @@ mod tests {
     #[test]
     fn a_class_decides_about_files_and_printing() {
         let (files, print) = ("//! X.\nuse std::fs::File;\n", "//! X.\nprintln!(\"{x}\");\n");
-        assert_eq!(rules("crates/passive-hopper/src/x.rs", files).len(), 1);
-        assert_eq!(rules("crates/resumable-job/src/x.rs", files).len(), 0);
-        assert_eq!(rules("crates/resumable-job/src/x.rs", print).len(), 1);
-        assert_eq!(rules("crates/hopper-paper/src/x.rs", print).len(), 0);
-        assert_eq!(rules("crates/without-a-class/src/x.rs", files).len(), 1);
+        assert_eq!(rules("crates/hopper/passive-hopper/src/x.rs", files).len(), 1);
+        assert_eq!(rules("crates/both/resumable-job/src/x.rs", files).len(), 0);
+        assert_eq!(rules("crates/both/resumable-job/src/x.rs", print).len(), 1);
+        assert_eq!(rules("crates/hopper/hopper-studies/src/x.rs", print).len(), 0);
+        assert_eq!(rules("crates/both/without-a-class/src/x.rs", files).len(), 1);
     }
 }

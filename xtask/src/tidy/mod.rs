@@ -5,34 +5,21 @@
 //! | which crates may print, read files or use clocks | `crate_classes.rs` |
 //! | code that a line may not contain | `line_rules.rs` |
 //! | the workspace lists its members | `workspace_members.rs` |
-//! | no import cycles between files | `import_cycles.rs` |
-//! | no imports through `lib.rs` | `lib_imports.rs` |
 //! | the root of the repository holds known names only | `root_folder.rs` |
 //! | citations of `docs/theory.md` name statements that exist | `theory_citations.rs` |
 //! | sources cited by name and year are in the bibliography | `bibliography.rs` |
-//! | packages from outside have one source, and one version each | `supply_chain.rs` |
-//! | their licences are allowed | `licences.rs` |
-//! | their number in the README is true | `dependency_counts.rs` |
 //! | links lead to files and headings that exist | `links.rs` |
 //! | the files and tests that the documentation names exist | `names_in_pages.rs` |
 
 mod bibliography;
 mod breach;
 mod crate_classes;
-mod dependency_counts;
-mod import_cycles;
-mod imports;
-mod lib_imports;
-mod licences;
 mod line_rules;
 mod links;
-mod lock_file;
-mod module_tree;
 mod names_in_pages;
 mod one_line;
 mod root_folder;
 mod sources;
-mod supply_chain;
 mod theory_citations;
 mod workspace_members;
 
@@ -64,21 +51,10 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     for source in &sources {
         line_rules::check(source, &mut breaches);
     }
-    for files in sources.chunk_by(|a, b| a.package() == b.package()) {
-        import_cycles::check(files, &mut breaches);
-        lib_imports::check(files, &mut breaches);
-    }
     let crates = root_folder::crates(root)?;
     crate_classes::check(&crates, &mut breaches);
     workspace_members::check(&sources::read(root, "Cargo.toml")?.text, &crates, &mut breaches);
     root_folder::check(root, &mut breaches)?;
-    let rules = sources::read(root, supply_chain::RULES)?;
-    let packages = lock_file::packages(&sources::read(root, "Cargo.lock")?.text);
-    supply_chain::check(&rules, &packages, &mut breaches);
-    licences::check(root, &rules, &mut breaches);
-    let manifests: Vec<_> = sources.iter().filter(|source| is_manifest(source)).collect();
-    let page = sources::read(root, "README.md")?;
-    dependency_counts::check(&page, &manifests, &packages, &mut breaches);
     let documents = sources::documents(root)?;
     theory_citations::check(&sources, &documents, &mut breaches);
     let bibliography = sources::read(root, bibliography::BIBLIOGRAPHY)?;
@@ -87,11 +63,6 @@ fn breaches(root: &Path) -> Result<Vec<Breach>, Error> {
     let pages: Vec<_> = documents.into_iter().filter(sources::is_page).collect();
     names_in_pages::check(&pages, &sources, &mut breaches);
     Ok(breaches)
-}
-
-/// Whether a file is the manifest of a crate of the workspace.
-fn is_manifest(source: &sources::Source) -> bool {
-    source.name == format!("{}/Cargo.toml", source.package())
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ mod tests {
 
     fn rules(page: &str, text: &str) -> Vec<String> {
         let sources = [
-            Source::new("crates/a/src/room/door.rs", "    fn the_door_opens(m in 0.0..1.0) {\n"),
+            Source::new("crates/w/a/src/room/door.rs", "    fn the_door_opens(m in 0.0..1.0) {\n"),
             Source::new("xtask/src/tidy/mod.rs", ""),
         ];
         let mut breaches = Vec::new();

@@ -19,13 +19,16 @@ pub(super) fn check(root: &Path, breaches: &mut Vec<Breach>) -> Result<(), Error
     Ok(())
 }
 
-/// The folders in `crates` that have a manifest, sorted.
+/// The folders in the wings of `crates` that have a manifest, as `WING/NAME`, sorted.
 pub(super) fn crates(root: &Path) -> Result<Vec<String>, Error> {
     let folder = root.join("crates");
-    let mut names = names(&folder)?;
-    names.retain(|name| folder.join(name).join("Cargo.toml").exists());
-    names.sort();
-    Ok(names)
+    let mut all = Vec::new();
+    for wing in names(&folder)? {
+        all.extend(names(&folder.join(&wing))?.into_iter().map(|name| format!("{wing}/{name}")));
+    }
+    all.retain(|name| folder.join(name).join("Cargo.toml").exists());
+    all.sort();
+    Ok(all)
 }
 
 fn names(folder: &Path) -> Result<Vec<String>, Error> {

@@ -15,15 +15,15 @@ pub(super) struct Source {
 }
 
 impl Source {
-    /// The folder of the package: `crates/NAME`, or `xtask`.
+    /// The folder of the package: `crates/WING/NAME`, or `xtask`.
     pub(super) fn package(&self) -> &str {
-        let folders = if self.name.starts_with("crates/") { 2 } else { 1 };
+        let folders = if self.name.starts_with("crates/") { 3 } else { 1 };
         self.name.match_indices('/').nth(folders - 1).map_or(&self.name, |(at, _)| &self.name[..at])
     }
 
     /// The crate's name, if the file is in `crates/`.
     pub(super) fn crate_name(&self) -> Option<&str> {
-        self.package().strip_prefix("crates/")
+        Some(self.package().strip_prefix("crates/")?.split_once('/')?.1)
     }
 
     /// The path inside `src`, if the file is Rust and part of a library or program there.
@@ -153,12 +153,12 @@ mod tests {
     #[test]
     fn a_file_knows_its_package() {
         let source = |name: &str| Source::new(name, "");
-        let library = source("crates/return-map/src/orbit/mod.rs");
-        assert_eq!(library.package(), "crates/return-map");
+        let library = source("crates/any-system/return-map/src/orbit/mod.rs");
+        assert_eq!(library.package(), "crates/any-system/return-map");
         assert_eq!(library.crate_name(), Some("return-map"));
         assert_eq!(library.in_src(), Some("orbit/mod.rs"));
-        let test = source("crates/return-map/tests/src/x.rs");
-        assert_eq!((test.package(), test.in_src()), ("crates/return-map", None));
+        let test = source("crates/any-system/return-map/tests/src/x.rs");
+        assert_eq!((test.package(), test.in_src()), ("crates/any-system/return-map", None));
         let task = source("xtask/src/main.rs");
         assert_eq!((task.package(), task.crate_name()), ("xtask", None));
         assert_eq!(task.in_src(), Some("main.rs"));
@@ -168,8 +168,8 @@ mod tests {
     fn tests_are_left_out() {
         let text = "a\n#[cfg(test)]\nmod planted;\nb\n#[cfg(test)]\nmod tests {\n    c\n}\n";
         let mut sources = [
-            Source::new("crates/x/src/y.rs", text),
-            Source::new("crates/x/src/y/planted.rs", "d\n"),
+            Source::new("crates/both/x/src/y.rs", text),
+            Source::new("crates/both/x/src/y/planted.rs", "d\n"),
         ];
         let lines = |source: &Source| {
             source.lines_before_tests().map(|(at, line)| format!("{at} {line}")).collect::<Vec<_>>()

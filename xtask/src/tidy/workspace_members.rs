@@ -1,6 +1,6 @@
 //! The workspace lists its members one by one.
 //!
-//! With `crates/*` any folder becomes a member. A folder whose tests cannot link here, such as an extension module of
+//! With `crates/*/*` any folder becomes a member. A folder whose tests cannot link here, such as an extension module of
 //! another language, would break `cargo test --workspace`.
 
 use super::breach::Breach;
@@ -36,17 +36,17 @@ mod tests {
 
     fn rules(manifest: &str) -> Vec<String> {
         let mut breaches = Vec::new();
-        check(manifest, &["a".into(), "b".into()], &mut breaches);
+        check(manifest, &["w/a".into(), "w/b".into()], &mut breaches);
         breaches.into_iter().map(|breach| format!("{}: {}", breach.file, breach.rule)).collect()
     }
 
     #[test]
     fn every_crate_must_be_listed_in_the_workspace() {
-        let listed = "[workspace]\n# why\nmembers = [\n  \"crates/a\", # here\n  \"xtask\",\n]\nexclude = [\"crates/b\"]\n";
+        let listed = "[workspace]\n# why\nmembers = [\n  \"crates/w/a\", # here\n  \"xtask\",\n]\nexclude = [\"crates/w/b\"]\n";
         assert_eq!(rules(listed), [""; 0]);
-        let missing = rules("[workspace]\nmembers = [\"crates/a\"]\n");
-        assert!(missing.len() == 1 && missing[0].starts_with("crates/b/Cargo.toml: not in"));
-        let pattern = rules("members = [\"crates/*\", \"crates/a\", \"crates/b\"]\n");
+        let missing = rules("[workspace]\nmembers = [\"crates/w/a\"]\n");
+        assert!(missing.len() == 1 && missing[0].starts_with("crates/w/b/Cargo.toml: not in"));
+        let pattern = rules("members = [\"crates/*\", \"crates/w/a\", \"crates/w/b\"]\n");
         assert!(pattern.len() == 1 && pattern[0].contains("one by one"), "{pattern:?}");
     }
 }

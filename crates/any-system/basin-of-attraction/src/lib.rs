@@ -1,0 +1,191 @@
+//! Basins of attraction of scalar maps. A trap decides every label, or the label is marked as undecided.
+//!
+//! ```text
+//!   f(trap) ⊂ trap      basin = trap ∪ f⁻¹(trap) ∪ f⁻²(trap) ∪ …       level k enters the trap after k steps
+//! ```
+//!
+//! | item | role |
+//! |---|---|
+//! | [`ScalarMap`], [`Image`] | a map of the line; closures `Fn(f64) -> Option<f64>` are maps |
+//! | [`Label`] | the number of a basin, or undecided, or outside the region of interest |
+//! | [`TrapSet`], [`Traps`] | sets that orbits do not leave, with labels |
+//! | [`classify`], [`Fate`], [`UndecidedReason`] | the fate of a point: trapped, stopped, or undecided for a reason |
+//! | [`Interval`], [`IntervalSet`] | disjoint intervals: union, difference, measure |
+//! | [`monotone_branches`], [`Branch`] | the map restricted to its laps, and preimages on a lap to 1 ulp |
+//! | [`preimage_levels`] | the basin of a trap, level by level |
+//! | [`interval_basins`], [`IntervalBasins`] | all basins in a window as intervals, with the undecided length |
+//! | [`check_trap`], [`TrapGround`], [`check_branches`] | tests of what a caller gives; `interval_basins` makes them |
+//! | [`Refinement`], [`StopReason`] | when that search stops, and why it stopped |
+//! | [`PreimageTree`], [`ResidualSet`], [`geometric_limit`] | which branch leads where; whether a Cantor set or a countable set remains |
+//! | [`equally_spaced_fractions`], [`random_fractions`], [`low_discrepancy_fractions`] | basin fractions from sample points, each with its uncertainty |
+//! | [`ConfidenceInterval`], [`proportion_interval`], [`wilson_interval`], [`student_interval`] | an estimate with a 95 % confidence interval |
+//! | [`Bounds`] | bounds on a number, which hold under stated conditions |
+//! | [`SplitMix64`] | random numbers from a seed, the same with any number of threads |
+//! | [`BoxCount`], [`occupied_boxes`], [`power_law`] | boxes with more than one basin, entropies, exponents with intervals from replicates, and local slopes |
+//! | [`ball_entropy`], [`LabelImage::ln_2_criterion`] | whether a boundary looks smooth at one scale; whether it is shown to be fractal at all scales of an image |
+//! | [`uncertain_fraction`], [`IntervalBasins::uncertain_fraction`] | final-state uncertainty, from perturbed starts or from intervals |
+//! | [`Hyperrectangle`], [`region_fractions`] | regions of any dimension, and the fractions of the basins in them |
+//! | [`region_boxes`] | boxes with more than one basin, and entropies, in a region of any dimension |
+//! | [`uncertain_pairs`], [`uncertainty_exponent`] | final-state uncertainty in a region of any dimension |
+//! | [`Attractors`], [`Unmatched`] | attractors of maps and flows of several variables, found by recurrences and tested as traps |
+//! | [`FeatureAttractors`], [`FeatureGroups`] | the same by features of orbits, grouped by density or beside templates |
+//! | [`fractions_along`], [`FractionsAlong`], [`Fractions`] | fractions along a curve of parameters, refined where they change, with their jumps |
+//! | [`match_attractors`], [`Matching`] | which attractors at two parameters are the same |
+//! | [`IntervalBasins::tipping_to`], [`Tipping`] | the probability that a state of basin a is in basin b after a change of parameters, with bounds |
+//! | [`random_tipping`], [`label_after_drift`] | the same from random points, also for a slow change that the orbit follows |
+//! | [`IntervalBasins::distance_to_boundary`], [`BoundaryDistances`] | the distance to the boundary on the line, with bounds: of a state, and its distribution over a basin |
+//! | [`minimal_fatal_shock`] | the smallest shock to another basin, in any dimension: an upper bound with a witness |
+//! | [`boundary_between`], [`track_edge`] | a point of the boundary between two states, and the saddle that attracts the boundary |
+//! | [`value_raster`], [`ValueImage`] | numbers over a window of the plane, such as the steps to a trap |
+//! | [`LabelImage::wada`], [`IntervalBasins::wada`] | whether all basins share one boundary |
+//! | [`raster`], [`Grid`], [`LabelImage`] | labels over a window of the plane, in parallel |
+//! | [`PixelShares`], [`IntervalBasins::pixel_shares`] | the share of every basin in the pixels of a line, with bounds |
+//! | [`columns_in_parallel`] | any values of the columns of a raster |
+//!
+//! ```
+//! use basin_of_attraction::{Fate, Interval, Label, TrapSet, classify};
+//! // Newton's method for x² − 2 converges to √2 from the right of 0, and to −√2 from the left.
+//! let newton = |x: f64| Some(0.5 * (x + 2.0 / x));
+//! let (positive, negative) = (Label::from(1), Label::from(2));
+//! let traps = TrapSet::new(vec![
+//!     (Interval::new(1.4142, 1.5)?, positive),
+//!     (Interval::new(-1.5, -1.4142)?, negative),
+//! ])?;
+//! assert_eq!(classify(&newton, &traps, 100.0, 50).0, Fate::Trapped(positive));
+//! assert_eq!(classify(&newton, &traps, -0.01, 50).0, Fate::Trapped(negative));
+//! # Ok::<(), basin_of_attraction::Error>(())
+//! ```
+//!
+//! # Accuracy
+//! Intervals given as traps, and branches, are tested by images or at random points; what the points miss is the caller's. The ends of preimages are located to
+//! one ulp of the computed map. The same input gives the same labels with any number of threads.
+//!
+//! A slope between two scales is not a dimension. [`PowerLaw`] has all local slopes, and no interval if they drift.
+//!
+//! # Not here
+//! - Basins as certain sets for maps of more than one variable: regions of any dimension are sampled.
+//! - Integrators of flows: a step of a flow is a closure.
+//! - Lower bounds on distances from a boundary in more than one dimension.
+//!
+//! # References
+//! C. Grebogi, S. W. McDonald, E. Ott, J. A. Yorke, Phys. Lett. A 99, 415 (1983), uncertainty exponent;
+//! A. Daza et al., Sci. Rep. 6, 31416 (2016), basin entropy; A. Puy, A. Daza, A. Wagemakers, M. A. F. Sanjuán, Commun. Nonlinear
+//! Sci. Numer. Simul. 95, 105588 (2021), entropy of balls on a smooth boundary; A. Daza, A. Wagemakers, M. A. F. Sanjuán,
+//! Sci. Rep. 8, 9954 (2018), Wada by merging; E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927), intervals of
+//! proportions; W. Hoeffding, Ann. Math. Stat. 27, 713 (1956), successes with different probabilities; T. Gasser,
+//! L. Sroka, C. Jennen-Steinmetz, Biometrika 73, 625 (1986), variance from differences; G. L. Steele, D. Lea, C. H. Flood,
+//! OOPSLA 2014, SplitMix64; G. Datseris, A. Wagemakers, Chaos 32, 023104 (2022), attractors by recurrences and by features;
+//! M. Ester, H.-P. Kriegel, J. Sander, X. Xu, KDD 1996, 226, groups by density; G. Datseris, K. Luiz
+//! Rossi, A. Wagemakers, Chaos 33, 073151 (2023), fractions along a parameter; B. Kaszás, U. Feudel, T. Tél, Sci. Rep. 9, 8654
+//! (2019), tipping; L. Halekotte, U. Feudel, Sci. Rep. 10, 11783 (2020), minimal fatal shocks; J. D. Skufca, J. A. Yorke,
+//! B. Eckhardt, Phys. Rev. Lett. 96, 174101 (2006), edge tracking; P. J. Menck, J. Heitzig, N. Marwan, J. Kurths, Nat. Phys. 9, 89
+//! (2013), basin stability.
+
+mod attractor_features;
+mod attractor_match;
+mod basin_search;
+mod boundary_between;
+mod boundary_distance;
+mod bounds;
+mod boxes;
+mod branches;
+mod confidence_interval;
+mod edge_tracking;
+mod entropy;
+mod error;
+mod fatal_shock;
+mod fate;
+mod feature_groups;
+mod followed_orbit;
+mod fractions;
+mod fractions_along;
+mod hyperrectangle;
+mod image_fractions;
+mod interval;
+mod interval_basins;
+mod known_cells;
+mod label;
+mod least_squares;
+mod ln_2_criterion;
+mod low_discrepancy;
+mod pixel_shares;
+mod power_law;
+mod preimage;
+mod preimage_tree;
+mod probes;
+mod raster;
+mod recurrence_limits;
+mod recurrences;
+mod refinement;
+mod region_boxes;
+mod region_fractions;
+mod region_uncertainty;
+mod sampling;
+mod scalar_map;
+mod smooth_boundary;
+mod split_mix;
+mod state_grid;
+mod tipping;
+mod uncertainty;
+mod uncertainty_fit;
+mod undecided_reason;
+mod unmatched;
+mod value_image;
+mod wada;
+
+pub use attractor_features::{FeatureAttractor, FeatureAttractors, FeatureLimits};
+pub use attractor_match::{AttractorMatch, match_attractors};
+pub use basin_search::{interval_basins, interval_basins_from_known};
+pub use boundary_between::{BoundaryBracket, boundary_between};
+pub use boundary_distance::{BoundaryDistance, BoundaryDistances};
+pub use bounds::Bounds;
+pub use boxes::{BoxCount, occupied_boxes};
+pub use branches::{Branch, monotone_branches};
+pub use confidence_interval::{
+    ConfidenceInterval, proportion_interval, student_interval, wilson_interval,
+};
+pub use edge_tracking::{EdgeEnd, EdgeLimits, EdgeTrack, track_edge};
+pub use entropy::entropy;
+pub use error::Error;
+pub use fatal_shock::{FatalShock, ShockSearch, minimal_fatal_shock};
+pub use fate::{Fate, TrapSet, Traps, classify};
+pub use feature_groups::FeatureGroups;
+pub use fractions::{FractionRange, Fractions};
+pub use fractions_along::{
+    CurveLimits, FractionsAlong, Matching, UnmatchedAttractor, UnresolvedReason, UnresolvedStep,
+    fractions_along,
+};
+pub use hyperrectangle::Hyperrectangle;
+pub use interval::{Interval, IntervalSet};
+pub use interval_basins::{IntervalBasins, LabelledInterval};
+pub use label::Label;
+pub use ln_2_criterion::Ln2Criterion;
+pub use low_discrepancy::{low_discrepancy_fractions, stratified_fractions, stratified_points};
+pub use pixel_shares::PixelShares;
+pub use power_law::{NoInterval, PowerLaw, power_law};
+pub use preimage::{preimage_levels, preimage_levels_from_known};
+pub use preimage_tree::{PreimageTree, ResidualSet, TreeNode, geometric_limit};
+pub use probes::{TrapGround, check_branches, check_trap};
+pub use raster::{Grid, LabelImage, LegendEntry, columns_in_parallel, raster, raster_by_strips};
+pub use recurrence_limits::RecurrenceLimits;
+pub use recurrences::{Attractor, Attractors};
+pub use refinement::{Refinement, StopReason};
+pub use region_boxes::region_boxes;
+pub use region_fractions::{LabelCounts, region_fractions};
+pub use region_uncertainty::{
+    PairCount, UncertaintyExponent, uncertain_pairs, uncertainty_exponent,
+};
+pub use sampling::{
+    EquallySpacedFraction, equally_spaced_counts, equally_spaced_fractions, random_fractions,
+};
+pub use scalar_map::{Image, ScalarMap};
+pub use smooth_boundary::{
+    BallEntropy, BoundaryShape, RandomBalls, ball_entropy, smooth_boundary_entropy,
+};
+pub use split_mix::SplitMix64;
+pub use tipping::{Tipping, TippingCounts, label_after_drift, random_tipping};
+pub use uncertainty::uncertain_fraction;
+pub use undecided_reason::UndecidedReason;
+pub use unmatched::{Border, Remedy, Unmatched, UnmatchedReason};
+pub use value_image::{ValueImage, value_raster};
+pub use wada::{LineWadaTest, WadaTest};

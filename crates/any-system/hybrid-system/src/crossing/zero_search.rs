@@ -1,0 +1,397 @@
+//! The zeros of a function with bounds, one after the other.
+//!
+//! The search tests intervals from left to right. An interval is passed if it has no zero, or if the function is monotone
+//! on it and its signs at both ends are clear of rounding; else it is halved. Where rounding hides the function, halving
+//! does not help: the search passes the hidden interval, and decides behind it.
+//!
+//! ```text
+//!      before     hidden     after
+//!    ───────────┬────────┬───────────
+//!        +      │   ?    │     −         a crossing: also a zero of third order, or a jump
+//!        +      │   ?    │     +         a touch
+//!        +      │   ?    │  (horizon)    undecided
+//! ```
+//!
+//! A function may be given in pieces, such as the steps of an integrated flow. [`ZeroSearch`] is what the search knows at
+//! the end of a piece.
+
+use super::bounded::{Bounded, Leave};
+use interval_arithmetic::{golden_section_minimum, root_beyond};
+use super::found::Found;
+use super::zero_test::ZeroTest;
+use crate::error::Error;
+use crate::guard::Direction;
+use interval_arithmetic::Enclosure;
+
+/// Most intervals that wait to be tested. 53 halvings reach the rounding of times in the middle of a stretch. Near time
+/// zero doubles are denser, and more halvings are possible: then the farthest of the shorter ones are joined again. A
+/// larger number costs stack memory for each stretch; a smaller one would test some intervals twice.
+const OPEN_INTERVALS: usize = 64;
+
+/// Behind a hidden interval the value must exceed its rounding error by this factor. Next to a touch the value changes
+/// slowly, and its error fluctuates: with a factor of 1 one touch could be found several times. A larger number makes
+/// hidden intervals longer, and two touches next to each other become one.
+const CLEAR: f64 = 2.0;
+
+/// A time that rounding hides, with the value that is closest to zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Hidden {
+    /// Where the hidden interval begins.
+    from: f64,
+    /// Time and value at which the function was closest to zero, on the stretches before this one.
+    closest: Option<(f64, f64)>,
+}
+
+/// The state of a search for the zeros of a function of time.
+///
+/// Invariant: all crossings and touches in (start, `time`] have been returned, and the function is on `side` just after
+/// `time`, unless `hidden`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ZeroSearch {
+    direction: Direction,
+    time: f64,
+    /// The side of zero, ±1; `None` as long as the function has not left the zero it started at.
+    side: Option<f64>,
+    /// The last time at which the function was clear of rounding, on `side`.
+    clear: f64,
+    /// True as long as it is not known how the function leaves the zero it started at.
+    leaving: bool,
+    /// True if the function has stayed at that zero up to `time`.
+    stays: bool,
+    /// True as long as the function has not been clear of the error of its start.
+    unclear: bool,
+    /// The value at the start, if it counts as zero. The zeros of g − level are searched as long as g is `unclear`.
+    level: f64,
+    /// The error of `level`.
+    level_error: f64,
+    hidden: Option<Hidden>,
+    /// The last crossing was found before the function had left its start clearly.
+    left_hidden: bool,
+}
+
+impl ZeroSearch {
+    /// Starts at `time`, where the function is clearly on `side`, ±1.
+    pub(crate) fn on_side(direction: Direction, time: f64, side: f64) -> Self {
+        ZeroSearch {
+            direction,
+            time,
+            side: Some(side),
+            clear: time,
+            leaving: false,
+            stays: false,
+            unclear: false,
+            level: 0.0,
+            level_error: 0.0,
+            hidden: None,
+            left_hidden: false,
+        }
+    }
+
+    /// Starts at `time` on a zero: the computed `value` counts as zero, with an error of at least its size. The function
+    /// leaves to `side`, if that is known; a side of 0 says that it stays there, as far as the start shows.
+    pub(crate) fn leaving(
+        direction: Direction,
+        (time, value): (f64, f64),
+        error: f64,
+        side: Option<f64>,
+    ) -> Self {
+        ZeroSearch {
+            side: side.filter(|side| *side != 0.0),
+            stays: side == Some(0.0),
+            leaving: true,
+            unclear: true,
+            level: value,
+            level_error: error.max(value.abs()),
+            ..Self::on_side(direction, time, 0.0)
+        }
+    }
+
+    /// Starts at `time`, where `at` encloses the function and `value` is the computed one, wrong by `error` at most. The
+    /// side to which the function leaves a zero there may be known.
+    pub(crate) fn new(
+        direction: Direction,
+        (time, value): (f64, f64),
+        at: Enclosure,
+        error: f64,
+        leaving: Option<f64>,
+    ) -> Self {
+        match (leaving, at.widened(error).sign()) {
+            (None, Some(side)) => Self::on_side(direction, time, side),
+            _ => Self::leaving(direction, (time, value), error.max(at.magnitude()), leaving),
+        }
+    }
+
+    /// The time up to which the search is done.
+    pub(crate) fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The side of zero just after [`time`](Self::time), ±1; `None` if the function has not left its start, or if rounding
+    /// hides it.
+    #[cfg(feature = "ode")]
+    pub(crate) fn clear_side(&self) -> Option<f64> {
+        self.side.filter(|_| !self.leaving && self.hidden.is_none())
+    }
+
+    /// True if the last crossing was found on the first interval that showed a side after the start at zero: rounding
+    /// hid how the function left its start, and that it came back.
+    #[cfg(feature = "ode")]
+    pub(crate) fn left_hidden(&self) -> bool {
+        self.left_hidden
+    }
+
+    /// Searches up to `until`. At the `horizon` no later stretch follows: a zero there, within rounding, is a crossing.
+    ///
+    /// `budget` is the number of intervals that may still be tested. After a touch a further call goes on behind it.
+    pub(crate) fn advance(
+        &mut self,
+        function: &impl Bounded,
+        until: f64,
+        horizon: bool,
+        budget: &mut usize,
+    ) -> Result<Found, Error> {
+        let from = self.time;
+        if from >= until {
+            return Ok(Found::Nothing);
+        }
+        if self.leaving && self.hidden.is_none() {
+            match (function.leave(from, until, self.level_error)?, self.side) {
+                (Leave::To { time, side }, known) if known.is_none_or(|known| known == side) => {
+                    self.pass(function, time, side)?;
+                    // It has stayed at its zero, and leaves it to the side of the event.
+                    if self.stays && self.direction.is_beyond(side) {
+                        (self.stays, self.left_hidden) = (false, true);
+                        let error = time - from;
+                        let rising = side > 0.0;
+                        return Ok(Found::Crossing { time, error, hidden: true, rising });
+                    }
+                }
+                // The function stays zero. The side is still to be found, on the next stretch.
+                (Leave::Stays, _) => {
+                    (self.time, self.stays) = (until, true);
+                    return Ok(Found::Nothing);
+                }
+                (Leave::Hidden | Leave::To { .. }, None) => {
+                    return Err(Error::UndecidedSign { order: 0, value: function.value(from) });
+                }
+                // The caller knows the side better than the bounds do. The start is hidden.
+                (Leave::Hidden | Leave::To { .. }, Some(_)) => {}
+            }
+            if self.time >= until {
+                return Ok(Found::Nothing);
+            }
+        }
+        // The right ends of the intervals that wait, the nearest one last; the first `open` entries count.
+        let mut ends = [until; OPEN_INTERVALS];
+        let mut open = 1;
+        while open > 0 {
+            let (left, right) = (self.time, ends[open - 1]);
+            if left >= right {
+                open -= 1;
+                continue;
+            }
+            if *budget == 0 {
+                return Ok(Found::BudgetEnded);
+            }
+            *budget -= 1;
+            let sign = match function.test(left, right, self.level)? {
+                ZeroTest::NoZero { sign } => sign,
+                ZeroTest::Monotone { slope } => {
+                    match (function.at(right)? - self.level).sign() {
+                        Some(sign) => sign,
+                        // Rounding hides the sign at the right end. The next interval decides.
+                        None if !(horizon && right >= until) => {
+                            self.time = right;
+                            continue;
+                        }
+                        // No interval follows. A function on its way to zero is there, within rounding.
+                        None => {
+                            self.time = right;
+                            let side = self.side.unwrap_or(slope);
+                            if slope * side < 0.0 && self.direction.admits(side, -side) {
+                                let error =
+                                    function.root_error(right, self.clear.max(from), right)?;
+                                return Ok(Found::Crossing {
+                                    time: right,
+                                    error,
+                                    hidden: false,
+                                    rising: side < 0.0,
+                                });
+                            }
+                            continue;
+                        }
+                    }
+                }
+                ZeroTest::Undecided => {
+                    let middle = left + 0.5 * (right - left);
+                    if middle > left && middle < right {
+                        if open < OPEN_INTERVALS {
+                            open += 1;
+                        }
+                        ends[open - 1] = middle;
+                    } else {
+                        // Two neighbouring doubles: halving cannot help.
+                        self.hide(left, right);
+                    }
+                    continue;
+                }
+                ZeroTest::Hidden => {
+                    self.hide(left, right);
+                    continue;
+                }
+            };
+            if self.hidden.is_some() && !is_clear(&(function.at(right)? - self.level)) {
+                self.time = right;
+                continue;
+            }
+            if let Some(found) = self.emerge(function, from, right, sign)? {
+                return Ok(found);
+            }
+        }
+        if let Some(hidden) = &mut self.hidden {
+            let closest = closest(function, self.level, hidden, from, until);
+            hidden.closest = Some(closest);
+            if horizon && !self.unclear {
+                return Ok(Found::Undecided { time: closest.0, value: closest.1 });
+            }
+        }
+        Ok(Found::Nothing)
+    }
+
+    /// Passes an interval that rounding hides.
+    fn hide(&mut self, left: f64, right: f64) {
+        self.hidden.get_or_insert(Hidden { from: left, closest: None });
+        self.time = right;
+    }
+
+    /// Passes an interval at whose end the function is clear of rounding, with this sign. Returns what lies before.
+    fn emerge(
+        &mut self,
+        function: &impl Bounded,
+        from: f64,
+        right: f64,
+        sign: f64,
+    ) -> Result<Option<Found>, Error> {
+        let left = self.time;
+        let side = self.side.unwrap_or(sign);
+        let hidden = self.hidden.take();
+        if sign == side {
+            // A hidden interval at the start is not a touch: there the function leaves its zero.
+            let touch = match hidden.filter(|_| !self.unclear) {
+                Some(hidden) => {
+                    let (time, value) = closest(function, self.level, &hidden, from, left);
+                    let until = self.clear_again(function, &hidden, (left, right), side)?;
+                    let error = 0.5 * (until - hidden.from);
+                    Some(Found::Touch { time, error, value, until })
+                }
+                None => None,
+            };
+            self.pass(function, right, side)?;
+            return Ok(touch);
+        }
+        // Rounding hid how the function leaves its start, and now it is on the other side than its caller expected. If both
+        // directions count, no side is beyond the surface, and this is the side to which it left.
+        let at_start = self.leaving && self.direction == Direction::Either;
+        self.left_hidden = self.leaving;
+        let found = if self.direction.admits(side, sign) && !at_start {
+            let (time, error) = match &hidden {
+                // Where the function is clear again. At an earlier time a new search would start in the same hidden
+                // interval, and could find a part of the same crossing.
+                Some(hidden) => {
+                    let time = self.clear_again(function, hidden, (left, right), sign)?;
+                    (time, time - hidden.from)
+                }
+                None => {
+                    // A stretch before this one is not known any more.
+                    let after = self.clear.max(from);
+                    let time = self.root(function, side, after, left, right)?;
+                    (time, function.root_error(time, after, right)?)
+                }
+            };
+            let hidden = hidden.is_some();
+            Some(Found::Crossing { time, error, hidden, rising: side < 0.0 })
+        } else {
+            None
+        };
+        self.pass(function, right, sign)?;
+        Ok(found)
+    }
+
+    /// The first of some times from `left` to `right` at which the function is clear of rounding behind a hidden interval.
+    /// It is monotone or clear there, and clear at `right`.
+    fn clear_again(
+        &self,
+        function: &impl Bounded,
+        hidden: &Hidden,
+        (left, right): (f64, f64),
+        sign: f64,
+    ) -> Result<f64, Error> {
+        let (mut time, mut step) = (left, (left - hidden.from).max(f64::EPSILON * left));
+        while time < right && (function.at(time)? - self.level).sign() != Some(sign) {
+            time = (time + step).min(right);
+            step *= 2.0;
+        }
+        Ok(time)
+    }
+
+    /// Moves to `time`, where the function is clearly on `side`.
+    fn pass(&mut self, function: &impl Bounded, time: f64, side: f64) -> Result<(), Error> {
+        (self.time, self.clear, self.side) = (time, time, Some(side));
+        self.leaving = false;
+        if self.unclear {
+            let value = function.at(time)?;
+            let is_clear =
+                |level: f64| (value - level).widened(self.level_error).sign() == Some(side);
+            if is_clear(0.0) && is_clear(self.level) {
+                (self.unclear, self.level) = (false, 0.0);
+            }
+        }
+        Ok(())
+    }
+
+    /// The first time at which the computed function has left `side`, between `after` and `right`. By the bounds it has
+    /// left it at `right`, and it is monotone, hidden or without zero after `left`.
+    fn root(
+        &self,
+        function: &impl Bounded,
+        side: f64,
+        after: f64,
+        left: f64,
+        right: f64,
+    ) -> Result<f64, Error> {
+        let value = |time: f64| function.value(time) - self.level;
+        let (at_first, at_last) = (value(after), value(right));
+        // Within rounding, or after a jump, the computed values may show no change of sign. Then the end is the zero.
+        if at_first * side <= 0.0 {
+            return Ok(left);
+        }
+        if at_last * side >= 0.0 {
+            return Ok(right);
+        }
+        root_beyond(value, (after, at_first), (right, at_last))
+    }
+}
+
+/// True if all values of the interval exceed [`CLEAR`] times its half width.
+fn is_clear(value: &Enclosure) -> bool {
+    let error = 0.5 * (value.high - value.low);
+    value.widened((CLEAR - 1.0) * error).sign().is_some()
+}
+
+/// Time and value at which the function is closest to zero on the part of a hidden interval that lies between `from`
+/// and `until`, or before.
+fn closest(
+    function: &impl Bounded,
+    level: f64,
+    hidden: &Hidden,
+    from: f64,
+    until: f64,
+) -> (f64, f64) {
+    let size = |time: f64| (function.value(time) - level).abs();
+    let time = golden_section_minimum(size, hidden.from.max(from), until);
+    let here = (time, function.value(time) - level);
+    match hidden.closest {
+        Some(before) if before.1.abs() <= here.1.abs() => before,
+        _ => here,
+    }
+}

@@ -1,0 +1,186 @@
+//! Hybrid dynamical systems: flows interrupted by events, followed without missing an event.
+//!
+//! ```text
+//!    mode m:  x(t) = φ_m(t; x₀)   until   g(x) = 0   then   (m, x) ← reset(m, x)
+//!
+//!    hybrid time (t, j):   arc ──event──► arc ──event──► arc …      j counts the events
+//! ```
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Model`] | a model written with closures, in some 20 lines |
+//! | [`HybridSystem`] | the trait of a model: flow, guards, guard values, reset |
+//! | [`Guard`], [`Direction`] | a switching surface, and the direction in which a crossing counts |
+//! | [`Crossing`], [`Certainty`] | the first crossing, and how certain it is: exact, certain, interpolated or sampled |
+//! | [`QuasiPolynomial`], [`FirstCrossing`] | guards as sums of polynomials times exponentials, sines and cosines; their first crossing, with certainty |
+//! | [`Enclosure`] | bounds on a guard, given by the model |
+//! | [`Execution`], [`Limits`], [`Stop`] | arcs one after the other, up to limits on time and events |
+//! | [`Arc`], [`Event`], [`ArcEnd`] | the parts of an execution, with the states before and after each event |
+//! | [`Trajectory`] | an execution as arrays: states on a grid of times, events in columns |
+//! | [`Checkpoint`] | an execution between two arcs, to be restored or saved (feature `serde`) |
+//! | [`PeriodicTimes`], [`PresetTimes`] | the times of clock guards |
+//! | [`ZenoLimit`] | the limit of infinitely many events in finite time |
+//! | [`Sliding`] | a point of a surface at which the fields on both sides point |
+//! | `Filippov` | a system that goes on along such surfaces (feature `ode`) |
+//! | `integrated_flow`, `integrated_crossing` | modes given as ẋ = f(x) (feature `ode`) |
+//! | `Integration`, `Tolerances` | solutions of ẋ = f(t, x), step by step (feature `ode`) |
+//! | [`Differentiable`], [`sensitivity`], [`event_sensitivity`] | derivatives with respect to the start, through arcs and events (saltation) |
+//! | [`jacobian_by_differences`], [`gradient_by_differences`], [`reset_by_differences`] | the derivatives of a model that has no formulas for them |
+//! | [`Family`], [`Parametric`], [`parameter_sensitivity`], [`event_parameter_sensitivity`] | derivatives with respect to parameters |
+//!
+//! A ball that loses half of its speed at every bounce:
+//!
+//! ```
+//! use hybrid_system::*;
+//!
+//! let restitution = 0.5;
+//! let ball = Model::closed_form(|(), x: &State<2>, t| [x[0] + t * (x[1] - t / 2.0), x[1] - t])
+//!     .falling((), |x| x[0], |x| ((), [0.0, -restitution * x[1]]))
+//!     .sampled(1e-2);
+//! let mut times = Vec::new();
+//! for arc in ball.run((), [0.5, 0.0], 2.8) {
+//!     if let Some(event) = arc?.event() {
+//!         times.push(event.time);
+//!     }
+//! }
+//! // Dropped from ½ under unit gravity the ball lands after 1. Each flight is half as long as the one before.
+//! assert_eq!(times.len(), 4);
+//! for (time, exact) in times.iter().zip([1.0, 2.0, 2.5, 2.75]) {
+//!     assert!((time - exact).abs() < 1e-14);
+//! }
+//! # Ok::<(), Error>(())
+//! ```
+//!
+//! More: [what happens at a surface](semantics), [sliding](sliding_motion), [the mathematics](mathematics), [which
+//! certainty do I have?](certainty), and [a model of your own in 20 lines](guide). In the examples `bouncing_ball`,
+//! `plastic_landing` and `eccentric_cylinder` bodies come to rest on another one and are released; in `dry_friction` a mass
+//! sticks to a belt.
+//!
+//! # Features
+//! `ode`: modes given as ẋ = f(x), and sliding modes. `serde`: checkpoints that can be saved and loaded. Both are off by default.
+//!
+//! # Accuracy
+//! Crossing times are as accurate as the model's own solution, or accurate to a few ulps by bracketing. A guard given
+//! as a [`QuasiPolynomial`] or by [`Enclosure`]s is searched under bounds: no crossing is missed. If a guard starts at
+//! zero, its derivatives decide to which side it leaves. If rounding hides the result, the search returns an error.
+//! Along integrated flows guards are searched on polynomials, to the tolerances of the flow. The [`Certainty`] of a
+//! crossing states whether it was found by sampling.
+//!
+//! # Speed
+//! Executions of fixed dimension with integrated modes allocate no memory, up to eight guards a mode. Quasi-polynomials
+//! allocate their coefficients. `cargo bench -p hybrid-system --features ode` measures the cost of an event for each
+//! kind of guard.
+//!
+//! # Not here
+//! Stiff integrators ([what to do](stiff)), differential-algebraic equations, sliding along several surfaces at once. The
+//! sampled search returns an error, not a guess, for a guard that starts at zero and is beyond its surface at the first
+//! sample.
+//!
+//! # References
+//! R. Goebel, R. G. Sanfelice, A. R. Teel, *Hybrid Dynamical Systems*, Princeton (2012), for hybrid
+//! time (t, j); R. I. Leine, H. Nijmeijer, *Dynamics and Bifurcations of Non-Smooth Mechanical Systems*,
+//! Springer (2004), for saltation; J. H. Verner, *Numerically optimal Runge–Kutta pairs with interpolants*,
+//! Numer. Algorithms 53 (2010). The pairs of the feature `ode` and their coefficients are his, from his
+//! pages of 2024 (<https://www.sfu.ca/~jverner/>).
+
+mod advance;
+mod arc;
+mod arc_ends;
+mod arrival;
+mod chain;
+mod checkpoint;
+#[cfg(feature = "serde")]
+mod checkpoint_writer;
+mod clock;
+#[cfg(feature = "serde")]
+mod count;
+mod crossing;
+mod delay;
+mod durations;
+mod error;
+mod execution;
+mod guard;
+mod lands_beyond;
+mod limits;
+mod looked;
+mod missed;
+mod model;
+mod next_event;
+mod number;
+#[cfg(feature = "ode")]
+mod ode;
+mod parameter_sensitivity;
+mod point;
+mod residues;
+mod searched;
+mod sensitivity;
+mod series_fit;
+mod sliding;
+mod start_rule;
+mod state;
+mod system;
+mod time_sum;
+mod trajectory;
+mod zeno;
+
+pub use arc::{Arc, ArcEnd, Event};
+pub use checkpoint::Checkpoint;
+pub use clock::{PeriodicTimes, PresetTimes};
+pub use crossing::{
+    Certainty, Crossing, EventKind, FirstCrossing, Leaving, NextEvent, QuasiPolynomial,
+    QuasiPolynomialPart, Search,
+};
+pub use error::Error;
+pub use execution::Execution;
+pub use guard::{Direction, Guard, Role, Touch};
+pub use interval_arithmetic::Enclosure;
+pub use lands_beyond::LandsBeyond;
+pub use limits::{Limits, Stop};
+pub use looked::Looked;
+pub use model::{
+    Family, Model, gradient_by_differences, jacobian_by_differences, reset_by_differences,
+};
+#[cfg(feature = "ode")]
+pub use ode::{
+    Integration, Linearized, Tolerances, integrated_crossing, integrated_flow, integrated_jacobian,
+    integrated_parameter_jacobian, integrated_states,
+};
+pub use parameter_sensitivity::{Parametric, event_parameter_sensitivity, parameter_sensitivity};
+pub use searched::Searched;
+pub use sensitivity::{Differentiable, arc_sensitivity, event_sensitivity, sensitivity};
+pub use sliding::Sliding;
+#[cfg(feature = "ode")]
+pub use sliding::{Filippov, FilippovMode, FilippovSurface};
+pub use state::{State, StateVector};
+pub use system::{HybridSystem, Reset, default_search};
+pub use trajectory::{EventColumns, Trajectory};
+pub use zeno::ZenoLimit;
+
+/// The parts of a [`Model`]: each method of it adds one. A type of a model is seldom written, and `impl HybridSystem` or a
+/// generic parameter does.
+pub mod model_parts {
+    #[cfg(feature = "ode")]
+    pub use crate::model::Integrated;
+    pub use crate::model::{
+        Bounds, Clock, ClosedForm, Field, Jump, JumpEverywhere, Motion, Outcome, Part, Rest,
+        Signal, Slide, Terminal, Watch,
+    };
+}
+
+#[doc = include_str!("../docs/mathematics.md")]
+pub mod mathematics {}
+
+#[doc = include_str!("../docs/semantics.md")]
+pub mod semantics {}
+
+#[doc = include_str!("../docs/certainty.md")]
+pub mod certainty {}
+
+#[doc = include_str!("../docs/sliding.md")]
+pub mod sliding_motion {}
+
+#[doc = include_str!("../docs/stiff.md")]
+pub mod stiff {}
+
+#[doc = include_str!("../docs/guide.md")]
+pub mod guide {}

@@ -1,0 +1,174 @@
+//! The time and the state of a crossing without the rounding of the interpolant, and two errors of the time: by rounding,
+//! and by the error of the flow.
+
+use super::integration::Integration;
+use super::step::Step;
+use super::tolerances::Tolerances;
+use interval_arithmetic::root_beyond;
+use crate::crossing::{change_by_components, clear_distance};
+use crate::error::Error;
+use crate::state::StateVector;
+
+/// The largest distances by which a crossing is moved when it is polished, in units of the step. The smallest distance
+/// that shows a change of sign is used. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary
+/// slope; a guard that is crossed slowly needs more. If the last value shows no change of sign, the crossing of the
+/// interpolant is kept.
+const POLISHING_REACHES: [f64; 4] = [1e-14, 1e-12, 1e-10, 1e-8];
+
+/// The rate of a guard at a crossing is taken over this part of the step on both sides. Over a shorter part rounding
+/// would show, over a longer one the bend of the guard.
+const RATE_REACH: f64 = 1e-4;
+
+/// A guard that differs from zero by this part of its error counts as clear of it: one quarter is left for the bend of
+/// the guard between the crossing and that place.
+const CLEAR: f64 = 0.75;
+
+/// A guard jumps at its zero if it changes there, between two neighbouring doubles, this many times more than by its rate.
+/// A smaller number would take the rounding of a guard for a jump, which costs some evaluations; a larger one would give a
+/// jump an error of up to this many ulps too much.
+const JUMP: f64 = 1e3;
+
+/// How accurate a flow is: its tolerances, and the number of steps from the start.
+#[derive(Clone, Copy)]
+pub(super) struct Accuracy {
+    pub(super) tolerances: Tolerances,
+    pub(super) steps: usize,
+}
+
+impl Accuracy {
+    /// An estimate of the error of a guard by the error of the flow: the change of the guard if each component changes by
+    /// its tolerance on every step. Growth or decay of these errors along the flow is not known here.
+    pub(super) fn guard_error<V: StateVector>(&self, state: &V, guard: impl Fn(&V) -> f64) -> f64 {
+        let unit = |axis: usize| self.tolerances.of(axis, state.components()[axis].abs());
+        change_by_components(state, |axis| self.steps as f64 * unit(axis), guard)
+    }
+}
+
+/// A step whose interpolant is corrected next to a crossing.
+pub(super) struct CorrectedStep<'a, V> {
+    step: &'a Step<V>,
+    /// What is added to the interpolant.
+    correction: Option<V>,
+}
+
+impl<'a, V: StateVector> CorrectedStep<'a, V> {
+    /// The step as it is.
+    pub(super) fn uncorrected(step: &'a Step<V>) -> Self {
+        CorrectedStep { step, correction: None }
+    }
+
+    /// The state at a time of the step.
+    pub(super) fn state(&self, time: f64) -> V {
+        let mut state = self.step.state(time);
+        if let Some(correction) = &self.correction {
+            state.add_scaled(1.0, correction);
+        }
+        state
+    }
+
+    /// The states beside a zero at `time`, before and behind it.
+    pub(super) fn beside(&self, time: f64) -> [V; 2] {
+        let Step { from, to, .. } = *self.step;
+        let reach = RATE_REACH * (to - from);
+        [(time - reach).max(from), (time + reach).min(to)].map(|time| self.state(time))
+    }
+
+    /// The distance in time at which the guard differs from zero by more than its `error` there, at both sides of its zero
+    /// at `time`. It is at most the length of the step: farther away the guard is not looked at. If the search has seen that
+    /// rounding hides the guard for the time `hidden` before the crossing, also on earlier steps, it is no less.
+    fn clear_distance(
+        &self,
+        (time, hidden, first): (f64, f64, f64),
+        guard: impl Fn(&V) -> f64,
+        error: impl Fn(&V) -> f64,
+    ) -> f64 {
+        let Step { from, to, .. } = *self.step;
+        // Where the step ends, the other side alone decides.
+        let clear_at = |moved: f64| {
+            let state = self.state(moved.clamp(from, to));
+            moved < from || moved > to || guard(&state).abs() > CLEAR * error(&state)
+        };
+        let clear = |distance: f64| clear_at(time - distance) && clear_at(time + distance);
+        // At the start of an arc the time has no ulp to begin with.
+        let ulp = f64::EPSILON * if time > 0.0 { time } else { to - from };
+        let first = first.max(ulp).max(hidden);
+        clear_distance(first, (to - from).max(hidden), clear)
+    }
+
+    /// How far the zero of the guard along the computed trajectory may be from `time`: where the guard is clear of its
+    /// `rounding`.
+    pub(super) fn time_rounding(
+        &self,
+        (time, hidden): (f64, f64),
+        guard: impl Fn(&V) -> f64,
+        rounding: impl Fn(&V) -> f64,
+    ) -> f64 {
+        self.clear_distance((time, hidden, 0.0), guard, rounding)
+    }
+
+    /// How far the event of the true trajectory may be from `time`: where the guard is clear of the error of the flow.
+    ///
+    /// For a guard that is crossed at the rate ġ this is the error over |ġ|. At a touch it is about the root of the error.
+    /// At a jump it is the time in which the flow moves by its own error.
+    pub(super) fn time_error(
+        &self,
+        (time, time_rounding): (f64, f64),
+        guard: impl Fn(&V) -> f64,
+        accuracy: Accuracy,
+    ) -> f64 {
+        let error = |state: &V| accuracy.guard_error(state, &guard);
+        let state = self.state(time);
+        let rate = rate(self.step, time, &guard).abs();
+        let jump = (guard(&state) - guard(&self.state(time.next_down()))).abs();
+        let jumps = jump > JUMP * rate * (time - time.next_down());
+        let first = if jumps { 0.0 } else { error(&state) / rate };
+        self.clear_distance((time, time_rounding, first.max(time_rounding)), &guard, error)
+    }
+}
+
+/// A crossing without the rounding error of the interpolant, and the step on which it lies.
+///
+/// A separate step from the start of the last step to `time` gives the state without that error. The difference between
+/// the two states changes little around `time`. Therefore it is added to the interpolant, and the crossing is searched
+/// again next to the old one. The rounding of the interpolant may hide the guard for a time `hidden` around the crossing:
+/// the values with the correction show a change of sign there.
+pub(super) fn polished<'a, F, V: StateVector>(
+    integration: &mut Integration<F, V>,
+    step: &'a Step<V>,
+    (time, hidden): (f64, f64),
+    until: f64,
+    guard: impl Fn(&V) -> f64,
+) -> Result<(f64, CorrectedStep<'a, V>), Error>
+where
+    F: Fn(f64, &V) -> V,
+{
+    let uncorrected = CorrectedStep::uncorrected(step);
+    // Here the separate step would have length zero.
+    if time <= step.from {
+        return Ok((time, uncorrected));
+    }
+    let mut correction = integration.directly_at(time)?;
+    correction.add_scaled(-1.0, &step.state(time));
+    let corrected = CorrectedStep { step, correction: Some(correction) };
+    let along = |time: f64| guard(&corrected.state(time));
+    let length = step.to - step.from;
+    let reaches = POLISHING_REACHES.map(|fraction| fraction * length).into_iter();
+    for reach in reaches.chain([hidden]) {
+        let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
+        let (before, after) = (along(left), along(right));
+        if before.signum() != after.signum() {
+            // The first double at which the guard is zero, or has its new sign.
+            let time = root_beyond(along, (left, before), (right, after))?.min(until);
+            return Ok((time, corrected));
+        }
+    }
+    // The guard is crossed so slowly that the correction moves the crossing farther than the last reach.
+    Ok((time, uncorrected))
+}
+
+/// ġ at a time of the step, by a difference along the interpolant.
+pub(super) fn rate<V: StateVector>(step: &Step<V>, time: f64, guard: impl Fn(&V) -> f64) -> f64 {
+    let reach = RATE_REACH * (step.to - step.from);
+    let (left, right) = ((time - reach).max(step.from), (time + reach).min(step.to));
+    (guard(&step.state(right)) - guard(&step.state(left))) / (right - left)
+}

@@ -1,0 +1,41 @@
+//! Intervals that hold a real number for certain, their arithmetic, rounded outwards, and roots on certain brackets.
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Enclosure`] | an interval that holds a number, or all values of a function |
+//! | `+ − × ÷`, [`Enclosure::squared`], [`Enclosure::sqrt`] | arithmetic: the result holds every value of the operation |
+//! | [`Enclosure::sin`], [`Enclosure::cos`], [`Enclosure::arctan`] | functions, from correctly rounded ones |
+//! | [`PI`] | an enclosure of π |
+//! | [`bracketed_root`], [`root_beyond`] | the root of a function between two values of opposite sign, to about two ulps |
+//! | [`golden_section_minimum`] | the minimum of a function of one variable |
+//!
+//! An operation is computed with rounding to nearest, and each end is then moved outwards by one `f64`. The exact end lies
+//! within half an ulp of the rounded one, so the exact range lies inside. No rounding mode is set: the bits are the
+//! same on every machine, and other threads are not affected.
+//!
+//! ```
+//! use interval_arithmetic::Enclosure;
+//! let tenth = Enclosure::point(1.0)? / Enclosure::point(10.0)?;
+//! let sum = (0..10).fold(Enclosure::ZERO, |sum, _| sum + tenth);
+//! assert!(sum.contains(1.0)); // the rounded sum is 0.9999999999999999
+//! assert!(sum.width() < 4e-15);
+//! # Ok::<(), interval_arithmetic::Error>(())
+//! ```
+//!
+//! The width of a result is not the width of the true range: `x − x` is not zero, because the two operands may be different numbers. A
+//! narrow result needs narrow operands, a monotone function, or a bound on its derivative:
+//! [`Enclosure::mean_value`] uses the last.
+
+mod bracketed_root;
+mod enclosure;
+mod error;
+mod functions;
+mod golden_section;
+mod operations;
+mod rounding;
+
+pub use bracketed_root::{bracketed_root, root_beyond};
+pub use enclosure::Enclosure;
+pub use error::Error;
+pub use functions::PI;
+pub use golden_section::{INVERSE_GOLDEN_RATIO, golden_section_minimum};

@@ -1,0 +1,81 @@
+//! Return maps of hybrid systems, their fixed and periodic points, and the stability of these points from either side.
+//!
+//! ```text
+//!     section ──start──► arc ─event─► arc ─event─► … ─event on the section──► image
+//!     x ↦ f(x)                fixed point f(x*) = x*           periodic point fⁿ(x) = x
+//! ```
+//!
+//! | item | role |
+//! |---|---|
+//! | [`Section`] | coordinates of a section: the state of a point, and which events are returns |
+//! | [`ReturnMap`], [`Return`] | image, return time and number of events, in any dimension |
+//! | [`SmoothSection`], [`SmoothReturn`] | the derivative of the map, through flows and events |
+//! | [`fixed_points`], [`FixedPoint`] | transverse and tangent fixed points of a scalar map |
+//! | [`periodic_point`], [`periodic_point_with_derivative`], [`PeriodicPoint`] | fixed and periodic points in any dimension, with their multipliers |
+//! | [`one_sided_stability`] | attracting or repelling from the left or right, with its power law |
+//!
+//! A ball keeps half of its speed at each bounce. The return map maps the speed after a bounce to the speed after the
+//! next bounce:
+//!
+//! ```
+//! use hybrid_system::*;
+//! use nalgebra::{SVector, Vector2};
+//! use return_map::{ReturnMap, Section};
+//!
+//! # #[derive(Debug, Clone, Copy, PartialEq, Eq)] struct Floor;
+//! struct Ball;
+//! # impl HybridSystem for Ball {
+//! #     type State = State<2>;
+//! #     type Mode = ();
+//! #     type Surface = Floor;
+//! #     fn flow(&self, _: (), x: &State<2>, t: f64) -> State<2> {
+//! #         Vector2::new(x[0] + t * (x[1] - t / 2.0), x[1] - t)
+//! #     }
+//! #     fn guards(&self, _: ()) -> &[Guard<Floor>] { const { &[Guard::falling(Floor)] } }
+//! #     fn guard_value(&self, _: Floor, x: &State<2>) -> f64 { x[0] }
+//! #     fn reset(&self, _: (), _: Floor, x: &State<2>) -> Reset<(), State<2>> {
+//! #         Reset::Jump { mode: (), state: Vector2::new(0.0, -0.5 * x[1]) }
+//! #     }
+//! # }
+//! /// The section is the floor. Its coordinate is the speed after the bounce.
+//! struct Bounce;
+//! impl Section<Ball, 2, 1> for Bounce {
+//!     fn point(&self, speed: &SVector<f64, 1>) -> ((), State<2>) {
+//!         ((), Vector2::new(0.0, speed[0]))
+//!     }
+//!     fn coordinates(&self, event: &Event<(), Floor, State<2>>) -> Option<SVector<f64, 1>> {
+//!         event.after.map(|(_, state)| SVector::<f64, 1>::new(state[1]))
+//!     }
+//! }
+//!
+//! let map = ReturnMap::new(&Ball, &Bounce, Limits::sampled(10.0, 10, 0.01));
+//! let image = map.image(1.0)?.expect("the ball always returns");
+//! assert!((image - 0.5).abs() < 1e-14);
+//! # Ok::<(), return_map::Error>(())
+//! ```
+//!
+//! # Accuracy
+//! A return is as accurate as the crossings that the system computes. Its derivative is as accurate as the derivatives of the
+//! system. [`fixed_points`] finds only fixed points that its samples reveal.
+//!
+//! # Poincaré sections of plain flows
+//! A plain flow is a hybrid system with one mode, and a guard whose reset keeps the state. The example `lorenz`
+//! shows it for the Lorenz system, with the derivative.
+//!
+//! # Not here
+//! - Monotone branches and jumps of scalar maps: `basin_of_attraction::monotone_branches` takes any closure, and so a
+//!   return map.
+
+mod error;
+mod fixed_point;
+mod periodic_point;
+mod return_map;
+mod section;
+mod stability;
+
+pub use error::Error;
+pub use fixed_point::{FixedPoint, Intersection, fixed_points};
+pub use periodic_point::{PeriodicPoint, periodic_point, periodic_point_with_derivative};
+pub use return_map::{Return, ReturnMap, SmoothReturn};
+pub use section::{Section, SmoothSection};
+pub use stability::{OneSidedStability, Side, Stability, one_sided_stability};

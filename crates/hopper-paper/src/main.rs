@@ -1,7 +1,0 @@
-//! `hopper-paper`.
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    repository_tools::exit_code(hopper_paper::cli::run())
-}

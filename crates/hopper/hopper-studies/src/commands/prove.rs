@@ -1,0 +1,278 @@
+//! `prove`: theorems about the basins, each by enclosures that are rounded outwards, with certificates.
+
+use super::certificates::write_certificate;
+use super::figure_files::write_figure;
+use crate::error::Error;
+use crate::figure::Figure;
+use crate::job::Job;
+use crate::proved_figure::{StoredStrips, draw_window, fig_6};
+use basin_of_attraction::{Grid, Interval};
+use hopper_basin::{FIG_9, FigureWindow, basin_raster};
+use hopper_figures::label_png;
+use hopper_proof::{
+    Evidence, Theorem, cells_theorem, crises, everything_hops, measures, one_sided, one_sudden,
+    points_theorem, proved_points, rising, trap_edges,
+};
+use journal_figures::Svg;
+use crate::repository::{Folder, Progress, results_folder, say};
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Options.
+#[derive(Debug, Clone, clap::Args)]
+pub struct Options {
+    /// The theorems [default: those that take seconds: one-sudden, one-sided, crisis, traps, everything-hops, rising]
+    names: Vec<String>,
+    /// Prove every theorem, the areas of figures as well
+    #[arg(long, conflicts_with = "names")]
+    all: bool,
+    /// Pixels of a figure's side
+    #[arg(long, default_value_t = 1024, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    size: u32,
+    /// Strips of mass ratios in a column of cells: with more of them less area stays open
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    strips: u32,
+    /// The share of a figure's area that may stay open [default: 0.12 for fig6-cells, 0.08 for fig9-cells]
+    #[arg(long, value_name = "SHARE")]
+    open: Option<f64>,
+    /// The only mass ratio of `measures` [default: those of the table, each to a width of its own]
+    #[arg(short = 'M', long, value_name = "M", requires = "width")]
+    mass_ratio: Option<f64>,
+    /// The width of its fractions
+    #[arg(long, value_name = "WIDTH", requires = "mass_ratio")]
+    width: Option<f64>,
+    /// Folder for certificates and pictures [default: target/proofs in the repository]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+}
+
+/// The theorems in the order of their proofs; those of the first group take seconds.
+const QUICK: [&str; 6] =
+    ["one-sudden", "one-sided", "crisis", "traps", "everything-hops", "rising"];
+const LONG: [&str; 5] = ["measures", "fig6-points", "fig9-points", "fig6-cells", "fig9-cells"];
+
+/// Humps of the theorems about single humps.
+const HUMPS: u64 = 8;
+
+/// Humps whose crisis is enclosed.
+const CRISES: u64 = 10;
+
+/// Mass ratios at which the ends of traps are enclosed.
+const TRAPS: usize = 1000;
+
+/// Windows that rise, with the largest M.
+const RISING: [(u64, f64); 10] = [
+    (1, 0.905),
+    (2, 0.905),
+    (3, 0.905),
+    (4, 0.9),
+    (5, 0.9),
+    (6, 0.9),
+    (7, 0.9),
+    (8, 0.9),
+    (9, 0.9),
+    (10, 0.9),
+];
+
+/// Mass ratios of the fractions, with the width that is asked for. The last ones take longest.
+const MEASURES: [(f64, f64); 11] = [
+    (0.1, 1e-9),
+    (0.15, 1e-9),
+    (0.2, 1e-9),
+    (0.3, 1e-9),
+    (0.5, 2e-9),
+    (0.8, 1e-9),
+    (1.0, 1e-9),
+    (2.0, 2e-6),
+    (3.0, 1e-5),
+    (5.0, 1e-4),
+    (10.0, 1e-3),
+];
+
+/// The area that may stay open, of Figs. 6 and 9.
+const OPEN_OF_FIG_6: f64 = 0.12;
+const OPEN_OF_FIG_9: f64 = 0.08;
+
+/// Runs the command.
+pub fn run(options: &Options) -> Result<(), Error> {
+    let known = QUICK.iter().chain(&LONG);
+    let wanted: Vec<&str> = match (options.all, options.names.is_empty()) {
+        (true, _) => known.copied().collect(),
+        (false, true) => QUICK.to_vec(),
+        (false, false) => {
+            for name in &options.names {
+                if !known.clone().any(|known| known == name) {
+                    return Err(unknown(name));
+                }
+            }
+            options.names.iter().map(String::as_str).collect()
+        }
+    };
+    let folder = results_folder(options.out.as_deref(), "proofs")?;
+    let mut open = Vec::new();
+    for name in wanted {
+        let is_proved = match window_of_cells(name) {
+            Some((name, window, most_open)) => cells(name, window, most_open, options, &folder)?,
+            None => {
+                let begin = Instant::now();
+                let theorem = prove(name, options, &folder)?;
+                report(&theorem, begin, std::iter::empty(), &folder)?
+            }
+        };
+        if !is_proved {
+            open.push(name);
+        }
+    }
+    if open.is_empty() {
+        return Ok(());
+    }
+    Err(Error::CheckFailed(format!("not proved: {}", open.join(", "))))
+}
+
+/// The error for a name that is no theorem's.
+fn unknown(name: &str) -> Error {
+    let known: Vec<&str> = QUICK.iter().chain(&LONG).copied().collect();
+    Error::UnknownName { kind: "theorem", name: name.to_owned(), known: known.join(", ") }
+}
+
+/// Prints a theorem and writes its certificate, if it is proved: whether it is.
+fn report(
+    theorem: &Theorem,
+    begin: Instant,
+    strips: impl Iterator<Item = Result<Evidence, Error>>,
+    folder: &Folder,
+) -> Result<bool, Error> {
+    let word = if theorem.is_proved() { "proved" } else { "OPEN" };
+    let seconds = begin.elapsed().as_secs_f64();
+    say(format_args!("{word:8} {}  {seconds:.1} s\n{:8} {}", theorem.name, "", theorem.statement))?;
+    for step in &theorem.steps {
+        let mark = if step.holds { "holds" } else { "OPEN" };
+        say(format_args!("{:8} {mark:6} {}: {}", "", step.claim, step.found))?;
+    }
+    if !theorem.is_proved() {
+        say(format_args!("{:8} no certificate: the statement is open", ""))?;
+        // One of an earlier run would pass for this one's.
+        drop(std::fs::remove_file(folder.path().join(format!("{}.jsonl", theorem.name))));
+        return Ok(false);
+    }
+    let (path, bytes) = write_certificate(theorem, strips, folder)?;
+    say(format_args!("{:8} certificate {}, {bytes} bytes", "", path.display()))?;
+    Ok(true)
+}
+
+fn prove(name: &str, options: &Options, folder: &Folder) -> Result<Theorem, Error> {
+    let by_name = match name {
+        "one-sudden" => one_sudden(),
+        "one-sided" => one_sided(HUMPS)?,
+        "crisis" => crises(CRISES)?,
+        "traps" => trap_edges(HUMPS, TRAPS)?,
+        "everything-hops" => everything_hops()?,
+        "rising" => rising(&RISING)?,
+        "measures" => fractions(options)?,
+        "fig6-points" => points("fig6-points", fig_6(), options, folder)?,
+        "fig9-points" => points("fig9-points", FIG_9, options, folder)?,
+        other => return Err(unknown(other)),
+    };
+    Ok(by_name)
+}
+
+/// The fractions at one mass ratio, or at those of the table.
+fn fractions(options: &Options) -> Result<Theorem, Error> {
+    let own = options.mass_ratio.zip(options.width).map(|own| vec![own]);
+    let cases = own.unwrap_or_else(|| MEASURES.to_vec());
+    let bar = Progress.bar("measures", cases.len() as u64);
+    let theorem = measures(&cases, |done| bar.set(done as u64))?;
+    bar.finish();
+    Ok(theorem)
+}
+
+fn grid_of((ratios, speeds): FigureWindow, options: &Options) -> Result<Grid, Error> {
+    let side = options.size as usize;
+    Ok(Grid {
+        x: Interval::new(ratios.0, ratios.1)?,
+        y: Interval::new(speeds.0, speeds.1)?,
+        columns: side,
+        rows: side,
+    })
+}
+
+/// Every point of a figure.
+fn points(
+    name: &'static str,
+    window: FigureWindow,
+    options: &Options,
+    folder: &Folder,
+) -> Result<Theorem, Error> {
+    let grid = grid_of(window, options)?;
+    let bar = Progress.bar(name, u64::from(options.size));
+    let proved = proved_points(grid, |done| {
+        bar.set(done as u64);
+        ControlFlow::Continue(())
+    })?;
+    bar.finish();
+    let computed = basin_raster(grid, |_| ControlFlow::Continue(()))?;
+    let labels = proved.counts().into_iter().map(|(label, _)| label);
+    let drawn = draw_window(name, window, &label_png(name, &proved)?, labels);
+    write(name, drawn, folder)?;
+    Ok(points_theorem(name, &proved, &computed)?)
+}
+
+/// The window of a theorem about cells, and the share of its area that may stay open; `None` for other theorems.
+fn window_of_cells(name: &str) -> Option<(&'static str, FigureWindow, f64)> {
+    match name {
+        "fig6-cells" => Some(("fig6-cells", fig_6(), OPEN_OF_FIG_6)),
+        "fig9-cells" => Some(("fig9-cells", FIG_9, OPEN_OF_FIG_9)),
+        _ => None,
+    }
+}
+
+/// Every cell of a figure. Finished strips are kept until the certificate is written from them.
+fn cells(
+    name: &'static str,
+    window: FigureWindow,
+    most_open: f64,
+    options: &Options,
+    folder: &Folder,
+) -> Result<bool, Error> {
+    let begin = Instant::now();
+    let job = Job::new(folder.path())?;
+    let strips = StoredStrips::new(name, grid_of(window, options)?, options.strips as usize, &job);
+    let (found, drawn) = strips.cells(name, window)?;
+    write(name, drawn, folder)?;
+    let theorem = cells_theorem(name, &found, options.open.unwrap_or(most_open))?;
+    let is_proved = report(&theorem, begin, strips.evidence()?, folder)?;
+    job.done()?;
+    Ok(is_proved)
+}
+
+fn write(name: &'static str, svg: Svg, folder: &Folder) -> Result<(), Error> {
+    let figure = Figure {
+        name,
+        title: name.into(),
+        paper: String::new(),
+        notes: String::new(),
+        svg,
+        data: Vec::new(),
+    };
+    write_figure(folder, &figure)?;
+    say(format_args!("figure   {}", folder.path().join(format!("{name}.png")).display()))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// The second program compares what a certificate proves with this list, and makes false certificates of each theorem in it.
+    #[test]
+    fn the_second_program_has_a_statement_for_every_theorem() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../xtask/generators/statements.json");
+        let text = std::fs::read_to_string(path).unwrap();
+        let statements: serde_json::Map<String, serde_json::Value> =
+            serde_json::from_str(&text).unwrap();
+        let stated: BTreeSet<&str> = statements.keys().map(String::as_str).collect();
+        assert_eq!(stated, QUICK.into_iter().chain(LONG).collect());
+    }
+}

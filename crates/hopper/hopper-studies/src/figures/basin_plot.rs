@@ -1,0 +1,70 @@
+//! The rasters of the basin figures, and their files.
+
+use crate::error::Error;
+use crate::figure::Figure;
+use basin_of_attraction::{Grid, Interval, Label, LabelImage};
+use hopper_basin::basin_raster;
+use hopper_figures::{PIXELS, Window, draw_basins, fate_colors, label_png};
+use journal_figures::DataFile;
+use crate::repository::Progress;
+use resumable_job::{Element, Order, npy_header};
+use std::ops::ControlFlow;
+
+/// Computes and draws a window.
+pub(super) fn basin_figure(
+    window: &Window,
+    progress: &Progress,
+    texts: (String, String, String),
+) -> Result<Figure, Error> {
+    let (x, y) = (window.mass_ratio, window.alpha);
+    let grid = Grid {
+        x: Interval::new(x.0, x.1)?,
+        y: Interval::new(y.0, y.1)?,
+        columns: PIXELS,
+        rows: PIXELS,
+    };
+    let bar = progress.bar(window.name, PIXELS as u64);
+    let image = basin_raster(grid, |done| {
+        bar.set(done as u64);
+        ControlFlow::Continue(())
+    })?;
+    bar.finish();
+    let svg = draw_basins(window, &image)?;
+    let (title, paper, notes) = texts;
+    Ok(Figure {
+        name: window.name,
+        title,
+        paper,
+        notes: format!(
+            "{notes} {PIXELS} × {PIXELS} pixels, each judged by its middle. {}",
+            basin_fractions(&image)
+        ),
+        svg,
+        data: vec![
+            DataFile { name: format!("{}.npy", window.name), bytes: npy(&image) },
+            DataFile {
+                name: format!("{}_labels.png", window.name),
+                bytes: label_png(window.name, &image)?,
+            },
+        ],
+    })
+}
+
+/// The fraction of every label, in words.
+fn basin_fractions(image: &LabelImage) -> String {
+    let pixels = image.labels.len() as f64;
+    let fraction = |(label, count): (Label, usize)| {
+        format!("{} {:.2} %", fate_colors::name(label), 100.0 * count as f64 / pixels)
+    };
+    format!(
+        "Basin fractions: {}.",
+        image.counts().into_iter().map(fraction).collect::<Vec<_>>().join(", ")
+    )
+}
+
+/// The labels as a NumPy file; rows start from the lowest α.
+fn npy(image: &LabelImage) -> Vec<u8> {
+    let mut bytes = npy_header(Order::C, Element::U16, image.grid.rows, image.grid.columns);
+    bytes.extend(image.labels.iter().flat_map(|label| label.code().to_le_bytes()));
+    bytes
+}

@@ -1,7 +1,0 @@
-//! `hopper`.
-
-use std::process::ExitCode;
-
-fn main() -> ExitCode {
-    hopper::main()
-}
