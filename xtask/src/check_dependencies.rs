@@ -29,10 +29,12 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
     let Some(program) = cargo_deny(&root) else {
         if !is_written {
             return Err(Error::Dependencies(
-                "Cargo.lock has changed and cargo-deny is not there: `cargo install cargo-deny`".to_owned(),
+                "Cargo.lock has changed and cargo-deny is not there: `cargo install cargo-deny`"
+                    .to_owned(),
             ));
         }
-        let skipped = "SKIPPED packages from outside: no cargo-deny, and a Cargo.lock that has passed";
+        let skipped =
+            "SKIPPED packages from outside: no cargo-deny, and a Cargo.lock that has passed";
         let at = |source| Error::File { path: "standard output".into(), source };
         writeln!(std::io::stdout(), "{skipped}").map_err(at)?;
         return Ok(ExitCode::SUCCESS);

@@ -53,7 +53,9 @@ pub(crate) fn run() -> Result<ExitCode, Error> {
 /// The program `hopper`, built: a test compares its files with those of the package.
 fn hopper_program(cargo: &OsStr) -> Result<PathBuf, Error> {
     let mut build = Command::new(cargo);
-    build.args(["build", "--quiet", "--locked", "--package", "passive-hopper-cli"]).current_dir(repository());
+    build
+        .args(["build", "--quiet", "--locked", "--package", "passive-hopper-cli"])
+        .current_dir(repository());
     match build.status() {
         Ok(status) if status.success() => {}
         Ok(_) => return Err(Error::Builds(1)),

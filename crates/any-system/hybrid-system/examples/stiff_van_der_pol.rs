@@ -14,6 +14,7 @@
 #![allow(clippy::print_stdout)] // a program
 
 use hybrid_system::*;
+use interval_arithmetic::bracketed_root;
 use nalgebra::{Matrix2, Vector2};
 
 /// γ = 1 − 1/√2: the method of order two is L-stable.
@@ -150,7 +151,7 @@ impl HybridSystem for VanDerPol {
             // At the start of the arc x may be zero: the bracket begins behind it, on the guard's side.
             let guard = |time: f64| step.state(time)[0] * side;
             let after_start = step.from + 1e-6 * (step.to - step.from);
-            bracketed_root(guard, after_start, step.to).map(Some)
+            Ok(Some(bracketed_root(guard, after_start, step.to)?))
         };
         let most = MOST_STEPS.min(search.steps);
         let (state, time) = self.steps(start, search.horizon, most, crossing)?;

@@ -6,6 +6,7 @@
 mod two_sided;
 
 use hybrid_system::*;
+use interval_arithmetic::bracketed_root;
 use nalgebra::{Vector1, Vector2};
 use two_sided::*;
 

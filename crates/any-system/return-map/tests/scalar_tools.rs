@@ -4,9 +4,7 @@
 #![allow(clippy::excessive_precision)] // published digits, as they are printed
 
 use proptest::prelude::*;
-use return_map::{
-    Error, Intersection, Side, Stability, fixed_points, one_sided_stability,
-};
+use return_map::{Error, Intersection, Side, Stability, fixed_points, one_sided_stability};
 use std::cell::Cell;
 
 proptest! {

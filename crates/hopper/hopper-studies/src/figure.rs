@@ -4,7 +4,7 @@ use journal_figures::{DataFile, Svg};
 
 /// A figure with all its texts for the report.
 #[derive(Debug, Clone)]
-pub struct Figure {
+pub(crate) struct Figure {
     /// File name without its ending.
     pub name: &'static str,
     /// The title of the figure, as markup.

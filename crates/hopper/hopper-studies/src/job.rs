@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 /// A run, and the folder that stores the finished rows of its scans until all its results are written.
 #[derive(Debug)]
-pub struct Job {
+pub(crate) struct Job {
     scans: PathBuf,
     /// The build that computes the rows.
     build: String,
@@ -18,7 +18,7 @@ pub struct Job {
 impl Job {
     /// A run that stores its scans in a folder beside its results, which exists. Each build of the program has its own
     /// folder: a scan rests on most functions of all libraries, and no version says whether one of them has changed. While the run lasts, another run with the same results folder is an error.
-    pub fn new(results: &Path) -> Result<Self, Error> {
+    pub(crate) fn new(results: &Path) -> Result<Self, Error> {
         let lock = Lock::take(results, "scans")?;
         let build = program_digest()?;
         Ok(Job { scans: results.join("scans").join(&build), build, lock })
@@ -76,7 +76,7 @@ impl Job {
     }
 
     /// Removes the finished rows. Call it when all results are written.
-    pub fn done(self) -> Result<(), Error> {
+    pub(crate) fn done(self) -> Result<(), Error> {
         self.lock.confirm()?;
         match std::fs::remove_dir_all(&self.scans) {
             Err(source) if source.kind() != std::io::ErrorKind::NotFound => {

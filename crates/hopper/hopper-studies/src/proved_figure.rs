@@ -2,12 +2,12 @@
 
 use crate::error::Error;
 use crate::job::Job;
+use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval, Label};
 use hopper_basin::{FigureWindow, HopperFate, first_humps};
 use hopper_figures::{Window, draw_pixels, fate_colors};
 use hopper_proof::{Evidence, ProvedCells, ProvedLine, ProvedStrip, proved_strips};
 use journal_figures::{Svg, rgb_png};
-use crate::repository::Progress;
 use std::ops::ControlFlow;
 
 /// Columns that are stored together: a run that is killed loses at most so many.

@@ -1,10 +1,10 @@
 //! Files of reference values: one JSON object a line, or an array of objects.
 
 use crate::error::Error;
+use crate::repository::{number, numbered_rows, repository, whole};
 use hopper_basin::HopperFate;
 use hopper_reference::error_unit;
 use passive_hopper::MassRatio;
-use crate::repository::{number, numbered_rows, repository, whole};
 use serde_json::Value;
 use std::path::Path;
 
@@ -84,9 +84,7 @@ pub(crate) fn window_hops() -> Result<Vec<ReferenceHop>, Error> {
 /// compared. Therefore no check passes on an empty file.
 pub(crate) fn parse(path: &Path) -> Result<Vec<(usize, Line)>, Error> {
     let rows = numbered_rows(path)?;
-    let bad = |at: usize, reason| {
-        Error::ReferenceLine { path: path.into(), line: at, reason }
-    };
+    let bad = |at: usize, reason| Error::ReferenceLine { path: path.into(), line: at, reason };
     let lines: Vec<(usize, Line)> = rows
         .iter()
         .map(|(at, row)| line(row).map(|line| (*at, line)).map_err(|e| bad(*at, e)))
@@ -219,10 +217,7 @@ mod tests {
         for text in ["", "\n", " \n\t\n", "[]", " [ ]\n", undecided] {
             std::fs::write(&path, text).unwrap();
             let error = parse(&path).err().unwrap();
-            assert!(
-                matches!(error, Error::NoReference { .. }),
-                "{text:?}: {error}"
-            );
+            assert!(matches!(error, Error::NoReference { .. }), "{text:?}: {error}");
             assert!(error.to_string().contains("hopper_reference_"), "{error}");
         }
         std::fs::remove_file(&path).unwrap();

@@ -24,7 +24,11 @@ const ILLEGIBLE: &[&str] = &[
 ];
 
 /// The report of the paper's figures and claims.
-pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f64) -> String {
+pub(crate) fn page(
+    figures: &[(Figure, Rendered)],
+    claims: Option<&[Claim]>,
+    seconds: f64,
+) -> String {
     let mut out = format!(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>A simple hopper, recomputed</title>\
          <style>{STYLE}</style></head><body><h1>Multimodal map and complex basin of attraction of a simple hopper, recomputed</h1>\
@@ -54,7 +58,7 @@ pub fn page(figures: &[(Figure, Rendered)], claims: Option<&[Claim]>, seconds: f
 }
 
 /// The report of the results beyond the paper.
-pub fn findings_page(findings: &[(Finding, Rendered)]) -> String {
+pub(crate) fn findings_page(findings: &[(Finding, Rendered)]) -> String {
     let mut out = format!(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><title>Basins of a simple hopper</title>\
          <style>{STYLE}</style></head><body><h1>Basins of a simple hopper: what the paper could not say</h1>\

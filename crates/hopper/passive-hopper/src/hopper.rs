@@ -5,8 +5,8 @@ use crate::landing::flight_ends::{TakeOff, is_sudden};
 use crate::landing::from_air::landing_time;
 use crate::model::contact::{contact_flow, contact_time, lift_off_energy};
 use crate::model::mass_ratio::MassRatio;
-use crate::model::phase::Phase;
 use crate::model::motion::{Flight, LARGEST_LIFT_OFF_SPEED};
+use crate::model::phase::Phase;
 use crate::model::state::HopperState;
 use hybrid_system::{
     Certainty, Crossing, Error, Guard, HybridSystem, NextEvent, Reset, Search, State,

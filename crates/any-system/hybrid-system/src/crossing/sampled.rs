@@ -1,6 +1,5 @@
 //! Guards known by their values only: a change of sign between two samples.
 
-use interval_arithmetic::root_beyond;
 use super::candidate::Candidate;
 use super::clear_distance::clear_distance;
 use super::guard_rounding::{rounding_beside_zero, rounding_of_state};
@@ -9,6 +8,7 @@ use super::search_request::Search;
 use crate::error::Error;
 use crate::guard::{Guard, Touch};
 use crate::looked::Looked;
+use interval_arithmetic::root_beyond;
 use std::fmt::Debug;
 
 /// Most samples of one search, unless the budget of steps is smaller: a limit for a search that would take days. At some

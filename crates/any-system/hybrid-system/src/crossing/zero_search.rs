@@ -16,12 +16,12 @@
 //! the end of a piece.
 
 use super::bounded::{Bounded, Leave};
-use interval_arithmetic::{golden_section_minimum, root_beyond};
 use super::found::Found;
 use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
 use interval_arithmetic::Enclosure;
+use interval_arithmetic::{golden_section_minimum, root_beyond};
 
 /// Most intervals that wait to be tested. 53 halvings reach the rounding of times in the middle of a stretch. Near time
 /// zero doubles are denser, and more halvings are possible: then the farthest of the shorter ones are joined again. A
@@ -368,7 +368,7 @@ impl ZeroSearch {
         if at_last * side >= 0.0 {
             return Ok(right);
         }
-        root_beyond(value, (after, at_first), (right, at_last))
+        Ok(root_beyond(value, (after, at_first), (right, at_last))?)
     }
 }
 

@@ -4,10 +4,10 @@
 use super::integration::Integration;
 use super::step::Step;
 use super::tolerances::Tolerances;
-use interval_arithmetic::root_beyond;
 use crate::crossing::{change_by_components, clear_distance};
 use crate::error::Error;
 use crate::state::StateVector;
+use interval_arithmetic::root_beyond;
 
 /// The largest distances by which a crossing is moved when it is polished, in units of the step. The smallest distance
 /// that shows a change of sign is used. The rounding of an interpolant is about 1e-14 of a step for a guard of ordinary

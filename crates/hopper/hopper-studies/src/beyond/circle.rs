@@ -5,13 +5,13 @@ use super::humps_of_window::fates;
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
+use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval, Label, Refinement};
 use hopper_basin::{
     CircleLimits, HopperFate, PhaseBasins, ShareRaster, Upwards, crisis, grounding, share_raster,
 };
 use hopper_figures::{fate_colors, share_png};
 use journal_figures::{Anchor, Frame, Marker, Pen, Svg, csv_file, decades, ticks};
-use crate::repository::Progress;
 use std::ops::ControlFlow;
 
 /// The fixed points whose circles are shown.

@@ -4,7 +4,7 @@ use crate::figure::Figure;
 
 /// A result.
 #[derive(Debug, Clone)]
-pub struct Finding {
+pub(crate) struct Finding {
     /// Its figure, with the paper's statement and our statement as texts.
     pub figure: Figure,
     /// Its table.
@@ -13,7 +13,7 @@ pub struct Finding {
 
 /// A table with markup in its cells.
 #[derive(Debug, Clone, Default)]
-pub struct Table {
+pub(crate) struct Table {
     /// Names of the columns.
     pub header: Vec<String>,
     /// Rows, with as many cells as the header.

@@ -15,17 +15,17 @@ mod resilience;
 mod tipping;
 mod tree;
 
-pub use finding::{Finding, Table};
+pub(crate) use finding::Finding;
 
 use crate::choice;
 use crate::error::Error;
 use crate::job::Job;
 
 /// Computes a result.
-pub type Find = fn(&Job) -> Result<Finding, Error>;
+pub(crate) type Find = fn(&Job) -> Result<Finding, Error>;
 
 /// All results, with their names for `--only`.
-pub const ALL: &[(&str, Find)] = &[
+pub(crate) const ALL: &[(&str, Find)] = &[
     ("measure", measure::measure),
     ("proved", proved::proved_basins),
     ("asymmetry", measure::asymmetry),
@@ -44,6 +44,6 @@ pub const ALL: &[(&str, Find)] = &[
 ];
 
 /// The results with these names; all of them if none is named.
-pub fn named(names: &[String]) -> Result<Vec<(&'static str, Find)>, Error> {
+pub(crate) fn named(names: &[String]) -> Result<Vec<(&'static str, Find)>, Error> {
     choice::named("result", ALL, names)
 }

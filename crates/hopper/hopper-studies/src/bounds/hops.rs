@@ -8,9 +8,9 @@ use super::hop_classes::CLASSES;
 use super::measured::Measured;
 use super::tally::Tally;
 use crate::error::Error;
+use crate::repository::Progress;
 use passive_hopper::{HopErrors, LiftOffMap, MassRatio, Solver};
 use rayon::prelude::*;
-use crate::repository::Progress;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The ways that are compared with longer ones.

@@ -6,7 +6,7 @@ use serde::Serialize;
 /// The result of the check of a claim.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// The claim holds.
     Confirmed,
     /// The claim is wrong or incomplete in the paper, and the evidence confirms the known correction.
@@ -21,7 +21,7 @@ pub enum Verdict {
 /// On what the verdict rests.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(untagged)]
-pub enum Ground {
+pub(crate) enum Ground {
     /// A test by something that does not contain the claim. If docs/theory.md proves the claim, `proof` names the
     /// statement there.
     Test {
@@ -39,7 +39,7 @@ pub enum Ground {
 
 impl Ground {
     /// The statement of docs/theory.md.
-    pub fn proof(&self) -> Option<&'static str> {
+    pub(crate) fn proof(&self) -> Option<&'static str> {
         match *self {
             Ground::Test { proof, .. } => proof,
             Ground::Theorem { proof } => Some(proof),
@@ -47,7 +47,7 @@ impl Ground {
     }
 
     /// The test.
-    pub fn test(&self) -> Option<&'static str> {
+    pub(crate) fn test(&self) -> Option<&'static str> {
         match *self {
             Ground::Test { test, .. } => Some(test),
             Ground::Theorem { .. } => None,
@@ -57,7 +57,7 @@ impl Ground {
 
 /// A claim that was checked.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Claim {
+pub(crate) struct Claim {
     /// Short name.
     pub name: &'static str,
     /// The place of the claim in the paper.

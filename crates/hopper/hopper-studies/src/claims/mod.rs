@@ -17,12 +17,12 @@ mod stability;
 mod sudden;
 mod trap;
 
-pub use claim::{Claim, Ground, Verdict};
+pub(crate) use claim::{Claim, Ground, Verdict};
 
 use crate::error::Error;
+use crate::repository::Progress;
 use claim::Check;
 use rayon::prelude::*;
-use crate::repository::Progress;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// All claims, group by group.
@@ -56,11 +56,11 @@ fn checked(checks: &[&Check], progress: &Progress) -> Result<Vec<Claim>, Error> 
 }
 
 /// All claims, checked.
-pub fn all(progress: &Progress) -> Result<Vec<Claim>, Error> {
+pub(crate) fn all(progress: &Progress) -> Result<Vec<Claim>, Error> {
     checked(&checks().collect::<Vec<_>>(), progress)
 }
 
 /// The claims about the invariance, checked.
-pub fn invariance(progress: &Progress) -> Result<Vec<Claim>, Error> {
+pub(crate) fn invariance(progress: &Progress) -> Result<Vec<Claim>, Error> {
     checked(&invariance::CHECKS.iter().collect::<Vec<_>>(), progress)
 }

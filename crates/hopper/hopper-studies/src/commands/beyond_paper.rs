@@ -3,14 +3,14 @@
 use super::figure_files::write_figure;
 use crate::error::Error;
 use crate::job::Job;
-use crate::{beyond, report};
 use crate::repository::{results_folder, say};
+use crate::{beyond, report};
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Folder for the results [default: target/beyond in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -20,7 +20,7 @@ pub struct Options {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let begin = Instant::now();
     let chosen = beyond::named(&options.only)?;
     let folder = results_folder(options.out.as_deref(), "beyond")?;

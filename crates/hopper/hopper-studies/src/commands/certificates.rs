@@ -3,10 +3,10 @@
 //! docs/certificates.md tells the format. A change of a name or a meaning here is a new version of it.
 
 use crate::error::Error;
+use crate::repository::Folder;
 use basin_of_attraction::Label;
 use hopper_basin::HopperFate;
 use hopper_proof::{BasinGap, BasinInterval, CERTIFICATE_VERSION, Evidence, Theorem};
-use crate::repository::Folder;
 use resumable_job::AtomicFile;
 use serde_json::{Value, json};
 use std::path::PathBuf;

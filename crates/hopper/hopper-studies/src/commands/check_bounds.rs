@@ -3,13 +3,13 @@
 use crate::bounds::measured::Measured;
 use crate::bounds::{expansions, fates, hops, sines, table};
 use crate::error::Error;
-use crate::text::replace_block;
 use crate::repository::{Folder, Progress, read, repository, say};
+use crate::text::replace_block;
 use std::time::Instant;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Hops on which the bounds of landings are measured. Sines take a tenth of this number for each class,
     /// expansions and fates a hundredth
     #[arg(long, value_name = "N", default_value_t = 10_000_000, value_parser = clap::value_parser!(u64).range(1000..))]
@@ -56,7 +56,7 @@ const HOPS_PER_EXPANSION: u64 = 1000;
 const HOPS_PER_ORBIT: u64 = 1000;
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let start = Instant::now();
     let &Options { hops: count, seed, group, bound_factor, bless } = options;
     let runs = |one| group.is_none_or(|chosen| chosen == one);

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Allowed error in units, 0 < K ≤ 1e15. A hop is allowed K (1 + sudden lift-offs) units; its unit is the
     /// effect of half an ulp in α, M, α′ and α² together. For a hop near a fixed point, given as n and offset, K
     /// units of two ulps of the next offset are allowed for any number of lift-offs. For a loss the unit is the
@@ -57,7 +57,7 @@ struct Tally {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     // All lines are read before the computation starts, so that a malformed line is reported at once.
     let mut parsed = Vec::new();
     for path in &options.files {

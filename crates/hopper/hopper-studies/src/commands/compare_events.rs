@@ -3,14 +3,14 @@
 use crate::error::Error;
 use crate::events::{answers, by_diffsol, by_python, by_us, csv, markdown, verdict};
 use crate::peers::Python;
-use crate::text::replace_block;
 use crate::repository::{Folder, read, repository, results_folder, say};
+use crate::text::replace_block;
 use resumable_job::Lock;
 use std::path::PathBuf;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// The Python that makes the virtual environment for SciPy and heyoka
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     python: String,
@@ -23,7 +23,7 @@ pub struct Options {
 }
 
 /// Runs the command. A program that cannot be had is left out, with a line that begins with SKIPPED.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     // The environment is that of `compare-peers`: the packages are the same.
     let folder = results_folder(options.out.as_deref(), "peers")?;
     let _lock = Lock::take(folder.path(), "compare-peers")?;

@@ -2,15 +2,15 @@
 
 use crate::error::Error;
 use crate::peers::{Python, array_times, arrays_markdown, csv, markdown, measure, peers_figure};
+use crate::repository::{Folder, Progress, read, repository, results_folder, say};
 use crate::text::replace_block;
 use journal_figures::render;
-use crate::repository::{Folder, Progress, read, repository, results_folder, say};
 use resumable_job::Lock;
 use std::path::PathBuf;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// The Python that makes the virtual environment for the peers
     #[arg(long, value_name = "PROGRAM", default_value = "python3")]
     python: String,
@@ -23,7 +23,7 @@ pub struct Options {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "peers")?;
     // Two runs would install into the same environment and read each other's results.
     let _lock = Lock::take(folder.path(), "compare-peers")?;

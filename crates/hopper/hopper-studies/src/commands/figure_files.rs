@@ -3,8 +3,8 @@
 use crate::error::Error;
 use crate::figure::Figure;
 use crate::figures::Build;
-use journal_figures::{Rendered, render};
 use crate::repository::{Folder, Progress};
+use journal_figures::{Rendered, render};
 
 /// Pixels of the PNG for a CSS pixel of the drawing (1/96 inch): 192 dpi. Text of 10 points is then sharp on a screen,
 /// and no PNG exceeds a megabyte.

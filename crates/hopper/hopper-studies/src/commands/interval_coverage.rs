@@ -3,12 +3,12 @@
 use crate::coverage::tally::Row;
 use crate::coverage::{boundaries, exponents, interval_bounds, proportions, table};
 use crate::error::Error;
-use crate::text::replace_block;
 use crate::repository::{Folder, read, repository, say};
+use crate::text::replace_block;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Trials for each interval and scene
     #[arg(long, value_name = "N", default_value_t = 2000, value_parser = clap::value_parser!(u64).range(100..))]
     trials: u64,
@@ -18,7 +18,7 @@ pub struct Options {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let &Options { trials, bless } = options;
     let rows = [
         proportions::measure(trials)?,

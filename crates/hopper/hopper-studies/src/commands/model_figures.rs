@@ -9,7 +9,7 @@ use std::path::PathBuf;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Folder for the results [default: target/models in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -19,7 +19,7 @@ pub struct Options {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "models")?;
     let job = Job::new(folder.path())?;
     for (name, draw) in models::ALL {

@@ -6,6 +6,7 @@ use crate::error::Error;
 use crate::figure::Figure;
 use crate::job::Job;
 use crate::proved_figure::{StoredStrips, draw_window, fig_6};
+use crate::repository::{Folder, Progress, results_folder, say};
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{FIG_9, FigureWindow, basin_raster};
 use hopper_figures::label_png;
@@ -14,14 +15,13 @@ use hopper_proof::{
     points_theorem, proved_points, rising, trap_edges,
 };
 use journal_figures::Svg;
-use crate::repository::{Folder, Progress, results_folder, say};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// The theorems [default: those that take seconds: one-sudden, one-sided, crisis, traps, everything-hops, rising]
     names: Vec<String>,
     /// Prove every theorem, the areas of figures as well
@@ -95,7 +95,7 @@ const OPEN_OF_FIG_6: f64 = 0.12;
 const OPEN_OF_FIG_9: f64 = 0.08;
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let known = QUICK.iter().chain(&LONG);
     let wanted: Vec<&str> = match (options.all, options.names.is_empty()) {
         (true, _) => known.copied().collect(),
@@ -268,7 +268,8 @@ mod tests {
     /// The second program compares what a certificate proves with this list, and makes false certificates of each theorem in it.
     #[test]
     fn the_second_program_has_a_statement_for_every_theorem() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../xtask/generators/statements.json");
+        let path =
+            concat!(env!("CARGO_MANIFEST_DIR"), "/../../../xtask/generators/statements.json");
         let text = std::fs::read_to_string(path).unwrap();
         let statements: serde_json::Map<String, serde_json::Value> =
             serde_json::from_str(&text).unwrap();

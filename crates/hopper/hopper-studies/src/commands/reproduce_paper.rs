@@ -10,15 +10,15 @@ use crate::error::Error;
 use crate::figure::Figure;
 use crate::figures;
 use crate::report;
-use journal_figures::{DataFile, Rendered};
 use crate::repository::{Folder, Progress, read, repository, results_folder, say};
+use journal_figures::{DataFile, Rendered};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Folder for the results [default: target/paper in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -57,7 +57,7 @@ fn committed_folder() -> PathBuf {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let begin = Instant::now();
     let chosen = figures::named(&options.only)?;
     let folder = results_folder(options.out.as_deref(), "paper")?;

@@ -1,9 +1,9 @@
 //! `scale`: CPU time of rasters by size, and what many workers gain.
 
 use crate::error::Error;
+use crate::repository::{Folder, Progress, read, repository, say};
 use crate::scale::{growth_per_doubling, measure, plan, table};
 use crate::text::replace_block;
-use crate::repository::{Folder, Progress, read, repository, say};
 
 /// The smallest raster. Each further one has twice the side.
 const SMALLEST: u64 = 1024;
@@ -13,7 +13,7 @@ const NONE_SHARED: f64 = 4.0;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Pixels along each side of the largest raster; 32768 takes minutes of CPU time
     #[arg(long, value_name = "N", default_value_t = 4096, value_parser = clap::value_parser!(u64).range(2 * SMALLEST..=1 << 17))]
     largest: u64,
@@ -23,7 +23,7 @@ pub struct Options {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let sides: Vec<u64> = std::iter::successors(Some(SMALLEST), |side| Some(2 * side))
         .take_while(|&side| side <= options.largest)
         .collect();

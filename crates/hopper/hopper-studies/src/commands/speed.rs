@@ -1,20 +1,20 @@
 //! `speed`: the figures of speed; the output of each is checked before its time is measured.
 
 use crate::error::Error;
-use crate::speed::{Measured, measure};
 use crate::repository::{Progress, say};
+use crate::speed::{Measured, measure};
 use std::fmt::Write as _;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Print one JSON object instead of a table
     #[arg(long)]
     json: bool,
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let figures = measure(&Progress)?;
     let text = if options.json { json(&figures)? } else { table(&figures) };
     say(text)?;

@@ -3,20 +3,20 @@
 use super::claim_lines::{all_hold, line};
 use super::figure_files::make_figure;
 use crate::error::Error;
-use crate::{claims, figures};
 use crate::repository::{Progress, results_folder, say};
+use crate::{claims, figures};
 use std::path::PathBuf;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Folder for the figure and its data [default: target/paper in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "paper")?;
     let claims = claims::invariance(&Progress)?;
     for (_, build) in figures::named(&["invariance".into()])? {

@@ -1,16 +1,16 @@
 //! `work-precision`: time against error of every method that computes a hop.
 
 use crate::error::Error;
+use crate::repository::{Folder, Progress, read, repository, results_folder, say};
 use crate::text::{duration, replace_block};
 use crate::timing::sin_cos_time;
 use crate::work_precision::{measure, scenes, table, work_precision_figure};
 use journal_figures::render;
-use crate::repository::{Folder, Progress, read, repository, results_folder, say};
 use std::path::PathBuf;
 
 /// Options.
 #[derive(Debug, Clone, clap::Args)]
-pub struct Options {
+pub(crate) struct Options {
     /// Folder for the results [default: target/work-precision in the repository]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
@@ -20,7 +20,7 @@ pub struct Options {
 }
 
 /// Runs the command.
-pub fn run(options: &Options) -> Result<(), Error> {
+pub(crate) fn run(options: &Options) -> Result<(), Error> {
     let folder = results_folder(options.out.as_deref(), "work-precision")?;
     let before = sin_cos_time();
     let scores = measure(&Progress)?;

@@ -2,11 +2,11 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval, Label, LabelImage};
 use hopper_basin::basin_raster;
 use hopper_figures::{PIXELS, Window, draw_basins, fate_colors, label_png};
 use journal_figures::DataFile;
-use crate::repository::Progress;
 use resumable_job::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 

@@ -2,9 +2,9 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use hopper_figures::{draw_block, draw_ground, draw_spring};
 use journal_figures::{Anchor, Pen, Svg};
-use crate::repository::Progress;
 
 const INK: Pen = Pen::solid("#000", 1.1);
 const FORCE: Pen = Pen::solid("#b02418", 1.4);

@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use hopper_figures::{cuts, graph_pieces};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
-use crate::repository::Progress;
 
 /// Mass ratios with their pens. The paper's mass ratios are illegible in our copy; these show the range of shapes.
 const CURVES: [(f64, Pen); 4] = [

@@ -2,12 +2,12 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use hopper_basin::Trap;
 use hopper_figures::graph_pieces;
 use hybrid_system::{Execution, Limits};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{Hopper, HopperState, LiftOffMap, MassRatio, Phase, alpha_star};
-use crate::repository::Progress;
 use std::f64::consts::PI;
 
 /// The paper's mass ratio is illegible in our copy; at this one all four segments exist.

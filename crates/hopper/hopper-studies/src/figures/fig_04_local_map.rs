@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use hopper_asymptotics::{Coefficients, Form};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
-use crate::repository::Progress;
 
 /// The window of the paper's figure.
 const WINDOW: (f64, f64) = (4.490, 4.515);

@@ -2,12 +2,12 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use basin_of_attraction::IntervalSet;
 use hopper_basin::{Fates, basin_levels};
 use hopper_figures::{cuts, graph_pieces};
 use journal_figures::{Anchor, Frame, Pen, Svg, csv_file, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
-use crate::repository::Progress;
 
 /// At this mass ratio hump 2 falls below the trap of α*₁ and rises again, as in the paper's sketch.
 pub(crate) const M: f64 = 0.4;

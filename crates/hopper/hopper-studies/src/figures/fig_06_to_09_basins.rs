@@ -3,9 +3,9 @@
 use super::basin_plot::basin_figure;
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use hopper_basin::{FIG_8, FIG_9, first_humps};
 use hopper_figures::Window;
-use crate::repository::Progress;
 
 fn texts(title: &str, paper: &str, notes: &str) -> (String, String, String) {
     (title.into(), paper.into(), notes.into())

@@ -3,11 +3,11 @@
 use super::fig_06_to_09_basins::{window_8, window_9};
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use basin_of_attraction::{Grid, Interval};
 use hopper_basin::{CoverageLimits, coverage_raster};
 use hopper_figures::{Window, coverage_png, draw_coverage, share_words};
 use journal_figures::DataFile;
-use crate::repository::Progress;
 use resumable_job::{Element, Order, npy_header};
 use std::ops::ControlFlow;
 

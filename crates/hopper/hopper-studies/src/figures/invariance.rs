@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::Progress;
 use hopper_figures::{cuts, graph_pieces};
 use journal_figures::{Frame, Pen, Scale, Svg, csv_file, decades, ticks};
 use passive_hopper::{LiftOffMap, MassRatio, alpha_star};
-use crate::repository::Progress;
 use std::f64::consts::PI;
 
 /// The smaller of the two mass ratios.

@@ -17,10 +17,10 @@ use crate::figure::Figure;
 use crate::repository::Progress;
 
 /// Computes and draws a figure.
-pub type Build = fn(&Progress) -> Result<Figure, Error>;
+pub(crate) type Build = fn(&Progress) -> Result<Figure, Error>;
 
 /// All figures, with their names for `--only`.
-pub const ALL: &[(&str, Build)] = &[
+pub(crate) const ALL: &[(&str, Build)] = &[
     ("fig1", fig_01_model::build),
     ("fig2", fig_02_map::build),
     ("fig3", fig_03_segments::build),
@@ -37,6 +37,6 @@ pub const ALL: &[(&str, Build)] = &[
 ];
 
 /// The figures with these names; all of them if none is named.
-pub fn named(names: &[String]) -> Result<Vec<(&'static str, Build)>, Error> {
+pub(crate) fn named(names: &[String]) -> Result<Vec<(&'static str, Build)>, Error> {
     choice::named("figure", ALL, names)
 }

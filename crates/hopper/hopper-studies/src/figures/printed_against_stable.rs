@@ -2,10 +2,10 @@
 
 use crate::error::Error;
 use crate::figure::Figure;
+use crate::repository::{Progress, number, parse_rows, repository};
 use hopper_asymptotics::{Coefficients, Form, LeftExpansion, RightExpansion};
 use journal_figures::{Anchor, Frame, Marker, Svg, csv_file, decades};
 use passive_hopper::{LiftOffMap, MassRatio, printed_image};
-use crate::repository::{Progress, number, parse_rows, repository};
 use serde_json::Value;
 
 /// The reference values, from the root of the repository.

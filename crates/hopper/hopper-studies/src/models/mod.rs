@@ -13,10 +13,10 @@ use crate::figure::Figure;
 use crate::job::Job;
 
 /// Computes and draws a figure.
-pub type Draw = fn(&Job) -> Result<Figure, Error>;
+pub(crate) type Draw = fn(&Job) -> Result<Figure, Error>;
 
 /// All figures, by name.
-pub const ALL: &[(&str, Draw)] = &[
+pub(crate) const ALL: &[(&str, Draw)] = &[
     ("guards", guards::figure),
     ("semantics_instant", semantics::events_at_one_instant),
     ("semantics_touch", semantics::sliding_and_touches),

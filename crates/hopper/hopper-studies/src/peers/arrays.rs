@@ -2,8 +2,8 @@
 
 use super::python::Python;
 use crate::error::Error;
-use passive_hopper::{LiftOffMap, MassRatio};
 use crate::repository::{Progress, read};
+use passive_hopper::{LiftOffMap, MassRatio};
 use resumable_job::write_atomically;
 use std::fmt::Write;
 use std::path::Path;

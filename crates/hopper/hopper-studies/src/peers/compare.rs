@@ -4,8 +4,8 @@ use super::peer::Peer;
 use super::python::Python;
 use crate::error::Error;
 use crate::reference::{ReferenceHop, window_hops};
-use crate::work_precision::{Case, Method};
 use crate::repository::Progress;
+use crate::work_precision::{Case, Method};
 use std::path::Path;
 
 /// The results of one program for all hops, in their order.

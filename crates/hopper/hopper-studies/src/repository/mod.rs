@@ -13,5 +13,5 @@ mod terminal;
 pub(crate) use output::{Folder, read, repository, results_folder};
 pub(crate) use progress::{Bar, Progress};
 pub(crate) use reference_rows::{number, numbered_rows, parse_rows, whole};
-pub(crate) use terminal::say;
 pub use terminal::exit_code;
+pub(crate) use terminal::say;

@@ -5,8 +5,8 @@ mod rasters;
 mod zooms;
 
 use crate::error::Error;
-use crate::timing::sin_cos_seconds;
 use crate::repository::Progress;
+use crate::timing::sin_cos_seconds;
 use std::time::Duration;
 
 /// A figure of speed.

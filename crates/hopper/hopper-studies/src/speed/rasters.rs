@@ -2,11 +2,11 @@
 
 use super::{Measured, REPEATS, median};
 use crate::error::Error;
+use crate::repository::Bar;
 use basin_of_attraction::{Grid, Interval, LabelImage};
 use hopper_basin::{FIG_9, Fates, HopperFate, basin_raster, first_humps};
 use passive_hopper::MassRatio;
 use rayon::prelude::*;
-use crate::repository::Bar;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 

@@ -3,8 +3,8 @@
 use super::case::{Case, Quantity};
 use crate::error::Error;
 use crate::reference::{Line, parse};
-use passive_hopper::alpha_star;
 use crate::repository::repository;
+use passive_hopper::alpha_star;
 
 /// The folder with the files of hops in the repository.
 const HOPS: &str = "crates/hopper/passive-hopper/tests/data";

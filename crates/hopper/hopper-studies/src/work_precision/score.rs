@@ -4,8 +4,8 @@ use super::case::{Answer, Case, Quantity};
 use super::classes::{Class, classes};
 use super::methods::{ALL as METHODS, Method};
 use crate::error::Error;
-use passive_hopper::FixedPointSpeed;
 use crate::repository::Progress;
+use passive_hopper::FixedPointSpeed;
 use std::time::Duration;
 
 /// Time and error of a method on a class.
