@@ -1,7 +1,7 @@
 //! The arcs of an execution by their ends: an event, a limit, a sliding surface, a Zeno limit.
 
 use crate::arc::{Arc, ArcEnd, Event};
-use crate::arrival::Arrival;
+use crate::arrival::{Arrival, DurationOfArc};
 use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
@@ -72,7 +72,9 @@ impl<T: HybridSystem> Execution<'_, T> {
             certainty,
         });
         let arc = self.new_arc(duration, end);
-        self.remember((kind, surface), &state, (duration, time_rounding), time_passes);
+        let solved = certainty == Certainty::Exact;
+        let length = DurationOfArc { duration, time_rounding, time_error, solved };
+        self.remember((kind, surface), &state, length, time_passes);
         if let Some((_, after)) = &after {
             // A reset that moves a guard off its surface leaves no residue.
             self.forget_residues(None, after);
@@ -105,33 +107,38 @@ impl<T: HybridSystem> Execution<'_, T> {
         &mut self,
         (kind, surface): (EventKind, T::Surface),
         state: &T::State,
-        (duration, time_rounding): (f64, f64),
+        length: DurationOfArc,
         time_passes: bool,
     ) {
         let passed = (kind == EventKind::Crossing).then_some(surface);
         self.forget_residues(passed, state);
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
-        let arrival = |surface, rounding| Arrival::new(&flow, surface, state, (duration, rounding));
+        let duration = length.duration;
+        let arrival = |surface, length| Arrival::new(&flow, surface, state, length);
         let guard = flow.guards().iter().find(|guard| guard.surface == surface);
         match kind {
             EventKind::Crossing => {
                 if let Some(guard) = guard {
-                    self.at.residues.push(guard, flow.guard_value(surface, state));
+                    let (from, value) =
+                        (flow.guard_value(surface, flow.start), flow.guard_value(surface, state));
+                    self.at.residues.push(guard, value, from * value > 0.0);
                 }
-                self.at.arrival = Some(arrival(Some(surface), time_rounding));
+                self.at.arrival = Some(arrival(Some(surface), length));
             }
             EventKind::Touch => {
-                self.at.arrival = Some(arrival(Some(surface), time_rounding).by_touch());
+                self.at.arrival = Some(arrival(Some(surface), length).by_touch());
             }
             // A guard that is on its surface at the preset time, before it has passed through it, must not lose its event.
-            EventKind::Clock if duration > 0.0 => self.at.arrival = Some(arrival(None, 0.0)),
+            EventKind::Clock if duration > 0.0 => {
+                self.at.arrival = Some(arrival(None, DurationOfArc::given(duration)));
+            }
             EventKind::AtStart | EventKind::Clock => match &mut self.at.arrival {
                 Some(arrival) if !time_passes => {
                     // The flow has moved the state beyond this surface, too, by rounding.
                     if arrival.came_from(surface).is_some()
                         && let Some(guard) = guard
                     {
-                        self.at.residues.push(guard, flow.guard_value(surface, state));
+                        self.at.residues.push(guard, flow.guard_value(surface, state), false);
                     }
                     arrival.passed(surface);
                 }
@@ -171,7 +178,8 @@ impl<T: HybridSystem> Execution<'_, T> {
         if duration > 0.0 {
             // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
             let flow = self.flow();
-            self.at.arrival = Some(Arrival::new(&flow, None, &state, (duration, 0.0)));
+            self.at.arrival =
+                Some(Arrival::new(&flow, None, &state, DurationOfArc::given(duration)));
             self.forget_residues(None, &state);
             self.at.history.pass(duration);
             self.at.time = self.at.time.plus(duration);

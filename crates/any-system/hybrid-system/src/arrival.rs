@@ -1,6 +1,6 @@
 //! How the state came to the start of an arc: by a crossing, whose time has an error.
 
-use crate::crossing::{GuardedFlow, guard_rate};
+use crate::crossing::{GuardedFlow, guard_rate, is_far};
 use crate::guard::{Guard, Role};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
@@ -12,6 +12,25 @@ const FEW: usize = 4;
 /// The lookback from a crossing, in roundings of its time. The rounding counts in both directions: two crossings whose times
 /// differ by the sum of their roundings may be at the same instant. A larger number would join events that are distinct.
 const LOOKBACK: f64 = 2.0;
+
+/// The duration of an arc, with its errors.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DurationOfArc {
+    pub(crate) duration: f64,
+    /// By rounding.
+    pub(crate) time_rounding: f64,
+    /// From the true duration.
+    pub(crate) time_error: f64,
+    /// True if the model itself has solved for the crossing.
+    pub(crate) solved: bool,
+}
+
+impl DurationOfArc {
+    /// A duration that a clock or a limit gives.
+    pub(crate) fn given(duration: f64) -> Self {
+        DurationOfArc { duration, time_rounding: 0.0, time_error: 0.0, solved: false }
+    }
+}
 
 /// The end of the last arc, as long as no time has passed since.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +48,10 @@ pub(crate) struct Arrival<M, S, X> {
     duration: f64,
     /// The error of the duration by rounding.
     time_rounding: f64,
+    /// The distance of the duration from that of the true trajectory.
+    time_error: f64,
+    /// True if the model itself has solved for the crossing: then the signs of other guards at its end are rounding.
+    solved: bool,
     /// Other surfaces that were reached at the same instant, with the sides from which the guards came.
     reached: SmallVec<[(S, f64); FEW]>,
 }
@@ -39,7 +62,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         arc: &FlowFrom<T>,
         surface: Option<S>,
         before: &X,
-        (duration, time_rounding): (f64, f64),
+        DurationOfArc { duration, time_rounding, time_error, solved }: DurationOfArc,
     ) -> Self
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
@@ -52,37 +75,96 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             start: arc.start.clone(),
             duration,
             time_rounding,
+            time_error,
+            solved,
             reached: SmallVec::new(),
         };
         let is_other =
             |guard: &&Guard<S>| guard.role != Role::Clock && Some(guard.surface) != surface;
         for guard in arc.guards().iter().filter(is_other) {
-            let value = |state: &X| arc.guard_value(guard.surface, state);
-            let rounding = arc.rounding_at(guard.surface, before);
-            let (earlier, change) = arrival.earlier(arc.system, guard.surface);
-            // It has another sign a moment earlier, or in the middle of the arc, and no event since.
-            let jumped = earlier * value(before) < 0.0
-                || value(arc.start) * value(before) < 0.0
-                    && value(&arc.state(0.5 * duration)) * value(before) < 0.0;
-            if !(jumped || value(before).abs() <= change + rounding)
-                || arrival.has_stayed(arc, guard.surface)
-            {
-                continue;
-            }
-            // The side from which the guard comes: by its rate, or by its value at the start of the arc.
-            let rate = arc
-                .vector_field(before)
-                .and_then(|field| guard_rate(before, &field, rounding, value));
-            let from = match rate {
-                _ if jumped => -value(before),
-                Some(rate) => -rate,
-                None => value(arc.start),
+            let from = if solved {
+                arrival.side_by_rounding(arc, guard.surface)
+            } else {
+                arrival.side_before(arc, guard.surface)
             };
-            if guard.direction.admits(from, -from) {
+            if let Some(from) = from.filter(|from| guard.direction.admits(*from, -from)) {
                 arrival.reached.push((guard.surface, from.signum()));
             }
         }
         arrival
+    }
+
+    /// The side from which a guard has come to its zero on the computed trajectory; `None` if it has not come there. The
+    /// signs of its values decide, and no distance: a zero that is an ulp later is another event.
+    fn side_before<T>(&self, arc: &FlowFrom<T>, surface: S) -> Option<f64>
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        let value = |state: &X| arc.guard_value(surface, state);
+        let (start, now) = (value(arc.start), value(&self.before));
+        // The usual case: it has kept its sign. On its surface at the start, the sign there is rounding.
+        if start * now > 0.0
+            && (is_far(arc.start, arc.start.largest(), start, value)
+                || start.abs() > arc.rounding_at(surface, arc.start))
+        {
+            return None;
+        }
+        let middle = value(&arc.state(0.5 * self.duration));
+        (middle * now < 0.0 || now == 0.0 && middle != 0.0)
+            .then_some(middle)
+            .filter(|_| !self.has_stayed(arc, surface))
+    }
+
+    /// The same if the model has solved for the crossing. Two surfaces that are reached together by its formulas have signs
+    /// of rounding.
+    fn side_by_rounding<T>(&self, arc: &FlowFrom<T>, surface: S) -> Option<f64>
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        let value = |state: &X| arc.guard_value(surface, state);
+        let now = value(&self.before);
+        let rounding = arc.rounding_at(surface, &self.before);
+        let (earlier, change) = self.earlier(arc.system, surface);
+        // It has another sign a moment earlier, or in the middle of the arc, and no event since.
+        let jumped = earlier * now < 0.0
+            || value(arc.start) * now < 0.0 && value(&arc.state(0.5 * self.duration)) * now < 0.0;
+        if !(jumped || now.abs() <= change + rounding) || self.has_stayed(arc, surface) {
+            return None;
+        }
+        // The side from which the guard comes: by its rate, or by its value at the start of the arc.
+        let field = arc.vector_field(&self.before);
+        let rate = field.and_then(|field| guard_rate(&self.before, &field, rounding, value));
+        Some(match rate {
+            _ if jumped => -now,
+            Some(rate) => -rate,
+            None => value(arc.start),
+        })
+    }
+
+    /// True if the zero of a guard, whose value at the start of `next` is `now`, is still ahead, although rounding may hide
+    /// it: the flow has come next to the surface, and the reset has not moved the guard.
+    pub(crate) fn is_ahead<T>(
+        &self,
+        next: &FlowFrom<T>,
+        surface: S,
+        (now, rounding): (f64, f64),
+    ) -> bool
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        let before = next.guard_value(surface, &self.before);
+        let arc = FlowFrom { system: next.system, mode: self.mode, start: &self.start };
+        !self.solved
+            && Some(surface) != self.surface
+            && before * now > 0.0
+            && (now - before).abs() <= rounding
+            && arc.guards().iter().any(|guard| guard.surface == surface)
+            && !self.has_stayed(&arc, surface)
+    }
+
+    /// The rounding of the time of the arrival, and its distance from the true time.
+    pub(crate) fn errors(&self) -> (f64, f64) {
+        (self.time_rounding, self.time_error)
     }
 
     /// The same for a touch.

@@ -4,7 +4,7 @@
 //! [`first_crossing`](crate::HybridSystem::first_crossing) may forget a guard. At the end of an arc the state must not be
 //! beyond a surface, unless the model has returned the crossing of that surface.
 
-use crate::arrival::Arrival;
+use crate::arrival::{Arrival, DurationOfArc};
 use crate::crossing::GuardedFlow;
 use crate::error::Error;
 use crate::residues::Residues;
@@ -37,7 +37,11 @@ pub(crate) fn check_missed<T: HybridSystem>(
         }
         // Two surfaces may be reached at the same instant, within the error of the time.
         let time_rounding = time_rounding.max(TIME_ULPS * f64::EPSILON * duration);
-        let arrival = Arrival::new(arc, None, end, (duration, time_rounding));
+        let arrival = {
+            let time_error = time_rounding;
+            let length = DurationOfArc { duration, time_rounding, time_error, solved: true };
+            Arrival::new(arc, None, end, length)
+        };
         let next = FlowFrom { system: arc.system, mode: arc.mode, start: end };
         let error = arc.rounding_at(surface, end)
             + arrival.error_after(&next, surface).max(residues.error(surface));

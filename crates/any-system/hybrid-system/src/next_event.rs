@@ -20,7 +20,13 @@ impl<T: HybridSystem> Execution<'_, T> {
         let mut leaving = LeavingGuards::new();
         let times = (horizon, self.limits.sampling_interval);
         let start = start_of_arc(&flow, arrival.as_ref(), residues, initial, times, &mut leaving)?;
-        if let Start::Event { surface, certainty, undeclared } = start {
+        if let Start::Event {
+            surface,
+            certainty,
+            errors: (time_rounding, time_error),
+            undeclared,
+        } = start
+        {
             if let Some(Undeclared { value, rounding, on_surface }) = undeclared
                 && self.sliding(surface).is_none()
             {
@@ -36,8 +42,8 @@ impl<T: HybridSystem> Execution<'_, T> {
             return Ok(NextEvent::Crossing(Crossing {
                 surface,
                 time: 0.0,
-                time_rounding: 0.0,
-                time_error: 0.0,
+                time_rounding,
+                time_error,
                 state: state.clone(),
                 kind: EventKind::AtStart,
                 certainty,

@@ -20,7 +20,18 @@ const FEW: usize = 4;
 /// The surfaces, each with the value that its guard had at its event.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub(crate) struct Residues<S>(SmallVec<[(S, f64); FEW]>);
+pub(crate) struct Residues<S>(SmallVec<[Residue<S>; FEW]>);
+
+/// A guard at its event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+struct Residue<S> {
+    surface: S,
+    value: f64,
+    /// True if the event was at a limit on time, within rounding of the surface: the guard has had its event, and passes
+    /// through its zero later.
+    passes_later: bool,
+}
 
 impl<S: Copy + PartialEq> Residues<S> {
     pub(crate) fn new() -> Self {
@@ -31,8 +42,8 @@ impl<S: Copy + PartialEq> Residues<S> {
         self.0.clear();
     }
 
-    /// The guard has this value at its event.
-    pub(crate) fn push(&mut self, guard: &Guard<S>, value: f64) {
+    /// The guard has this value at its event, which is still on the side from which it came if it `passes_later`.
+    pub(crate) fn push(&mut self, guard: &Guard<S>, value: f64, passes_later: bool) {
         let is_left_behind = match (guard.role, guard.direction) {
             (_, Direction::Either) => value != 0.0,
             // The flow goes on at the side from which it came.
@@ -40,7 +51,7 @@ impl<S: Copy + PartialEq> Residues<S> {
             (_, direction) => direction.is_beyond(-value),
         };
         if is_left_behind {
-            self.0.push((guard.surface, value));
+            self.0.push(Residue { surface: guard.surface, value, passes_later });
         }
     }
 
@@ -52,16 +63,25 @@ impl<S: Copy + PartialEq> Residues<S> {
         value: impl Fn(S) -> f64,
         rounding: impl Fn(S) -> f64,
     ) {
-        self.0.retain(|(surface, before)| {
-            let value = value(*surface);
-            Some(*surface) != now
-                && *before * value > 0.0
-                && (value.abs() <= before.abs() || value.abs() <= before.abs() + rounding(*surface))
+        self.0.retain(|&mut Residue { surface, value: before, .. }| {
+            let value = value(surface);
+            Some(surface) != now
+                && before * value > 0.0
+                && (value.abs() <= before.abs() || value.abs() <= before.abs() + rounding(surface))
         });
     }
 
     /// The distance from zero within which a guard has had its event; 0 for a guard that is not among them.
     pub(crate) fn error(&self, surface: S) -> f64 {
-        self.0.iter().find(|known| known.0 == surface).map_or(0.0, |known| known.1.abs())
+        self.of(surface).map_or(0.0, |known| known.value.abs())
+    }
+
+    /// True if the guard of this surface has had its event, and has not passed through its zero yet.
+    pub(crate) fn passes_later(&self, surface: S) -> bool {
+        self.of(surface).is_some_and(|known| known.passes_later)
+    }
+
+    fn of(&self, surface: S) -> Option<&Residue<S>> {
+        self.0.iter().find(|known| known.surface == surface)
     }
 }

@@ -40,7 +40,13 @@ pub(crate) type LeavingGuards<S> = SmallVec<[Leaving<S>; FEW]>;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Start<S> {
     /// With an event at once.
-    Event { surface: S, certainty: Certainty, undeclared: Option<Undeclared> },
+    Event {
+        surface: S,
+        certainty: Certainty,
+        /// The rounding of its time and its error: those of the arrival, if the flow has reached its surface, too.
+        errors: (f64, f64),
+        undeclared: Option<Undeclared>,
+    },
     /// The mode flows.
     Flows,
 }
@@ -104,7 +110,19 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
         let touched = arrival.is_some_and(|arrival| arrival.has_touched(flow, surface));
         if on_surface && touched && switch && direction != Direction::Either {
             let side = if direction == Direction::Rising { -1.0 } else { 1.0 };
-            leaving.push(Leaving { surface, side });
+            leaving.push(Leaving { surface, side, ahead: false });
+            continue;
+        }
+        // It has had its event at the last limit on time.
+        if on_surface && residues.passes_later(surface) && !switch {
+            leaving.push(Leaving { surface, side: -now.signum(), ahead: false });
+            continue;
+        }
+        // Its event is still to come, however near: the signs of the computed trajectory decide.
+        let is_ahead =
+            |arrival: &Arrival<_, _, _>| arrival.is_ahead(flow, surface, (now, rounding));
+        if on_surface && residue == 0.0 && reached.is_none() && arrival.is_some_and(is_ahead) {
+            leaving.push(Leaving { surface, side: now.signum(), ahead: true });
             continue;
         }
         let (side, certainty) = if on_surface {
@@ -116,7 +134,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.
                     if now == 0.0 || beyond {
-                        leaving.push(Leaving { surface, side: 0.0 });
+                        leaving.push(Leaving { surface, side: 0.0, ahead: false });
                     }
                     continue;
                 }
@@ -146,10 +164,11 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
                 rounding: error,
                 on_surface,
             });
-            return Ok(Start::Event { surface, certainty, undeclared });
+            let errors = arrival.filter(|_| passes).map_or((0.0, 0.0), Arrival::errors);
+            return Ok(Start::Event { surface, certainty, errors, undeclared });
         }
         if on_surface {
-            leaving.push(Leaving { surface, side });
+            leaving.push(Leaving { surface, side, ahead: false });
         }
     }
     Ok(Start::Flows)

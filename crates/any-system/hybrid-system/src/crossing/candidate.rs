@@ -14,11 +14,9 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
-    /// True if this event comes before the other one by more than their errors.
-    ///
-    /// Guards are searched in the order in which the model lists them. Therefore the guard listed first is returned among
-    /// events at the same instant.
+    /// True if this event comes before the other one: at an earlier double, or at the same one if the model lists its guard
+    /// first. The errors of the two times do not count: both are on one computed trajectory.
     pub(crate) fn is_sooner_than(&self, other: &Candidate) -> bool {
-        self.time + self.error < other.time - other.error
+        self.time < other.time || self.time == other.time && self.index < other.index
     }
 }

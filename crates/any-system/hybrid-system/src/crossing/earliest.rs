@@ -73,10 +73,7 @@ pub(crate) fn earliest_crossing<F: GuardedFlow>(
             earliest = earliest.filter(|earliest| earliest.time <= time);
         }
         if let Some(found) = sampled.first
-            && earliest.is_none_or(|earliest| {
-                found.is_sooner_than(&earliest)
-                    || found.index < earliest.index && !earliest.is_sooner_than(&found)
-            })
+            && earliest.is_none_or(|earliest| found.is_sooner_than(&earliest))
         {
             earliest = Some(found);
         }

@@ -35,7 +35,6 @@ mod quasi_polynomial_search;
 mod quasi_term;
 mod rounded;
 #[cfg(feature = "ode")]
-mod same_instant;
 mod sampled;
 mod search_request;
 mod under_bounds;
@@ -63,7 +62,6 @@ pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::{QuasiPolynomial, QuasiPolynomialPart};
 #[cfg(feature = "ode")]
-pub(crate) use same_instant::sooner;
 pub(crate) use search_request::MOST_INTERVALS;
 pub use search_request::{Leaving, Search};
 #[cfg(feature = "ode")]

@@ -4,13 +4,17 @@
 /// takes too long. Every oscillation up to the horizon takes several intervals.
 pub(crate) const MOST_INTERVALS: usize = 1_000_000;
 
-/// A guard on whose surface an arc starts.
+/// A guard on whose surface an arc starts, within rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leaving<S> {
     /// The surface.
     pub surface: S,
-    /// The side to which the guard leaves its zero, ±1; 0 if it stays there, as far as the start shows.
+    /// The side to which the guard leaves its zero, ±1; 0 if it stays there, as far as the start shows. If the zero is
+    /// `ahead`, the side on which the guard is.
     pub side: f64,
+    /// True if the flow has brought the state next to the surface, and the guard has not had its zero yet: its value counts,
+    /// however small.
+    pub ahead: bool,
 }
 
 /// What a search for the next event is told.
@@ -26,8 +30,8 @@ pub struct Search<'a, S> {
     pub steps: usize,
     /// Continuous time t at the start of the arc.
     pub time: f64,
-    /// The guards on whose surfaces the arc starts, with the sides to which they leave. Their values at the start count
-    /// as zero.
+    /// The guards on whose surfaces the arc starts within rounding. Their values at the start count as zero, unless their
+    /// zero is still ahead.
     pub leaving: &'a [Leaving<S>],
 }
 
@@ -57,6 +61,13 @@ impl<S: Copy + PartialEq> Search<'_, S> {
     /// The side to which the guard of this surface leaves its zero at the start, or 0 if it stays there; `None` if it does
     /// not start there.
     pub fn side(&self, surface: S) -> Option<f64> {
-        self.leaving.iter().find(|leaving| leaving.surface == surface).map(|leaving| leaving.side)
+        let mut past = self.leaving.iter().filter(|leaving| !leaving.ahead);
+        past.find(|leaving| leaving.surface == surface).map(|leaving| leaving.side)
+    }
+
+    /// The side on which the guard of this surface starts, if rounding alone would not tell: its zero is still ahead.
+    pub fn side_before(&self, surface: S) -> Option<f64> {
+        let mut ahead = self.leaving.iter().filter(|leaving| leaving.ahead);
+        ahead.find(|leaving| leaving.surface == surface).map(|leaving| leaving.side)
     }
 }

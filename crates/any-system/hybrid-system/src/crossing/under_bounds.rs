@@ -95,7 +95,13 @@ fn first_event<F: GuardedFlow>(
         false => flow.rounding_at(surface, start),
     };
     let value = bounded.value(0.0);
-    let mut zeros = ZeroSearch::new(direction, (0.0, value), at_start, error, leaving);
+    let mut zeros = match search.side_before(surface) {
+        Some(side) => {
+            let error = error.max(at_start.magnitude());
+            ZeroSearch::before_zero(direction, 0.0, side, error)
+        }
+        None => ZeroSearch::new(direction, (0.0, value), at_start, error, leaving),
+    };
     let mut budget = search.intervals;
     loop {
         let found = zeros.advance(bounded, until, until >= search.horizon, &mut budget)?;

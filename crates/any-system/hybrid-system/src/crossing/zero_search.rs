@@ -106,6 +106,11 @@ impl ZeroSearch {
         }
     }
 
+    /// Starts at `time` on `side`, ±1, although rounding may hide the function there: its zero is still to come.
+    pub(crate) fn before_zero(direction: Direction, time: f64, side: f64, error: f64) -> Self {
+        ZeroSearch { unclear: true, level_error: error, ..Self::on_side(direction, time, side) }
+    }
+
     /// Starts at `time`, where `at` encloses the function and `value` is the computed one, wrong by `error` at most. The
     /// side to which the function leaves a zero there may be known.
     pub(crate) fn new(
@@ -131,6 +136,12 @@ impl ZeroSearch {
     #[cfg(feature = "ode")]
     pub(crate) fn clear_side(&self) -> Option<f64> {
         self.side.filter(|_| !self.leaving && self.hidden.is_none())
+    }
+
+    /// The side on which the function is, as far as its start has told, although rounding may hide it now.
+    #[cfg(feature = "ode")]
+    pub(crate) fn known_side(&self) -> Option<f64> {
+        self.side.filter(|_| !self.leaving && self.level == 0.0)
     }
 
     /// True if the last crossing was found on the first interval that showed a side after the start at zero: rounding

@@ -66,6 +66,31 @@ impl<'a, V: StateVector> CorrectedStep<'a, V> {
         state
     }
 
+    /// Where the step begins.
+    pub(super) fn from(&self) -> f64 {
+        self.step.from
+    }
+
+    /// The first zero of a guard that is on `side` where the step begins and no longer so at a time with this value; `None` if
+    /// the values show no side before.
+    pub(super) fn first_zero(
+        &self,
+        (until, at_until): (f64, f64),
+        side: f64,
+        along: impl Fn(f64) -> f64,
+    ) -> Result<Option<f64>, Error> {
+        let Step { from, to, .. } = *self.step;
+        let reaches = POLISHING_REACHES.map(|fraction| fraction * (to - from)).into_iter();
+        for reach in reaches.chain([to - from]) {
+            let left = (until - reach).max(from);
+            let at_left = along(left);
+            if at_left * side > 0.0 {
+                return Ok(Some(root_beyond(along, (left, at_left), (until, at_until))?));
+            }
+        }
+        Ok(None)
+    }
+
     /// The states beside a zero at `time`, before and behind it.
     pub(super) fn beside(&self, time: f64) -> [V; 2] {
         let Step { from, to, .. } = *self.step;

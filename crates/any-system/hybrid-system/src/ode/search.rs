@@ -7,7 +7,7 @@ use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
     Certainty, Crossing, EventKind, Found, NextEvent, Search, ZeroSearch, guard_rate,
-    rounding_beside_zero, rounding_of_state, side_of_surface, sooner, stated_or_measured,
+    rounding_beside_zero, rounding_of_state, side_of_surface, stated_or_measured,
 };
 use crate::error::Error;
 use crate::guard::{Guard, Role, Touch};
@@ -55,6 +55,12 @@ struct Finding<'a, S> {
     followed: &'a Followed<S>,
     /// The guard had not left the zero at its start.
     leaving: bool,
+}
+
+/// The guards that are on a known side where a step begins.
+fn sides_before<S: Copy>(followed: &[Followed<S>]) -> SmallVec<[(Guard<S>, f64); GUARDS_ON_STACK]> {
+    let known = |followed: &Followed<S>| Some((followed.guard, followed.search.known_side()?));
+    followed.iter().filter_map(known).collect()
 }
 
 /// The result of a search with one choice of the first step.
@@ -141,6 +147,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 continue;
             }
             let step = integration.last_step()?;
+            let sides = sides_before(&followed);
             let first = self.first_on_step(&mut followed, &step, until, &mut budget)?;
             let Some(Finding { found, time, followed, leaving }) = first else { continue };
             let first_step = SHORTER_FIRST_STEP * time;
@@ -171,6 +178,11 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 }
                 _ => (time, CorrectedStep::uncorrected(&step)),
             };
+            if let Some((time, sooner)) = self.sooner_on(&on_step, (Some(surface), time), &sides)? {
+                let event = (sooner, EventKind::Crossing);
+                let crossing = self.crossing(&on_step, (time, 0.0), event, accuracy);
+                return Ok(Outcome::Finished(NextEvent::Crossing(crossing)));
+            }
             // On the step itself the polished values show how long rounding hides the guard.
             let hidden = match found {
                 Found::Touch { error, .. } => error,
@@ -197,6 +209,11 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             return Err(Error::NotFinite { at: 0.0, value });
         }
         let stated = self.system.guard_error(surface, start);
+        if let Some(side) = self.request.side_before(surface) {
+            let error = stated_or_measured(stated, start, along).max(value.abs());
+            let search = ZeroSearch::before_zero(direction, 0.0, side, error);
+            return Ok(Followed { guard, stated: stated.unwrap_or(0.0), search });
+        }
         let known = self.request.side(surface);
         let search = match side_of_surface(start, stated, along) {
             Some(side) if known.is_none() => ZeroSearch::on_side(direction, 0.0, side),
@@ -287,7 +304,7 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
                 }
             };
             match found {
-                Ok(found) if first.as_ref().is_none_or(|first| sooner(time, first.time)) => {
+                Ok(found) if first.as_ref().is_none_or(|first| time < first.time) => {
                     let leaving =
                         matches!(found, Found::Crossing { .. }) && followed.search.left_hidden();
                     first = Some(Finding { found, time, followed, leaving });
@@ -305,6 +322,36 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
             }
             _ => Ok(first),
         }
+    }
+
+    /// Another guard that has its zero before the event of `surface`, if any, at `time`, on the step as it is corrected there.
+    ///
+    /// The search compares zeros along the interpolant. The correction may exchange two of them that are nearer to each other
+    /// than it is large. The next arc begins on the corrected step: a guard that has changed its sign there has had its zero.
+    fn sooner_on(
+        &self,
+        on_step: &CorrectedStep<T::State>,
+        (surface, time): (Option<T::Surface>, f64),
+        sides: &[(Guard<T::Surface>, f64)],
+    ) -> Result<Option<(f64, T::Surface)>, Error> {
+        let mut first: Option<(f64, T::Surface)> = None;
+        for &(guard, side) in sides.iter().filter(|(guard, _)| Some(guard.surface) != surface) {
+            let along = |at: f64| self.system.guard_value(guard.surface, &on_step.state(at));
+            let before = time.next_down().max(on_step.from());
+            let [at_end, at_before] = [along(time), along(before)];
+            // At the same double as the event, it comes at the same instant: the next arc begins with it.
+            if !(at_end * side < 0.0 && at_before * side <= 0.0)
+                || !guard.direction.admits(side, -side)
+            {
+                continue;
+            }
+            if let Some(at) = on_step.first_zero((before, at_before), side, along)?
+                && first.is_none_or(|(first, _)| at < first)
+            {
+                first = Some((at, guard.surface));
+            }
+        }
+        Ok(first)
     }
 
     /// A guard as a function of time on a step.
@@ -371,6 +418,28 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let state = integration.state();
         let certainty = Certainty::Interpolated;
         let accuracy = Accuracy { tolerances: self.tolerances, steps };
+        // A guard that has changed its sign so near to the horizon that rounding hid it on the step.
+        let changed = |followed: &&Followed<T::Surface>| {
+            let value = self.system.guard_value(followed.guard.surface, &state);
+            let admitted =
+                |side: &f64| value * side < 0.0 && followed.guard.direction.admits(*side, -side);
+            followed.search.known_side().is_some_and(|side| admitted(&side))
+        };
+        if followed.iter().any(|followed| changed(&followed)) && !integration.at_rest() {
+            let sides = sides_before(followed);
+            let step = integration.last_step()?;
+            let on_step = CorrectedStep::uncorrected(&step);
+            let first = self.sooner_on(&on_step, (None, step.to), &sides)?;
+            if let Some((time, surface)) = first {
+                let event = (surface, EventKind::Crossing);
+                return Ok(NextEvent::Crossing(self.crossing(
+                    &on_step,
+                    (time, 0.0),
+                    event,
+                    accuracy,
+                )));
+            }
+        }
         for Followed { guard, search, .. } in followed {
             let Some(side) = search.clear_side() else { continue };
             let surface = guard.surface;

@@ -1,5 +1,6 @@
 //! A scene of straight motions with guards of any form, searched in several ways.
 
+#![allow(dead_code)] // each test file uses a part
 #![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
 
 use hybrid_system::*;
@@ -135,13 +136,7 @@ pub(crate) fn bent(times: &'static [f64]) -> impl Fn(&X) -> f64 {
     }
 }
 
-/// The events up to `end` from a start at time 0: surfaces and times, with the last state and the reason of the end.
-pub(crate) fn run(
-    start: [f64; 4],
-    end: f64,
-    searched: Searched,
-    guards: Vec<Watched>,
-) -> (Vec<(usize, f64)>, X, Option<Stop>) {
+fn scene(searched: Searched, guards: Vec<Watched>) -> Scene {
     let mut scene = Scene {
         rates: X::from([1.0, 2.0, 1.0, 0.0]),
         guards: Vec::new(),
@@ -154,6 +149,17 @@ pub(crate) fn run(
         scene.values.push(value);
         scene.resets.push(reset);
     }
+    scene
+}
+
+/// The events up to `end` from a start at time 0: surfaces and times, with the last state and the reason of the end.
+pub(crate) fn run(
+    start: [f64; 4],
+    end: f64,
+    searched: Searched,
+    guards: Vec<Watched>,
+) -> (Vec<(usize, f64)>, X, Option<Stop>) {
+    let scene = scene(searched, guards);
     let mut limits = Limits::new(end, 1000);
     if let Searched::Sampled(interval) = searched {
         limits = Limits::sampled(end, 1000, interval);
@@ -200,4 +206,27 @@ pub(crate) fn expect(end: f64, guards: impl Fn() -> Vec<Watched>, expected: &[(u
         let (found, ..) = run([0.0; 4], end, searched, guards());
         assert_events(&found, expected, searched);
     }
+}
+
+/// The events of a run that stops at a time and goes on.
+pub(crate) fn run_with_stop(
+    stop: f64,
+    end: f64,
+    searched: Searched,
+    guards: Vec<Watched>,
+) -> Vec<(usize, f64)> {
+    let scene = scene(searched, guards);
+    let limits = |end: f64| match searched {
+        Searched::Sampled(interval) => Limits::sampled(end, 1000, interval),
+        Searched::Integrated(_) => Limits::new(end, 1000),
+    };
+    let mut execution = Execution::new(&scene, (), X::from([0.0; 4]), limits(stop));
+    let mut events = Vec::new();
+    for limit in [stop, end] {
+        for arc in execution.go_on(limits(limit)) {
+            let arc = arc.unwrap_or_else(|error| panic!("{searched:?}: {error}"));
+            events.extend(arc.event().map(|event| (event.surface, event.time)));
+        }
+    }
+    events
 }

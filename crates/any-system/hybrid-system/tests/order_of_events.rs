@@ -1,0 +1,127 @@
+//! Events come in the order of the zeros on the computed trajectory: none is lost, none comes twice, none comes early.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic, clippy::disallowed_methods)]
+
+mod peer_scene;
+
+use hybrid_system::*;
+use peer_scene::*;
+
+const ULP: f64 = f64::EPSILON;
+
+fn rising(value: impl Fn(&X) -> f64 + 'static) -> Watched {
+    Watched { guard: |surface| Guard::rising(surface).crossing(), ..watch(value) }
+}
+
+fn wall(value: impl Fn(&X) -> f64 + 'static) -> Watched {
+    Watched { guard: |surface| Guard::rising(surface).contact(), ..stopping(value) }
+}
+
+/// Two guards whose zeros differ by 1 to 80 ulps: each has one event, at its zero, in this order, in either order of the
+/// list, whether the first guard is a line or a sign.
+#[test]
+fn zeros_that_differ_by_ulps_come_in_their_order() {
+    for ulps in (1..16).chain([20, 31, 40, 80]) {
+        for searched in SEARCHES {
+            let later = 1.0 + f64::from(ulps) * ULP;
+            for jumps in [false, true] {
+                let first = move |x: &X| match jumps {
+                    true if x[TIME] > 1.0 => 1.0,
+                    true => -1.0,
+                    false => x[TIME] - 1.0,
+                };
+                let second = move |x: &X| x[TIME] - later;
+                for swapped in [false, true] {
+                    let guards = match swapped {
+                        false => vec![rising(first), rising(second)],
+                        true => vec![rising(second), rising(first)],
+                    };
+                    let (found, ..) = run([0.0; 4], 3.0, searched, guards);
+                    let (a, b) = (usize::from(swapped), usize::from(!swapped));
+                    let near = |time: f64, zero: f64| (time - zero).abs() <= 2.0 * ULP;
+                    let is_right = found.len() == 2
+                        && [found[0].0, found[1].0] == [a, b]
+                        && near(found[0].1, 1.0)
+                        && near(found[1].1, later);
+                    // An ulp is within the rounding of the state: the order of the two is that of the computed trajectory.
+                    let as_rounded = ulps <= 2
+                        && found.len() == 2
+                        && found.iter().all(|event| near(event.1, 1.0) || near(event.1, later));
+                    assert!(
+                        is_right || as_rounded,
+                        "{searched:?} {ulps} {jumps} {swapped}: {found:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// A wall that jumps, whatever its height, is not passed from a start or from an event next to it.
+#[test]
+fn a_jump_next_to_a_start_is_not_rounding() {
+    for (low, high) in
+        [(-1.0, 1.0), (-1.0, 1001.0), (-0.5, 1e3), (-1e-3, 1e6), (-1e-3, 1e12), (-1.0, 1e20)]
+    {
+        for distance in [1e-15, 1e-12, 1e-9, 1e-6, 1e-3, 0.1] {
+            let jump = move |x: &X| if x[TIME] > 1.0 { high } else { low };
+            for searched in SEARCHES {
+                let scene = format!("{searched:?} {low} {high} {distance}");
+                let start = [0.0, 0.0, 1.0 - distance, 0.0];
+                let (found, last, stop) = run(start, 3.0, searched, vec![wall(jump)]);
+                assert_events(&found, &[(0, 1.0)], searched);
+                assert_eq!((stop, last[TIME] > 1.0), (Some(Stop::Terminal), true), "{scene}");
+                let mark = move |x: &X| x[TIME] - (1.0 - distance);
+                let (found, _, stop) = run([0.0; 4], 3.0, searched, vec![rising(mark), wall(jump)]);
+                let surfaces: Vec<usize> = found.iter().map(|event| event.0).collect();
+                assert_eq!((surfaces, stop), (vec![0, 1], Some(Stop::Terminal)), "{scene}");
+            }
+        }
+    }
+}
+
+/// A stop changes nothing of what follows: no event is lost at it, and none comes twice.
+#[test]
+fn a_stop_beside_an_event_neither_loses_nor_doubles_it() {
+    for searched in SEARCHES {
+        for stop in [1.0 - 1e-9, 1.0 - 1e-12, 1.0 - ULP, 1.0, 1.0 + ULP, 1.0 + 1e-12] {
+            for height in [1e-3, 1.0, 1e3, 1e6] {
+                for guards in [
+                    vec![rising(move |x: &X| if x[TIME] > 1.0 { height } else { -1.0 })],
+                    vec![rising(move |x: &X| height * (x[TIME] - 1.0))],
+                ] {
+                    let found = run_with_stop(stop, 3.0, searched, guards);
+                    let is_right = found.len() == 1 && is_at(found[0].1, 1.0);
+                    assert!(is_right, "{searched:?} {stop:e} {height}: {found:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Van der Pol's oscillator with two guards whose zeros are 8·10⁻¹⁰ apart, less than the tolerance.
+#[test]
+fn no_event_is_lost_within_the_tolerance() {
+    let first =
+        |x: &State<2>| -1.3877097241892478 * x[0] + 1.1788122398660916 * x[1] - 2.423779435540385;
+    let second = |x: &State<2>| 0.001 * x[1] - 0.0012197159384670332;
+    let times = |tolerance: f64| -> Vec<(usize, f64)> {
+        let oscillator =
+            Model::integrated(|(), x: &State<2>| [x[1], (1.0 - x[0] * x[0]) * x[1] - x[0]])
+                .falling((), first, |x| ((), *x))
+                .crossing()
+                .rising((), second, |x| ((), *x))
+                .crossing()
+                .tolerances(Tolerances::both(tolerance));
+        let start = [-1.4109717400396415, -0.19837264509987085];
+        let arcs = oscillator.run((), start, 2.0183587463562356);
+        arcs.filter_map(|arc| arc.unwrap().event().map(|event| (event.surface, event.time)))
+            .collect()
+    };
+    for tolerance in [1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6] {
+        let found = times(tolerance);
+        let mut names: Vec<_> = found.iter().map(|event| event.0).collect();
+        names.sort_unstable();
+        assert_eq!(names, [0, 1], "{tolerance}: {found:?}");
+    }
+}
