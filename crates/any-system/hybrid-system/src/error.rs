@@ -132,7 +132,7 @@ pub enum Error {
     /// An execution starts beyond a surface, where its mode cannot flow.
     #[error(
         "the start is beyond the surface {surface} of mode {mode}: the guard is {value}, with a rounding error of \
-         {rounding}. Start on the other side, or declare the guard an observer",
+         {rounding}. Start on the other side, or declare the guard a `crossing`",
         value = Number(*.value), rounding = Number(*.rounding)
     )]
     StartsBeyond {

@@ -17,6 +17,9 @@
 //! After a touch the guard goes back to the side of the flow, although its rate at the time of the touch may still lead
 //! to the surface.
 //!
+//! A guard that the flow has brought next to its surface, and whose zero is still ahead by the signs of the computed
+//! trajectory, is on its side, however small its value.
+//!
 //! For guards of all roles: if the flow has reached the surface at the same instant as the surface of the last event, and the
 //! reset of that event lets the state pass through, that is an event. No crossing is lost between two resets.
 

@@ -59,9 +59,8 @@ pub trait HybridSystem {
 
     /// The guards of `mode`: only these surfaces are searched.
     ///
-    /// Of guards that are crossed at the same instant, within the errors of the times, the one listed first is the event.
-    /// Another guard is an event at the same instant, after the first one, if the state after the first reset passes
-    /// through its surface.
+    /// Of guards that change their signs at the same double of the time, the one listed first is the event. Another one is
+    /// an event at the same instant, after the first one, if the state after the first reset passes through its surface.
     fn guards(&self, mode: Self::Mode) -> &[Guard<Self::Surface>];
 
     /// The function g whose zero set is the surface.

@@ -5,6 +5,7 @@
 mod peer_scene;
 
 use hybrid_system::*;
+use peer_scene::Searched;
 use peer_scene::*;
 
 const ULP: f64 = f64::EPSILON;
@@ -124,4 +125,57 @@ fn no_event_is_lost_within_the_tolerance() {
         names.sort_unstable();
         assert_eq!(names, [0, 1], "{tolerance}: {found:?}");
     }
+}
+
+/// A component of 10²⁸ does not hide a guard on another one, at a start, behind it and after a reset.
+#[test]
+fn a_huge_component_hides_no_guard_on_another_one() {
+    for huge in [1e28, 1e100, 1e300] {
+        for searched in SEARCHES {
+            let start = [huge, 0.0, 0.0, 0.0];
+            let set = move |x: &X| Some(X::new(-huge, huge, x[TIME], x[FLAG]));
+            let guards = vec![
+                rising(|x| x[TIME] - 3.0),
+                Watched {
+                    guard: |surface| Guard::rising(surface).crossing(),
+                    ..resetting(at(2.0), set)
+                },
+            ];
+            let (found, ..) = run(start, 5.0, searched, guards);
+            assert_events(&found, &[(1, 2.0), (0, 3.0)], searched);
+        }
+    }
+}
+
+/// The times of lines t − k are hit exactly where the sum of the steps is exact.
+#[test]
+fn round_times_of_lines_are_exact() {
+    for k in 1..=16 {
+        let zero = f64::from(k);
+        for searched in SEARCHES {
+            let (found, ..) = run([0.0; 4], 20.0, searched, vec![rising(move |x| x[TIME] - zero)]);
+            assert_events(&found, &[(0, zero)], searched);
+            if matches!(searched, Searched::Sampled(_)) {
+                assert_eq!(found[0].1, zero, "{searched:?} {k}");
+            }
+        }
+    }
+}
+
+/// What helps at a start that stays undecided differs by the search.
+#[test]
+fn the_advice_at_an_undecided_start_is_that_of_its_search() {
+    // Zero up to the time 1, and beyond the surface later: the guard rests on its surface.
+    let rests = |x: &X| if x[TIME] < 1.0 { 0.0 } else { 1.0 };
+    let flows = Model::integrated(|(), _: &X| [1.0, 2.0, 1.0, 0.0]);
+    let flows = flows.rising((), rests, |x| ((), *x)).contact();
+    let error = flows.run((), [0.0; 4], 3.0).find_map(Result::err).unwrap();
+    let integrated = error.to_string();
+    assert!(integrated.contains("a mode of its own"), "{integrated}");
+    assert!(!integrated.contains("sample more often"), "{integrated}");
+    let solved = Model::closed_form(|(), x: &X, t| *x + t * X::new(1.0, 2.0, 1.0, 0.0));
+    let solved = solved.rising((), rests, |x| ((), *x)).contact().sampled(0.25);
+    let error = solved.run((), [0.0; 4], 3.0).find_map(Result::err).unwrap();
+    let sampled = error.to_string();
+    assert!(sampled.contains("sample more often"), "{sampled}");
 }

@@ -84,7 +84,9 @@ pub(crate) fn departure<F: GuardedFlow>(
         return Ok(to(guard.side_after_zero(longest, error)?, Certainty::Certain));
     }
     let start = flow.start();
+    let mut looked = Looked::ByFlow;
     if let Some(field) = flow.vector_field(start) {
+        looked = Looked::OnSteps;
         if field.largest() == 0.0 {
             return Ok(Departure::Stays);
         }
@@ -117,7 +119,7 @@ pub(crate) fn departure<F: GuardedFlow>(
                 return Err(Error::UndecidedStart {
                     surface: format!("{surface:?}"),
                     interval: time,
-                    looked: Looked::ByFlow,
+                    looked,
                 });
             }
             return Ok(to(value, Certainty::Sampled { interval: time }));

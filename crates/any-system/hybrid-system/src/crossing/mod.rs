@@ -27,6 +27,7 @@ mod found;
 mod guard_rate;
 mod guard_rounding;
 mod guarded_flow;
+mod hidden;
 mod next_event;
 mod one_guard;
 mod quasi_layers;

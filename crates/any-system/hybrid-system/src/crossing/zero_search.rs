@@ -17,11 +17,12 @@
 
 use super::bounded::{Bounded, Leave};
 use super::found::Found;
+use super::hidden::{Hidden, closest};
 use super::zero_test::ZeroTest;
 use crate::error::Error;
 use crate::guard::Direction;
 use interval_arithmetic::Enclosure;
-use interval_arithmetic::{golden_section_minimum, root_beyond};
+use interval_arithmetic::root_beyond;
 
 /// Most intervals that wait to be tested. 53 halvings reach the rounding of times in the middle of a stretch. Near time
 /// zero doubles are denser, and more halvings are possible: then the farthest of the shorter ones are joined again. A
@@ -32,15 +33,6 @@ const OPEN_INTERVALS: usize = 64;
 /// slowly, and its error fluctuates: with a factor of 1 one touch could be found several times. A larger number makes
 /// hidden intervals longer, and two touches next to each other become one.
 const CLEAR: f64 = 2.0;
-
-/// A time that rounding hides, with the value that is closest to zero.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Hidden {
-    /// Where the hidden interval begins.
-    from: f64,
-    /// Time and value at which the function was closest to zero, on the stretches before this one.
-    closest: Option<(f64, f64)>,
-}
 
 /// The state of a search for the zeros of a function of time.
 ///
@@ -387,22 +379,4 @@ impl ZeroSearch {
 fn is_clear(value: &Enclosure) -> bool {
     let error = 0.5 * (value.high - value.low);
     value.widened((CLEAR - 1.0) * error).sign().is_some()
-}
-
-/// Time and value at which the function is closest to zero on the part of a hidden interval that lies between `from`
-/// and `until`, or before.
-fn closest(
-    function: &impl Bounded,
-    level: f64,
-    hidden: &Hidden,
-    from: f64,
-    until: f64,
-) -> (f64, f64) {
-    let size = |time: f64| (function.value(time) - level).abs();
-    let time = golden_section_minimum(size, hidden.from.max(from), until);
-    let here = (time, function.value(time) - level);
-    match hidden.closest {
-        Some(before) if before.1.abs() <= here.1.abs() => before,
-        _ => here,
-    }
 }

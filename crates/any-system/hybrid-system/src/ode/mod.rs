@@ -12,6 +12,7 @@ mod followed_guard;
 mod inside_step;
 mod integration;
 mod inverse_root;
+mod pass;
 mod polish;
 mod polynomial_test;
 mod rows;
