@@ -177,5 +177,5 @@ fn the_advice_at_an_undecided_start_is_that_of_its_search() {
     let solved = solved.rising((), rests, |x| ((), *x)).contact().sampled(0.25);
     let error = solved.run((), [0.0; 4], 3.0).find_map(Result::err).unwrap();
     let sampled = error.to_string();
-    assert!(sampled.contains("sample more often"), "{sampled}");
+    assert!(sampled.contains("give the guard bounds"), "{sampled}");
 }

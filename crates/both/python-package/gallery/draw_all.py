@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 here = Path(__file__).resolve().parent
-folder = Path(sys.argv[1] if len(sys.argv) > 1 else here.parents[2] / "docs/figures/python")
+folder = Path(sys.argv[1] if len(sys.argv) > 1 else here.parents[3] / "docs/figures/python")
 folder.mkdir(parents=True, exist_ok=True)
 os.environ.setdefault("MPLBACKEND", "Agg")
 os.chdir(folder)

@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("xarray")
 matplotlib = pytest.importorskip("matplotlib")
-ROOT = Path(__file__).resolve().parents[3]
+ROOT = Path(__file__).resolve().parents[4]
 
 
 def blocks(page):

@@ -24,7 +24,7 @@ def test_a_script_runs_and_leaves_its_picture(script, tmp_path, monkeypatch):
 
 
 def test_every_picture_is_in_the_docs():
-    docs = GALLERY.parents[2] / "docs"
+    docs = GALLERY.parents[3] / "docs"
     page = (docs / "python.md").read_text()
     for script in SCRIPTS:
         assert f"figures/python/{script.stem}." in page and f"gallery/{script.name}" in page

@@ -309,7 +309,7 @@ def test_a_full_disk_leaves_nothing_that_reads_as_finished(tmp_path):
 
 def hopper_program():
     """The program `hopper` of the repository: HOPPER_PROGRAM, or one that cargo has built in the folder target."""
-    target = Path(__file__).parents[3] / "target"
+    target = Path(__file__).parents[4] / "target"
     places = [os.environ.get("HOPPER_PROGRAM"), target / "release" / "hopper", target / "debug" / "hopper"]
     return next((str(place) for place in places if place and os.path.isfile(place)), None)
 
