@@ -32,6 +32,8 @@ pub(crate) struct Orbit {
     pub(crate) at: Vec<f64>,
     steps: usize,
     outside: usize,
+    /// Where it was outside the region while it recurred, and still moved.
+    cut: Option<Border>,
 }
 
 /// Where an orbit ends.
@@ -67,7 +69,7 @@ enum Look {
 
 impl Orbit {
     pub(crate) fn new(start: &[f64]) -> Self {
-        Orbit { at: start.to_vec(), steps: 0, outside: 0 }
+        Orbit { at: start.to_vec(), steps: 0, outside: 0, cut: None }
     }
 
     /// Follows the orbit from where it is.
@@ -99,7 +101,8 @@ impl Orbit {
         let (mut visited, mut recurrences) = (BTreeSet::new(), 0);
         while recurrences < limits.recurrences {
             if self.steps >= limits.budget {
-                return Some(End::Budget);
+                let cut = |border| End::Unmatched(UnmatchedReason::CutByBorder(border));
+                return Some(self.cut.map_or(End::Budget, cut));
             }
             match self.look(known, limits) {
                 Look::End(end) => return Some(end),
@@ -159,7 +162,10 @@ impl Orbit {
             (true, Some(_), Some(border)) if !drifts => {
                 Err(End::Unmatched(UnmatchedReason::CutByBorder(border)))
             }
-            _ => Ok(None),
+            (recurs, ..) => {
+                self.cut = fourth.farthest.filter(|_| recurs);
+                Ok(None)
+            }
         }
     }
 

@@ -17,6 +17,9 @@ use crate::unmatched::{Remedy, Unmatched, UnmatchedReason, remedy};
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
+/// With fewer cells a side each of them is at the border of the region, and no orbit can be seen to stay away from it.
+const FEWEST_CELLS: usize = 3;
+
 /// An attractor, located to the cells of a grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attractor {
@@ -50,6 +53,9 @@ impl Attractors {
     /// tests see: a part of its neighbourhood from which orbits leave is missed with n tests if it is smaller than 3/n, in 5 of 100 cases.
     /// Grids of up to 16 times as many cells are tried before a candidate is refused.
     ///
+    /// A candidate that still moves, and lies at the border of the region, is none: it may go on beyond. Two attractors closer than
+    /// three cells of the finest grid may be found as one.
+    ///
     /// Attractors whose orbits enter each other are one. Each start that belongs to none is [unmatched](Self::unmatched), with the
     /// reason; if no attractor is found, [`remedy`](Self::remedy) says what would help.
     ///
@@ -73,7 +79,7 @@ impl Attractors {
     ///
     /// # Errors
     /// [`Error::BadStateGrid`] for a grid without cells, of more than ten dimensions, or with more than 2⁶⁴ cells;
-    /// [`Error::BadSearch`] for a distance of escape that is not positive and finite; [`Error::WrongDimension`] for a start of another
+    /// [`Error::BadSearch`] for fewer than three cells a side, and for a distance of escape that is not positive and finite; [`Error::WrongDimension`] for a start of another
     /// dimension than the region; [`Error::TooManyAttractors`] beyond 65 000.
     pub fn search(
         map: &(impl Fn(&[f64]) -> Option<Vec<f64>> + Sync),
@@ -81,6 +87,10 @@ impl Attractors {
         starts: &[Vec<f64>],
         limits: RecurrenceLimits,
     ) -> Result<Attractors, Error> {
+        if limits.cells < FEWEST_CELLS {
+            let (name, remedy) = ("a number of cells a side", "; give 3 or more");
+            return Err(Error::BadSearch { name, value: limits.cells as f64, remedy });
+        }
         let known = KnownCells::new(&region, limits.cells)?;
         if let Some(value) = limits.escape.filter(|escape| !(*escape > 0.0 && escape.is_finite())) {
             let (name, remedy) = ("a distance of escape", "; give none if there is none");
@@ -198,7 +208,11 @@ impl Attractors {
         for grid in 0..self.known.grids().len() {
             let Some((cells, last)) = self.visited(map, grid, settled) else { return Ok(false) };
             let own: BTreeSet<u64> = cells.keys().copied().collect();
-            if !self.is_trap(map, &self.known.grids()[grid], &own, settled.pace) {
+            // No test can start beyond the region, where an orbit that moves on may lead.
+            let moves_to_border = settled.drifts
+                && own.iter().any(|&cell| self.known.grids()[grid].is_at_border(cell));
+            if moves_to_border || !self.is_trap(map, &self.known.grids()[grid], &own, settled.pace)
+            {
                 continue;
             }
             let index = self.attractors.len();

@@ -82,6 +82,13 @@ impl StateGrid {
         found.into_iter().map(|(number, _)| number).filter(|&number| number != cell).collect()
     }
 
+    /// Whether a cell lies at the border of the region.
+    pub(crate) fn is_at_border(&self, cell: u64) -> bool {
+        let places = std::iter::successors(Some(cell), |rest| Some(rest / self.cells));
+        let mut places = places.take(self.dimension()).map(|rest| rest % self.cells);
+        places.any(|at| at == 0 || at + 1 == self.cells)
+    }
+
     /// The point of a cell with these coordinates between 0 and 1 in it.
     pub(crate) fn point(&self, cell: u64, within: impl Fn(u64) -> f64) -> Vec<f64> {
         let mut rest = cell;
@@ -116,6 +123,7 @@ mod tests {
         }
         assert_eq!(grid.cell(&[2.0, 2.0, 2.0]), Some(63));
         assert_eq!(grid.cell(&[2.1, 0.0, 0.0]), None);
+        assert_eq!((0..64).filter(|&cell| !grid.is_at_border(cell)).count(), 8);
         let border = Border { coordinate: 2, border: -1.0, reached: -3.0 };
         assert_eq!(grid.beyond(&[2.5, 0.0, -3.0]), Some(border));
         assert_eq!(grid.beyond(&[2.0, 0.0, -1.0]), None);

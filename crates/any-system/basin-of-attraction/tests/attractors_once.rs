@@ -207,3 +207,64 @@ fn attractors_whose_orbits_enter_each_other_are_one() {
         assert_eq!(found.label(&map, &[0.3]), Label::from(1));
     }
 }
+
+/// A fixed point just outside, to which orbits come slowly, and a slow drift out of the last cell: no attractor, and the reason.
+#[test]
+fn what_moves_slowly_to_the_border_is_no_attractor() {
+    let unit = region(&[(0.0, 1.0)]);
+    for beyond in [1e-4, 1e-5, 1e-6, 1e-9] {
+        let map = move |x: &[f64]| Some(vec![-beyond + 0.9999 * (x[0] + beyond)]);
+        let found = Attractors::search(
+            &map,
+            unit.clone(),
+            &[vec![0.5], vec![0.9]],
+            RecurrenceLimits::default(),
+        )
+        .unwrap();
+        assert_eq!((found.attractors().len(), found.unmatched().len()), (0, 2), "{beyond}");
+        assert!(found.remedy().is_some());
+    }
+    let line = region(&[(-1.0, 1.0)]);
+    for step in [1e-5, 1e-6, 1e-7, 1e-8] {
+        let map = move |x: &[f64]| {
+            Some(vec![match x[0] {
+                y if y < 0.985 => y + (0.986 - y).min(0.01),
+                y if y < 1.2 => y + step,
+                y => 100.0 + 0.5 * (y - 100.0),
+            }])
+        };
+        let found = Attractors::search(
+            &map,
+            line.clone(),
+            &[vec![0.5], vec![-0.3]],
+            RecurrenceLimits::default(),
+        )
+        .unwrap();
+        assert_eq!((found.attractors().len(), found.unmatched().len()), (0, 2), "{step}");
+        assert!(found.label(&map, &[0.5]).is_undecided());
+    }
+}
+
+/// A spiral onto a corner of the region: it leaves the region at each turn, less and less far.
+#[test]
+fn a_slow_spiral_onto_the_border_is_cut_by_it() {
+    let quarter = region(&[(0.0, 1.0), (0.0, 1.0)]);
+    let map = spiral(0.997, 0.3);
+    let found =
+        Attractors::search(&map, quarter, &[vec![0.5, 0.4]], RecurrenceLimits::default()).unwrap();
+    let reason = &found.unmatched()[0].reason;
+    assert!(matches!(reason, UnmatchedReason::CutByBorder(_)), "{reason}");
+    assert!(matches!(found.remedy(), Some(Remedy::LargerRegion { .. })), "{:?}", found.remedy());
+}
+
+#[test]
+fn fewer_than_three_cells_are_refused() {
+    let square = region(&[(-1.0, 1.0), (-1.0, 1.0)]);
+    for cells in [1, 2] {
+        let limits = RecurrenceLimits { cells, ..RecurrenceLimits::default() };
+        let error =
+            Attractors::search(&spiral(0.5, 0.3), square.clone(), &[vec![0.5, 0.4]], limits)
+                .unwrap_err();
+        assert!(error.to_string().contains("3 or more"), "{error}");
+    }
+}
