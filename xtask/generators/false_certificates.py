@@ -329,7 +329,12 @@ def points(lines):
     own[1][1] = own[1][0] + 1.01 * (own[1][1] - own[1][0])
     yield "a trap a hundredth too long", changed(lines, at, traps=own), claims, None
     yield "a column at another mass ratio", changed(lines, at, mass_ratio=lines[at]["mass_ratio"] + 1e-4), claims, None
-    yield "a speed that is not in the middle", changed(lines, 2, speeds=moved(lines[2]["speeds"], 1e-3)), [], None
+    for part in (1e-3, 1e-12, 1e-14):
+        yield f"speeds beside the middle by {part}", changed(lines, 2, speeds=[speed * (1 + part) for speed in lines[2]["speeds"]]), [], None
+    row = copy.deepcopy(lines[2]["speeds"])
+    row[1] = math.nextafter(row[1], math.inf)
+    yield "a speed an ulp beside the middle", changed(lines, 2, speeds=row), [], None
+    yield "a column an ulp beside the middle", changed(lines, at, mass_ratio=math.nextafter(lines[at]["mass_ratio"], 1e9)), claims, None
     yield "the window of another figure", changed(lines, 1, mass_ratios=[0.1, 0.2]), [], None
     yield "speeds of another window", changed(lines, 1, speeds=moved(lines[1]["speeds"], 1.0)), [], None
     yield "a grid of fewer columns", changed(lines, 1, columns=lines[1]["columns"] - 1), [], None
@@ -466,7 +471,7 @@ def at_random(files, theorem, lines, count, seed):
         passed += 1
         # All claims of the line hold in balls; other formulas must not find a point where one is false, and what the file proves is what it
         # proved or less.
-        reason = refutes(own[at], places(own[at], path)) or (stronger(theorem, proved, truth) and "it proves more than is true")
+        reason = refutes(own, at, places(own[at], path)) or (stronger(theorem, proved, truth) and "it proves more than is true")
         if reason:
             wrong += 1
             print(f"NOT REFUSED {theorem}, line {at + 1}, {path}: {old!r} as {new!r}: {said}; {reason}", flush=True)
@@ -475,9 +480,12 @@ def at_random(files, theorem, lines, count, seed):
 
 
 def places(line, path):
-    """The intervals of a line of basins that a change touches: all if they are few."""
-    count = len(line.get("intervals", []))
-    own = next((part for part in path if isinstance(part, int)), 0) if path[0] == "intervals" else 0
+    """The parts of a line that a change touches: all of them if it touches the whole line."""
+    name = next((name for name in ("intervals", "gaps", "fates") if name in line), None)
+    count = len(line[name]) if name else 0
+    if path[0] != name:
+        return range(0, count, max(1, count // 8))
+    own = next((part for part in path if isinstance(part, int)), 0)
     return range(max(0, own - 1), min(count, own + 2))
 
 
@@ -500,7 +508,8 @@ def stronger(theorem, proved, truth):
             return True
         for a, b in zip(own, true):
             # Beyond the digits to which the true number is known.
-            if relation == "is" and a != b or relation == "least" and a > b + 1e-2 * abs(b):
+            too_large, too_small = a > b + 1e-2 * abs(b), a < b - 1e-2 * abs(b)
+            if relation == "is" and a != b or relation == "least" and too_large or relation == "most" and too_small:
                 return True
     return False
 

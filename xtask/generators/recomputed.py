@@ -1,7 +1,7 @@
 """The numbers of a certificate once more, by other formulas, without enclosures: half the time of flight, bisection, sums of losses, 200 bits.
 
 The checker uses the equations of motion and balls. Here a landing is the root of V_Y(h) = V on one branch (docs/theory.md, Lemmas 5 and 15), and
-the next lift-off speed follows from the sum of the losses (Theorem 4). `refutes` tries points of what a line says. It proves nothing; a fault
+the next lift-off speed follows from the sum of the losses (Theorem 4). `refutes` tries points of what a line says, and adds its sums again. It proves nothing; a fault
 that the checker has in its formulas, signs or rules is seen here.
 """
 
@@ -170,16 +170,115 @@ def basins(line, at):
     return None
 
 
-def refutes(line, places):
-    """Why a line is false, as far as points show it; None if none of them does. `places` are those of its intervals that are tried."""
+def one_sudden(line):
+    """M_1 of Theorem 20."""
+    largest = (star(1) ** 2 - 1) / (star(1) ** 2 + 1)
+    return None if arb(line["largest_mass_ratio"]) <= largest else f"the largest mass ratio is {float(largest)!r}"
+
+
+def losses(line):
+    """Lemma 32 by its own bound of each of two closing speeds, R + B."""
+    kappa, speed = parameter(line["mass_ratio"]), line["multiple_of_pi"] * pi()
+    y, v, total = arb(1), speed, arb(0)
+    for _ in range(2):
+        r = point((y * y + v * v).sqrt())
+        b = point((v * v + 2 * (y + r)).sqrt())
+        total, y, v = point(total + (r + b) ** 2), r, max(r, b)
+    left = point(kappa * (1 - kappa) * total + star(1) ** 2)
+    holds = left <= line["losses"] <= line["square"] <= speed * speed
+    return None if holds else f"{float(left)!r} and {float(speed * speed)!r} are the two sides"
+
+
+def points(lines, at, places):
+    """The fates of some rows: the end of each run beside the change, and its middle."""
+    line, speeds, first = lines[at], lines[2]["speeds"], 0
+    for k, (said, count) in enumerate(line["fates"]):
+        rows = {first, first + count // 2, first + count - 1} if k in places else ()
+        for row in (row for row in rows if row < len(speeds)):
+            found = fate(speeds[row], line["mass_ratio"])
+            if found is not None and found != said:
+                return f"row {row} has the fate {found!r}"
+        first += count
+    return None
+
+
+def gaps(lines, at, places):
+    """The length of each fate in a gap, by points: a claim is too large if it is longer than the points allow."""
+    mass_ratio = lines[1]["mass_ratios"][0]
+    for k in places:
+        left, right, *lengths = lines[at]["gaps"][k]
+        # From end to end, so that each stands for its part of the gap.
+        found = [fate(left + (right - left) * (j + 0.5) / GAP_POINTS, mass_ratio) for j in range(GAP_POINTS)]
+        for own, least in lengths:
+            share = sum(other in (own, None) for other in found) / GAP_POINTS
+            if least > (share + GAP_ROOM) * (right - left):
+                return f"{own!r} has a part of about {share:.2f} of the gap from {left!r}"
+    return None
+
+
+# Points of a gap, and the part of it by which they may mislead: three standard deviations of a random count.
+GAP_POINTS, GAP_ROOM = 64, 0.19
+
+
+def known_lengths(lines, left, right):
+    """The length of each fate between two speeds, as intervals and gaps say."""
+    lengths = {}
+    add = lambda own, length: lengths.__setitem__(own, lengths.get(own, arb(0)) + length)
+    for line in lines:
+        for low, high, own in line.get("intervals", []):
+            add(own, max(point(0), min(arb(high), right) - max(arb(low), left)))
+        for low, high, *parts in line.get("gaps", []):
+            if low >= left and high <= right:
+                for own, least in parts:
+                    add(own, arb(least))
+    return lengths
+
+
+def fraction(lines, at):
+    """What is known of a fate is not more than the upper bound, and with what is open not less than the lower one."""
+    line = lines[at]
+    means = {"uniform": [(star(1), star(line["humps"] + 1))], "by_humps": [(star(n), star(n + 1)) for n in range(1, line["humps"] + 1)]}
+    for name, windows in means.items():
+        known = sum(known_lengths(lines, *ends).get(line["fate"], arb(0)) / (ends[1] - ends[0]) for ends in windows) / len(windows)
+        low, high = line[name]
+        if low > known + SUM_ROOM or high < known - SUM_ROOM:
+            return f"{name}: {float(known)!r} is known"
+    return None
+
+
+def area(lines, at):
+    line, (first, last), (bottom, top) = lines[at], lines[1]["mass_ratios"], lines[1]["speeds"]
+    known = arb(0)
+    for strip in (own for own in lines if own.get("kind") == "basins"):
+        low, high = strip["mass_ratios"]
+        known += known_lengths([strip], arb(bottom), arb(top)).get(line["fate"], arb(0)) * (arb(high) - arb(low))
+    known /= (arb(last) - arb(first)) * (arb(top) - arb(bottom))
+    low, high = line["share"]
+    return f"{float(known)!r} is known" if low > known + SUM_ROOM or high < known - SUM_ROOM else None
+
+
+# Bounds of sums are rounded outwards, and may be so much beside the sum.
+SUM_ROOM = 1e-13
+
+
+def refutes(lines, at, places):
+    """Why a line is false, as far as points and sums show it; None if none of them does. `places` are those of its parts that are tried."""
+    line = lines[at]
     before, ctx.prec = ctx.prec, BITS
     try:
-        rules = {"trap": trap, "crisis": crisis, "contact-part": contact_part, "rising-box": rising_box}
-        if line["kind"] in rules:
-            return rules[line["kind"]](line)
+        alone = {"trap": trap, "crisis": crisis, "contact-part": contact_part, "rising-box": rising_box, "one-sudden": one_sudden, "losses": losses}
+        sums = {"fraction": fraction, "area": area}
+        parts = {"points": points, "gaps": gaps}
+        if line["kind"] in alone:
+            return alone[line["kind"]](line)
+        if line["kind"] in sums:
+            return sums[line["kind"]](lines, at)
+        if line["kind"] in parts:
+            return parts[line["kind"]](lines, at, places)
         if line["kind"] == "basins":
-            tried = (basins(line, at) for at in places)
+            tried = (basins(line, place) for place in places)
             return next((reason for reason in tried if reason), None)
+        # The grid, speeds, windows of rising boxes and the number of cells are claims of the whole file: `stronger` compares them.
         return None
     finally:
         ctx.prec = before

@@ -4,7 +4,9 @@ Each theorem has a class: the kinds of lines that it may have, `add` for each li
 `derived`, numbers that `statements.py` compares and prints, and `means`, the words for them.
 """
 
+import math
 from bisect import bisect_right
+from fractions import Fraction
 
 from flint import arb
 
@@ -17,8 +19,8 @@ from left_of_star import REACH_LIGHT, rises
 TRAP_WIDTH, CRISIS_WIDTH = 1e-12, 1e-13
 # The theorem `rising` is for windows 1 to 10, and for M <= 0.9 in all of them.
 RISING_WINDOWS, RISING_MASS_RATIO = 10, 0.9
-# The middle and the edges of a pixel may be rounded so much.
-ROUNDING = 1e-12
+# The edge of a pixel may be rounded so much, in units of the last place. The middle of one is one double.
+EDGE_ULPS = 4
 
 
 def require(holds, reason):
@@ -353,10 +355,17 @@ def lengths_between(edges, intervals, lengths):
                 of_part[fate] = of_part.get(fate, arb(0)) + (arb(high) - arb(low))
 
 
-def require_place(value, ends, part, what):
-    """`value` is at this part of the way between the ends, up to rounding."""
-    wanted = ends[0] + (ends[1] - ends[0]) * part
-    require(abs(value - wanted) <= ROUNDING * abs(wanted), f"{value!r} is not {what}")
+def require_edge(value, ends, at, count, what):
+    """`value` is at this part of the way between the ends, up to some ulps."""
+    first, last = map(Fraction, ends)
+    wanted = first + (last - first) * at / count
+    require(abs(Fraction(value) - wanted) <= EDGE_ULPS * Fraction(math.ulp(max(map(abs, ends)))), f"{value!r} is not {what}")
+
+
+def require_middle(value, ends, at, count):
+    """`value` is the double of the middle of a pixel: three roundings, in this order. Beside it the fate may be another one."""
+    wanted = ends[0] + (ends[1] - ends[0]) * ((at + 0.5) / count)
+    require(value == wanted, f"{value!r} is not in the middle of a pixel, {wanted!r}")
 
 
 class Raster(Whole):
@@ -384,18 +393,15 @@ class RasterPoints(Raster):
         super().__init__()
         self.columns = 0
 
-    def is_middle(self, value, ends, at, count):
-        require_place(value, ends, (at + 0.5) / count, "in the middle of a pixel")
-
     def add_speeds(self, line):
         require(self.lines == 2 and len(line["speeds"]) == self.grid["rows"], "not one speed for each row")
         self.has_speeds = True
         for row, speed in enumerate(line["speeds"]):
-            self.is_middle(speed, self.speeds, row, self.grid["rows"])
+            require_middle(speed, self.speeds, row, self.grid["rows"])
 
     def add_points(self, line):
         require(sum(count for _, count in line["fates"]) == self.grid["rows"], "not one fate for each row")
-        self.is_middle(line["mass_ratio"], self.ratios, self.columns, self.grid["columns"])
+        require_middle(line["mass_ratio"], self.ratios, self.columns, self.grid["columns"])
         for fate, _ in line["fates"]:
             fate_of(fate)
         self.columns += 1
@@ -420,7 +426,7 @@ class RasterCells(Raster):
         require((self.edges[0], self.edges[-1]) == self.speeds, "the rows do not end at the window")
         require(all(a < b for a, b in zip(self.edges, self.edges[1:])), "the edges do not rise")
         for row, edge in enumerate(self.edges):
-            require_place(edge, self.speeds, row / self.grid["rows"], "the edge of a row")
+            require_edge(edge, self.speeds, row, self.grid["rows"], "the edge of a row")
 
     def add_basins(self, line):
         low, high = pair(line["mass_ratios"])
@@ -454,7 +460,7 @@ class RasterCells(Raster):
         require(self.areas == set(self.lengths[0]), "not one area for each fate")
         each, count = strips // columns, 0
         for column in range(columns):
-            require_place(self.strips[column * each][0], self.ratios, column / columns, "the edge of a column")
+            require_edge(self.strips[column * each][0], self.ratios, column, columns, "the edge of a column")
             together = zip(*(fates for _, _, fates in self.strips[column * each : (column + 1) * each]))
             count += sum(first is not None and all(fate == first for fate in rest) for first, *rest in together)
         require(count == self.claimed, f"{count} cells lie in intervals of one fate, not {self.claimed}")

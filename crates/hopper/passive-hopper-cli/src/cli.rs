@@ -27,7 +27,7 @@ units of m₂g/k, times in units of 1/ω with ω² = k(1+M)/m₂, speeds in unit
 
 Every computed number has a bound on its error, taken from the exact arguments. In CSV and JSON it is in the column NAME_error, after all other \
 columns, or in the column that the help names; 0 is exact, and nothing stands there if no bound is known. Text shows only digits that are certain, \
-or a number and its error if none is. Numbers that are bounds themselves, such as the ends of intervals, are shown whole.";
+or a number and its error if none is, or ? if no bound is known. Bounds hold for the number that the decimals read back as. Numbers that are bounds themselves, such as the ends of intervals, are shown whole.";
 
 /// The last text of `hopper --help`.
 const EXIT_STATUS: &str = "\

@@ -59,11 +59,47 @@ pub(crate) struct PlainOrbit {
     pub(crate) hops: usize,
     /// Hops and jumps, for the budget.
     followed: usize,
+    beside: Beside,
+}
+
+/// The last speeds of an orbit, as long as each of them lies within its error of an end of the same trap.
+///
+/// Up to the first fall f is not below α*_n, and beyond it f is below; left of α*_n as well, and no orbit rises (docs/theory.md,
+/// Theorem 29). So if an orbit is in the trap at last, all these speeds were in it: the fate was decided at the first one.
+#[derive(Debug, Clone, Copy, Default)]
+struct Beside {
+    /// The index of the trap, and the hops at the first of these speeds.
+    first: Option<(u64, usize)>,
+    /// The error hid on which side of the end of the contact part a speed is, behind which f may stay above α*_n: the number of
+    /// hops is open.
+    open: bool,
+}
+
+impl Beside {
+    /// Sees the side of a speed after so many hops; if it is inside, the number of hops at the first of these speeds.
+    fn see(&mut self, trap: &Trap, side: TrapSide, hops: usize) -> Option<usize> {
+        let first = self.first.filter(|(n, _)| *n == trap.n).map_or(hops, |(_, first)| first);
+        if side == TrapSide::Inside {
+            return Some(first);
+        }
+        let is_unclear = side == TrapSide::Unclear;
+        let is_contact_end = trap.edge == TrapEdge::ContactEnd;
+        self.open |= is_unclear && is_contact_end;
+        // Beside a crisis f may stay above α*_n behind the end.
+        let ends_certainly = trap.error < CERTAIN_END * trap.delta && !is_contact_end;
+        self.first = (is_unclear && ends_certainly).then_some((trap.n, first));
+        None
+    }
 }
 
 impl PlainOrbit {
     pub(crate) fn new(alpha: f64) -> Self {
-        PlainOrbit { speed: alpha, error: 0.0, hops: 0, followed: 0 }
+        PlainOrbit { speed: alpha, error: 0.0, hops: 0, followed: 0, beside: Beside::default() }
+    }
+
+    /// Whether longer arithmetic is needed to tell the number of hops.
+    pub(crate) fn count_is_open(&self) -> bool {
+        self.beside.open
     }
 
     /// Takes the next hop; the verdict if the orbit ends with it.
@@ -92,15 +128,24 @@ pub(crate) struct CertainFates<'a, T> {
 impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
     /// The verdict on the exact orbit of `alpha`, and the number of hops until it was known.
     pub(crate) fn verdict(&self, alpha: f64, budget: usize) -> Result<(Verdict, usize), Error> {
-        let plain = self.in_f64(alpha, budget, LiftOffMap::hop_within)?;
-        let Verdict::Inconclusive { .. } = plain.0 else { return Ok(plain) };
-        let signed = self.in_f64(alpha, budget, LiftOffMap::signed_hop_within)?;
-        let Verdict::Inconclusive { .. } = signed.0 else { return Ok(signed) };
-        let mut verdict = signed;
+        let (plain, open) = self.in_f64(alpha, budget, LiftOffMap::hop_within)?;
+        let mut verdict = plain;
+        if let Verdict::Inconclusive { .. } = plain.0 {
+            let (signed, open) = self.in_f64(alpha, budget, LiftOffMap::signed_hop_within)?;
+            verdict = signed;
+            if !matches!(signed.0, Verdict::Inconclusive { .. }) && !open {
+                return Ok(signed);
+            }
+        } else if !open {
+            return Ok(plain);
+        }
         for (arithmetic, most) in Arithmetic::ALL.into_iter().zip(EXTENDED_BUDGETS) {
             match self.in_extended(alpha, (budget, most), arithmetic)? {
                 (Some(inconclusive @ Verdict::Inconclusive { .. }), hops) => {
-                    verdict = (inconclusive, hops);
+                    // A fate that `f64` knows stays, with the number of hops that it found.
+                    if let Verdict::Inconclusive { .. } = verdict.0 {
+                        verdict = (inconclusive, hops);
+                    }
                 }
                 (Some(decided), hops) => return Ok((decided, hops)),
                 // A longer arithmetic would use up its budget as well.
@@ -110,20 +155,20 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         Ok(verdict)
     }
 
-    /// The verdict in `f64`, with one of the two bounds.
+    /// The verdict in `f64`, with one of the two bounds, and whether its number of hops is open.
     fn in_f64(
         &self,
         alpha: f64,
         budget: usize,
         hop: impl Fn(&LiftOffMap, f64, f64) -> HopWithin,
-    ) -> Result<(Verdict, usize), Error> {
+    ) -> Result<((Verdict, usize), bool), Error> {
         let mut orbit = PlainOrbit::new(alpha);
         loop {
             if let Some(verdict) = self.until_next_hop(&mut orbit, budget)? {
-                return Ok((verdict, orbit.hops));
+                return Ok(((verdict, orbit.hops), orbit.count_is_open()));
             }
             if let Some(verdict) = orbit.hop(hop(self.map, orbit.speed, orbit.error)) {
-                return Ok((verdict, orbit.hops));
+                return Ok(((verdict, orbit.hops), orbit.count_is_open()));
             }
         }
     }
@@ -136,7 +181,9 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
     ) -> Result<Option<Verdict>, Error> {
         loop {
             let n = index_below(orbit.speed)?;
-            if let Some(n) = self.trap_within(n, orbit.speed, orbit.error)? {
+            let (trap, side) = self.side_within(n, orbit.speed, orbit.error)?;
+            if let Some(hops) = orbit.beside.see(&trap, side, orbit.hops) {
+                orbit.hops = hops;
                 return Ok(Some(Verdict::Trapped(n)));
             }
             if orbit.followed == budget {
@@ -157,19 +204,18 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         }
     }
 
-    /// The index of the trap that contains all speeds within `error` of `speed`, which lies above α*_n.
-    fn trap_within(&self, n: u64, speed: f64, error: f64) -> Result<Option<u64>, Error> {
+    /// The trap of α*_n, and where all speeds within `error` of `speed`, which lies above α*_n, are.
+    fn side_within(&self, n: u64, speed: f64, error: f64) -> Result<(Trap, TrapSide), Error> {
         let trap = (self.trap)(n)?;
-        let side = if error == 0.0 {
-            trap.side(speed)
-        } else {
-            trap.side_of_offset(trap.fixed_point.offset_of(speed), error)
+        if error != 0.0 {
+            let side = trap.side_of_offset(trap.fixed_point.offset_of(speed), error);
+            return Ok((trap, side));
+        }
+        let side = match trap.side(speed) {
+            TrapSide::Unclear if self.is_at_end_of(&trap, speed)? => TrapSide::Inside,
+            side => side,
         };
-        let inside = match side {
-            TrapSide::Unclear if error == 0.0 => self.is_at_end_of(&trap, speed)?,
-            side => side == TrapSide::Inside,
-        };
-        Ok(inside.then_some(trap.n))
+        Ok((trap, side))
     }
 
     /// Whether an exact speed within the error of the upper end of a trap is in it.
@@ -205,7 +251,7 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
         arithmetic: Arithmetic,
     ) -> Result<(Option<Verdict>, usize), Error> {
         let mut orbit = ExtendedOrbit::new(self.map, alpha, arithmetic)?;
-        let mut hops = 0;
+        let (mut hops, mut beside) = (0, Beside::default());
         for followed in 0..=budget {
             let speed = orbit.speed();
             let mut n = index_below(speed)?;
@@ -218,7 +264,16 @@ impl<T: Fn(u64) -> Result<Trap, Error>> CertainFates<'_, T> {
                 n += 1;
                 (offset, error) = above;
             }
-            if (self.trap)(n)?.side_of_offset(offset, error) == TrapSide::Inside {
+            let trap = (self.trap)(n)?;
+            let mut side = trap.side_of_offset(offset, error);
+            if side == TrapSide::Unclear && trap.edge == TrapEdge::ContactEnd && offset > error {
+                side = match orbit.compare_with_multiple_of_pi(n + 1) {
+                    Some(Ordering::Less) => TrapSide::Inside,
+                    Some(_) => TrapSide::Outside,
+                    None => side,
+                };
+            }
+            if let Some(hops) = beside.see(&trap, side, hops) {
                 return Ok((Some(Verdict::Trapped(n)), hops));
             }
             if followed == budget {

@@ -60,6 +60,9 @@ impl Fates {
             for k in 0..orbits.len() {
                 let (at, mut orbit) = orbits[k];
                 match certain.until_next_hop(&mut orbit, budget)? {
+                    Some(_) if orbit.count_is_open() => {
+                        found[first + at] = self.fate_within(speeds[at], budget)?;
+                    }
                     Some(verdict) => {
                         let fate = self.fate_of(speeds[at], verdict, orbit.hops);
                         found[first + at] = (fate, orbit.hops);

@@ -60,7 +60,6 @@ pub(crate) fn append_certain(value: f64, error: f64, text: &mut String) {
         return append_number(value, text);
     }
     if !error.is_finite() {
-        append_number(value, text);
         *text += UNKNOWN;
         return;
     }
@@ -99,8 +98,8 @@ const ROOM: f64 = 1.0 + 1e-14;
 /// The most digits of a number.
 const MOST_CERTAIN: usize = 17;
 
-/// After a number of whose error nothing is known.
-const UNKNOWN: &str = " ±?";
+/// In place of a number of whose error nothing is known: none of its digits is certain. CSV and JSON have it.
+const UNKNOWN: &str = "?";
 
 #[cfg(test)]
 mod tests {
@@ -161,7 +160,7 @@ mod tests {
             (1e-22, 3e-20, "1e-22 ± 3e-20"),
             (-8.5e-9, 1e-11, "-8.5e-9"),
             (12345.678, 0.2, "1.235e4"),
-            (7.0, f64::INFINITY, "7 ±?"),
+            (7.0, f64::INFINITY, "?"),
         ];
         for (value, error, expected) in texts {
             let mut text = String::new();

@@ -14,6 +14,7 @@ use crate::model::fixed_points::{alpha_star, fixed_point_in, n_pi};
 use crate::precision::double_double::DoubleDouble;
 use crate::precision::long::Long;
 use crate::precision::real::Extended;
+use std::cmp::Ordering;
 use std::fmt::Debug;
 
 /// The arithmetics of an [`ExtendedOrbit`], from short to long.
@@ -95,6 +96,14 @@ impl ExtendedOrbit {
     /// The speed minus `other`, rounded to `f64`. With `other` next to the speed this shows its further digits.
     pub fn minus(&self, other: f64) -> f64 {
         self.0.minus(other)
+    }
+
+    /// Whether the speed is below or above nπ; `None` if its error does not tell.
+    pub fn compare_with_multiple_of_pi(&self, n: u64) -> Option<Ordering> {
+        let exact = n_pi(n);
+        let difference = self.minus(exact.high) - exact.low;
+        let rounding = BITS_OF_N_PI * self.speed() + f64::EPSILON * difference.abs();
+        (difference.abs() > self.error() + rounding).then(|| difference.total_cmp(&0.0))
     }
 
     /// The speed minus α*_n, and a bound on the error of this difference.
