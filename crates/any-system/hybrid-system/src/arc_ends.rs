@@ -2,7 +2,7 @@
 
 use crate::arc::{Arc, ArcEnd, Event};
 use crate::arrival::{Arrival, DurationOfArc};
-use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow};
+use crate::crossing::{Certainty, Crossing, EventKind, GuardedFlow, LeavingGuards};
 use crate::error::Error;
 use crate::execution::{AnArc, Execution};
 use crate::limits::Stop;
@@ -20,6 +20,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         &mut self,
         crossing: Crossing<T::Surface, T::State>,
         horizon: f64,
+        leaving: LeavingGuards<T::Surface>,
     ) -> Result<AnArc<T>, Error> {
         let Crossing { surface, time: duration, time_rounding, time_error, state, kind, certainty } =
             crossing;
@@ -74,7 +75,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         let arc = self.new_arc(duration, end);
         let solved = certainty == Certainty::Exact;
         let length = DurationOfArc { duration, time_rounding, time_error, solved };
-        self.remember((kind, surface), &state, length, time_passes);
+        self.remember((kind, surface), &state, (length, leaving), time_passes);
         if let Some((_, after)) = &after {
             // A reset that moves a guard off its surface leaves no residue.
             self.forget_residues(None, after);
@@ -107,14 +108,14 @@ impl<T: HybridSystem> Execution<'_, T> {
         &mut self,
         (kind, surface): (EventKind, T::Surface),
         state: &T::State,
-        length: DurationOfArc,
+        (length, leaving): (DurationOfArc, LeavingGuards<T::Surface>),
         time_passes: bool,
     ) {
         let passed = (kind == EventKind::Crossing).then_some(surface);
         self.forget_residues(passed, state);
         let flow = FlowFrom { system: self.system, mode: self.at.mode, start: &self.at.state };
         let duration = length.duration;
-        let arrival = |surface, length| Arrival::new(&flow, surface, state, length);
+        let arrival = |surface, length| Arrival::new(&flow, surface, state, (length, leaving));
         let guard = flow.guards().iter().find(|guard| guard.surface == surface);
         match kind {
             EventKind::Crossing => {
@@ -156,6 +157,7 @@ impl<T: HybridSystem> Execution<'_, T> {
         horizon: f64,
         end: Option<T::State>,
         certainty: Certainty,
+        leaving: LeavingGuards<T::Surface>,
     ) -> Result<AnArc<T>, Error> {
         if !horizon.is_finite() {
             self.stop = Some(Stop::NoFurtherEvent);
@@ -169,17 +171,21 @@ impl<T: HybridSystem> Execution<'_, T> {
         }
         let arc = self.new_arc(horizon, ArcEnd::TimeLimit { certainty });
         self.stop = Some(Stop::TimeLimit);
-        self.advance(horizon, state);
+        self.advance(horizon, state, leaving);
         Ok(arc)
     }
 
     /// Moves on to a state without an event.
-    pub(crate) fn advance(&mut self, duration: f64, state: T::State) {
+    pub(crate) fn advance(
+        &mut self,
+        duration: f64,
+        state: T::State,
+        leaving: LeavingGuards<T::Surface>,
+    ) {
         if duration > 0.0 {
             // A guard that reaches its surface just here, and passes through it after the limit, must not lose its event.
-            let flow = self.flow();
-            self.at.arrival =
-                Some(Arrival::new(&flow, None, &state, DurationOfArc::given(duration)));
+            let (flow, length) = (self.flow(), DurationOfArc::given(duration));
+            self.at.arrival = Some(Arrival::new(&flow, None, &state, (length, leaving)));
             self.forget_residues(None, &state);
             self.at.history.pass(duration);
             self.at.time = self.at.time.plus(duration);

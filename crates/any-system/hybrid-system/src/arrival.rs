@@ -1,6 +1,6 @@
 //! How the state came to the start of an arc: by a crossing, whose time has an error.
 
-use crate::crossing::{GuardedFlow, guard_rate, is_far};
+use crate::crossing::{GuardedFlow, LeavingGuards, guard_rate, is_far};
 use crate::guard::{Guard, Role};
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
@@ -12,6 +12,17 @@ const FEW: usize = 4;
 /// The lookback from a crossing, in roundings of its time. The rounding counts in both directions: two crossings whose times
 /// differ by the sum of their roundings may be at the same instant. A larger number would join events that are distinct.
 const LOOKBACK: f64 = 2.0;
+
+/// Each further look back is so many times longer, up to the start of the arc: some ten looks. A smaller number would take more
+/// looks; a larger one could pass over a short stay on the other side.
+const LONGER: f64 = 8.0;
+
+/// Parts of an arc at which a guard is looked at that has left its surface. A periodic motion is back at one of them, and not
+/// at all of them.
+const PLACES: [f64; 3] = [0.5, 0.3, 0.8];
+
+/// The part of an arc over which its field is straight enough to look back along it: the bend of 10⁻⁶ of an arc is 10⁻¹² of it.
+const NEAR: f64 = 1e-6;
 
 /// The duration of an arc, with its errors.
 #[derive(Debug, Clone, Copy)]
@@ -52,6 +63,8 @@ pub(crate) struct Arrival<M, S, X> {
     time_error: f64,
     /// True if the model itself has solved for the crossing: then the signs of other guards at its end are rounding.
     solved: bool,
+    /// The guards on whose surfaces the arc started.
+    leaving: LeavingGuards<S>,
     /// Other surfaces that were reached at the same instant, with the sides from which the guards came.
     reached: SmallVec<[(S, f64); FEW]>,
 }
@@ -62,11 +75,12 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         arc: &FlowFrom<T>,
         surface: Option<S>,
         before: &X,
-        DurationOfArc { duration, time_rounding, time_error, solved }: DurationOfArc,
+        (length, leaving): (DurationOfArc, LeavingGuards<S>),
     ) -> Self
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
+        let DurationOfArc { duration, time_rounding, time_error, solved } = length;
         let mut arrival = Arrival {
             surface,
             touched: false,
@@ -77,6 +91,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             time_rounding,
             time_error,
             solved,
+            leaving,
             reached: SmallVec::new(),
         };
         let is_other =
@@ -85,7 +100,7 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
             let from = if solved {
                 arrival.side_by_rounding(arc, guard.surface)
             } else {
-                arrival.side_before(arc, guard.surface)
+                arrival.side_before(arc, guard)
             };
             if let Some(from) = from.filter(|from| guard.direction.admits(*from, -from)) {
                 arrival.reached.push((guard.surface, from.signum()));
@@ -96,23 +111,71 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
 
     /// The side from which a guard has come to its zero on the computed trajectory; `None` if it has not come there. The
     /// signs of its values decide, and no distance: a zero that is an ulp later is another event.
-    fn side_before<T>(&self, arc: &FlowFrom<T>, surface: S) -> Option<f64>
+    ///
+    /// The search has reported no event of the guard on the arc. So a guard that started on a side from which crossings count,
+    /// and is now on the other one, or zero, has come to its zero at the end. One that started on its far side may have gone
+    /// and come back: its values before the end tell.
+    fn side_before<T>(&self, arc: &FlowFrom<T>, guard: &Guard<S>) -> Option<f64>
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        let value = |state: &X| arc.guard_value(guard.surface, state);
+        let (start, now) = (value(arc.start), value(&self.before));
+        let left = self.leaving.iter().find(|leaving| leaving.surface == guard.surface);
+        let side = left.map_or(start.signum(), |leaving| leaving.side);
+        if side == 0.0 || start == 0.0 && left.is_none() {
+            return None;
+        }
+        // It may not have come to its side yet, if the arc is short.
+        let is_there = left.is_none_or(|leaving| leaving.ahead) || start * side > 0.0;
+        if now * side > 0.0 {
+            // From the far side it may come back to it only after two zeros, the second one at the end.
+            let from = -side;
+            return (!guard.direction.admits(side, from)
+                && guard.direction.admits(from, side)
+                && self.was_on_side_before(arc, guard.surface, from))
+            .then_some(from);
+        }
+        if !guard.direction.admits(side, -side) {
+            let from = -side;
+            let came_back = now == 0.0 && self.was_on_side_before(arc, guard.surface, from);
+            return came_back.then_some(from);
+        }
+        (is_there || self.has_left(arc, guard.surface, side)).then_some(side)
+    }
+
+    /// Whether a guard was on `side` shortly before the end of the arc: the nearest one of some earlier values that is no
+    /// rounding.
+    fn was_on_side_before<T>(&self, arc: &FlowFrom<T>, surface: S, side: f64) -> bool
     where
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let value = |state: &X| arc.guard_value(surface, state);
-        let (start, now) = (value(arc.start), value(&self.before));
-        // The usual case: it has kept its sign. On its surface at the start, the sign there is rounding.
-        if start * now > 0.0
-            && (is_far(arc.start, arc.start.largest(), start, value)
-                || start.abs() > arc.rounding_at(surface, arc.start))
-        {
-            return None;
+        let size = self.before.largest();
+        if is_far(&self.before, size, value(&self.before), value) {
+            return false;
         }
-        let middle = value(&arc.state(0.5 * self.duration));
-        (middle * now < 0.0 || now == 0.0 && middle != 0.0)
-            .then_some(middle)
-            .filter(|_| !self.has_stayed(arc, surface))
+        let mut lookback = LOOKBACK * self.time_rounding.max(f64::EPSILON * self.duration);
+        while lookback < self.duration {
+            let state = self.state_before(arc.system, lookback);
+            let earlier = value(&state);
+            if earlier.abs() > arc.rounding_at(surface, &state) {
+                return earlier * side > 0.0;
+            }
+            lookback *= LONGER;
+        }
+        false
+    }
+
+    /// Whether a guard that started on its surface has been clearly on `side` on the arc.
+    fn has_left<T>(&self, arc: &FlowFrom<T>, surface: S, side: f64) -> bool
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        PLACES.iter().any(|part| {
+            let state = arc.state(part * self.duration);
+            side * arc.guard_value(surface, &state) > arc.rounding_at(surface, &state)
+        })
     }
 
     /// The same if the model has solved for the crossing. Two surfaces that are reached together by its formulas have signs
@@ -153,13 +216,20 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         T: HybridSystem<State = X, Surface = S, Mode = M>,
     {
         let before = next.guard_value(surface, &self.before);
+        if self.solved
+            || Some(surface) == self.surface
+            || !(before * now > 0.0)
+            || (now - before).abs() > rounding
+        {
+            return false;
+        }
         let arc = FlowFrom { system: next.system, mode: self.mode, start: &self.start };
-        !self.solved
-            && Some(surface) != self.surface
-            && before * now > 0.0
-            && (now - before).abs() <= rounding
-            && arc.guards().iter().any(|guard| guard.surface == surface)
-            && !self.has_stayed(&arc, surface)
+        if !arc.guards().iter().any(|guard| guard.surface == surface) {
+            return false;
+        }
+        // A guard that has left its surface to the other side, and has not come there yet, has had its zero.
+        let left = self.leaving.iter().find(|leaving| leaving.surface == surface && !leaving.ahead);
+        left.is_none_or(|left| left.side * now > 0.0 || self.has_left(&arc, surface, left.side))
     }
 
     /// The rounding of the time of the arrival, and its distance from the true time.
@@ -249,24 +319,28 @@ impl<M: Copy, S: Copy + PartialEq, X: StateVector> Arrival<M, S, X> {
         if lookback == 0.0 {
             return (now, 0.0);
         }
-        let field = system.vector_field(self.mode, &self.before);
-        let at = |lookback: f64| match &field {
-            Some(field) => {
-                let mut earlier = self.before.clone();
-                earlier.add_scaled(-lookback, field);
-                value(&earlier)
-            }
-            None => {
-                let earlier = (self.duration - lookback).max(0.0);
-                value(&system.flow(self.mode, &self.start, earlier))
-            }
-        };
+        let at = |lookback: f64| value(&self.state_before(system, lookback));
         let (earlier, change) = (at(lookback), |a: f64, b: f64| (a - b).abs());
         // In a shorter arc there is no second stretch.
-        if field.is_none() && self.duration < 2.0 * lookback {
+        if self.duration < 2.0 * lookback {
             return (earlier, change(earlier, now));
         }
         (earlier, change(earlier, now).min(change(at(2.0 * lookback), earlier)))
+    }
+
+    /// The state a moment before the end of the arc, along its field, or by its flow.
+    fn state_before<T>(&self, system: &T, lookback: f64) -> X
+    where
+        T: HybridSystem<State = X, Surface = S, Mode = M>,
+    {
+        if lookback < NEAR * self.duration
+            && let Some(field) = system.vector_field(self.mode, &self.before)
+        {
+            let mut earlier = self.before.clone();
+            earlier.add_scaled(-lookback, &field);
+            return earlier;
+        }
+        system.flow(self.mode, &self.start, (self.duration - lookback).max(0.0))
     }
 
     /// This surface is no longer one that was reached at the same instant: its event has happened.

@@ -2,7 +2,7 @@
 
 use crate::arc::{Arc, ArcEnd};
 use crate::chain::Chain;
-use crate::crossing::{Certainty, EventKind, NextEvent};
+use crate::crossing::{Certainty, EventKind, LeavingGuards, NextEvent};
 use crate::error::Error;
 use crate::limits::{Limits, Stop};
 use crate::point::Point;
@@ -62,7 +62,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
         if let Some(limit) = limit.filter(|limit| limit.remainder <= horizon) {
             return Ok(self.zeno_arc(limit));
         }
-        let found = match self.next_event(horizon) {
+        let (found, leaving) = match self.next_event(horizon) {
             // After many short bounces rounding hides the next one. If the durations form a geometric series, this is a
             // Zeno limit.
             Err(
@@ -73,7 +73,10 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 return match self.at.history.zeno_limit(true) {
                     Some(limit) if limit.remainder <= horizon => Ok(self.zeno_arc(limit)),
                     // Rounding hides the events up to the limit on time, and with them how far they move the state.
-                    Some(_) => self.arc_without_event(horizon, None, Certainty::Interpolated),
+                    Some(_) => {
+                        let leaving = LeavingGuards::new();
+                        self.arc_without_event(horizon, None, Certainty::Interpolated, leaving)
+                    }
                     None => Err(hidden),
                 };
             }
@@ -92,7 +95,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 }
                 if crossing.time > horizon + rounding {
                     let certainty = crossing.certainty;
-                    return self.arc_without_event(horizon, None, certainty);
+                    return self.arc_without_event(horizon, None, certainty, leaving);
                 }
                 // A crossing that takes no time, or only the error of its own time, is at once as well.
                 let at_once = crossing.kind == EventKind::AtStart
@@ -101,10 +104,10 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 if at_once && let Some(sliding) = self.sliding(crossing.surface) {
                     return Ok(self.sliding_arc(sliding));
                 }
-                self.event_arc(crossing, horizon)
+                self.event_arc(crossing, horizon, leaving)
             }
             NextEvent::None { state, certainty } => {
-                self.arc_without_event(horizon, state, certainty)
+                self.arc_without_event(horizon, state, certainty, leaving)
             }
             // Going on with the same budgets would never end.
             NextEvent::Unfinished { time, .. } if !(time > 0.0) => {
@@ -115,7 +118,7 @@ impl<'a, T: HybridSystem> Execution<'a, T> {
                 let end = ArcEnd::Unfinished { certainty };
                 let arc = self.new_arc(time, end);
                 self.stop = Some(Stop::Unfinished);
-                self.advance(time, state);
+                self.advance(time, state, leaving);
                 Ok(arc)
             }
         }

@@ -5,7 +5,7 @@
 //! beyond a surface, unless the model has returned the crossing of that surface.
 
 use crate::arrival::{Arrival, DurationOfArc};
-use crate::crossing::GuardedFlow;
+use crate::crossing::{GuardedFlow, LeavingGuards};
 use crate::error::Error;
 use crate::residues::Residues;
 use crate::system::{FlowFrom, HybridSystem};
@@ -40,7 +40,7 @@ pub(crate) fn check_missed<T: HybridSystem>(
         let arrival = {
             let time_error = time_rounding;
             let length = DurationOfArc { duration, time_rounding, time_error, solved: true };
-            Arrival::new(arc, None, end, length)
+            Arrival::new(arc, None, end, (length, LeavingGuards::new()))
         };
         let next = FlowFrom { system: arc.system, mode: arc.mode, start: end };
         let error = arc.rounding_at(surface, end)

@@ -1,20 +1,21 @@
 //! Which event does an execution meet next?
 
+use crate::crossing::LeavingGuards;
 use crate::crossing::{Crossing, EventKind, NextEvent, Search};
 use crate::error::Error;
 use crate::execution::Execution;
 use crate::guard::Role;
 use crate::lands_beyond::LandsBeyond;
 use crate::point::Point;
-use crate::start_rule::{LeavingGuards, Start, Undeclared, start_of_arc};
+use crate::start_rule::{Start, Undeclared, start_of_arc};
 use crate::system::{FlowFrom, HybridSystem};
 
 impl<T: HybridSystem> Execution<'_, T> {
-    /// The next event: at once, at a preset time, or the first crossing.
+    /// The next event: at once, at a preset time, or the first crossing; and the guards on whose surfaces the arc starts.
     pub(crate) fn next_event(
         &self,
         horizon: f64,
-    ) -> Result<NextEvent<T::Surface, T::State>, Error> {
+    ) -> Result<(NextEvent<T::Surface, T::State>, LeavingGuards<T::Surface>), Error> {
         let Point { mode, ref state, ref time, ref arrival, ref residues, initial, .. } = self.at;
         let flow = FlowFrom { system: self.system, mode, start: state };
         let mut leaving = LeavingGuards::new();
@@ -39,7 +40,7 @@ impl<T: HybridSystem> Execution<'_, T> {
                     on_surface,
                 }));
             }
-            return Ok(NextEvent::Crossing(Crossing {
+            let at_once = Crossing {
                 surface,
                 time: 0.0,
                 time_rounding,
@@ -47,7 +48,8 @@ impl<T: HybridSystem> Execution<'_, T> {
                 state: state.clone(),
                 kind: EventKind::AtStart,
                 certainty,
-            }));
+            };
+            return Ok((NextEvent::Crossing(at_once), leaving));
         }
         let clock = self.next_clock(horizon)?;
         let search = Search {
@@ -59,11 +61,11 @@ impl<T: HybridSystem> Execution<'_, T> {
             leaving: &leaving,
         };
         let found = self.system.first_crossing(mode, state, &search)?;
-        match (found, clock) {
+        let found = match (found, clock) {
             (
                 NextEvent::None { state: end, certainty },
                 Some(ClockEvent { surface, until, .. }),
-            ) => Ok(NextEvent::Crossing(Crossing {
+            ) => NextEvent::Crossing(Crossing {
                 surface,
                 time: until,
                 time_rounding: 0.0,
@@ -71,9 +73,10 @@ impl<T: HybridSystem> Execution<'_, T> {
                 state: end.unwrap_or_else(|| flow_to(&flow, until)),
                 kind: EventKind::Clock,
                 certainty,
-            })),
-            (found, _) => Ok(found),
-        }
+            }),
+            (found, _) => found,
+        };
+        Ok((found, leaving))
     }
 
     /// The clock with the earliest preset time, if that is within `horizon`.

@@ -24,20 +24,15 @@
 //! reset of that event lets the state pass through, that is an event. No crossing is lost between two resets.
 
 use crate::arrival::Arrival;
-use crate::crossing::{Certainty, Departure, GuardedFlow, Leaving, departure, is_far};
+use crate::crossing::{
+    Certainty, Departure, GuardedFlow, Leaving, LeavingGuards, departure, is_far,
+};
 use crate::error::Error;
 use crate::guard::{Direction, Guard, Role};
 use crate::residues::Residues;
 use crate::sliding::is_unchanged;
 use crate::state::StateVector;
 use crate::system::{FlowFrom, HybridSystem};
-use smallvec::SmallVec;
-
-/// Guards of one mode that are handled without allocating. Most models have fewer.
-const FEW: usize = 8;
-
-/// A list of guards on whose surfaces an arc starts.
-pub(crate) type LeavingGuards<S> = SmallVec<[Leaving<S>; FEW]>;
 
 /// How an arc starts.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,8 +117,9 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             continue;
         }
         // Its event is still to come, however near: the signs of the computed trajectory decide.
-        let is_ahead =
-            |arrival: &Arrival<_, _, _>| arrival.is_ahead(flow, surface, (now, rounding));
+        let is_ahead = |arrival: &Arrival<_, _, _>| {
+            direction.admits(now, -now) && arrival.is_ahead(flow, surface, (now, rounding))
+        };
         if on_surface && residue == 0.0 && reached.is_none() && arrival.is_some_and(is_ahead) {
             leaving.push(Leaving { surface, side: now.signum(), ahead: true });
             continue;
@@ -132,7 +128,7 @@ pub(crate) fn start_of_arc<T: HybridSystem>(
             // Both are short on the time scale of the model.
             let interval = interval.filter(|interval| *interval > 0.0).unwrap_or(f64::INFINITY);
             let short = arrival.map_or(f64::INFINITY, Arrival::duration).min(interval);
-            match departure(flow, surface, (error, rounding), (horizon, short))? {
+            match departure(flow, surface, (error, rounding), (horizon, short), switch)? {
                 Departure::To { side, certainty } => (side, certainty),
                 Departure::Stays => {
                     // On the side of the flow its value is the distance to the next event. Elsewhere it counts as zero.

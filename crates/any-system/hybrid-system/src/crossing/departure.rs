@@ -39,6 +39,10 @@ const LEFT_SURFACE: f64 = 4.0;
 /// faster has stayed at zero for a while. A smaller number would take zeros of high order for that.
 const LARGEST_GROWTH: f64 = 256.0;
 
+/// A contact that jumps at its surface turns back over it within so many times the shortest look. A larger number would take a later
+/// crossing for that; a smaller one would miss a slow return.
+const MOST_LOOKS_BACK: f64 = 1024.0;
+
 /// How a guard leaves its zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Departure {
@@ -51,7 +55,7 @@ pub(crate) enum Departure {
 /// How the guard of `surface` leaves its zero at the start of a flow. Its value there is zero with this `error`. The part
 /// `rounding` of the error differs from state to state. The rest, by the error of the time of a crossing, is the same
 /// for states next to each other, and hides no rate. `short` is the duration of the arc
-/// before or the sampling interval, or infinite.
+/// before or the sampling interval, or infinite. The guard `bounds_flow` if it is a contact or a switch.
 ///
 /// # Errors
 /// [`Error::UndecidedSign`], [`Error::UndecidedStart`] for a guard that stays at zero for a while, and
@@ -61,6 +65,7 @@ pub(crate) fn departure<F: GuardedFlow>(
     surface: F::Surface,
     (error, rounding): (f64, f64),
     (horizon, short): (f64, f64),
+    bounds_flow: bool,
 ) -> Result<Departure, Error> {
     let to = |side: f64, certainty| Departure::To { side: side.signum(), certainty };
     if let Some(side) = flow.leaving_side(surface) {
@@ -100,7 +105,8 @@ pub(crate) fn departure<F: GuardedFlow>(
     if !(time > 0.0) {
         time = SHORTEST_LOOK * longest;
     }
-    let mut first = true;
+    let shortest = time;
+    let (mut first, at_start) = (true, flow.guard_value(surface, start));
     while time > 0.0 && time <= longest {
         let state = flow.state(time);
         let value = flow.guard_value(surface, &state);
@@ -112,7 +118,12 @@ pub(crate) fn departure<F: GuardedFlow>(
         let size = state.filled(|_| largest);
         let guard = |state: &F::State| flow.guard_value(surface, state);
         let later_error = rounding_of_state(&state, &size, guard);
+        // The value at the start may be the height of a jump there, over which the reset of a contact turns back.
+        let jumps = value * at_start < 0.0 && value.abs() > LEFT_SURFACE * (rounding + later_error);
         let hidden = LEFT_SURFACE * (error + later_error);
+        if jumps && bounds_flow && time <= MOST_LOOKS_BACK * shortest {
+            return Ok(to(value, Certainty::Sampled { interval: time }));
+        }
         if value.abs() > hidden {
             // A guard that was zero up to here does not leave at the start. When it leaves is not known.
             if !first && value.abs() > LARGEST_GROWTH * hidden {

@@ -133,6 +133,13 @@ pub(crate) fn rounding_of_state<X: StateVector>(
     rounding_on_side(state, (size, 1.0), guard)
 }
 
+/// The larger one of the estimates on both sides: for a guard that is zero beside its jump.
+#[cfg(feature = "ode")]
+pub(crate) fn rounding_around<X: StateVector>(state: &X, guard: impl Fn(&X) -> f64) -> f64 {
+    let [up, down] = [1.0, -1.0].map(|side| rounding_on_side(state, (state, side), &guard));
+    up.max(down)
+}
+
 /// The same with the components moved upwards or downwards, by the sign of `side`.
 fn rounding_on_side<X: StateVector>(
     state: &X,

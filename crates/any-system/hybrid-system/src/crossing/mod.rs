@@ -40,6 +40,7 @@ mod sampled;
 mod search_request;
 mod under_bounds;
 mod zero_search;
+mod zero_search_start;
 mod zero_test;
 
 #[cfg(feature = "ode")]
@@ -56,12 +57,13 @@ pub(crate) use found::Found;
 pub(crate) use guard_rate::guard_rate;
 #[cfg(feature = "ode")]
 pub(crate) use guard_rounding::{
-    change_by_components, rounding_beside_zero, rounding_of_state, side_of_surface,
+    change_by_components, rounding_around, rounding_beside_zero, rounding_of_state, side_of_surface,
 };
 pub(crate) use guard_rounding::{guard_rounding, is_far, spread, stated_or_measured};
 pub(crate) use guarded_flow::GuardedFlow;
 pub use next_event::{Crossing, EventKind, NextEvent};
 pub use quasi_polynomial::{QuasiPolynomial, QuasiPolynomialPart};
+pub(crate) use search_request::LeavingGuards;
 #[cfg(feature = "ode")]
 pub(crate) use search_request::MOST_INTERVALS;
 pub use search_request::{Leaving, Search};

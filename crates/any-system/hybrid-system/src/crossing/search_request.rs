@@ -1,11 +1,20 @@
 //! What a search for the next event is told.
 
+use smallvec::SmallVec;
+
 /// The number of intervals that a search under bounds tests, unless another number is given: a limit for a search that
 /// takes too long. Every oscillation up to the horizon takes several intervals.
 pub(crate) const MOST_INTERVALS: usize = 1_000_000;
 
+/// Guards of one mode that are handled without allocating. Most models have fewer.
+const FEW: usize = 8;
+
+/// A list of guards on whose surfaces an arc starts.
+pub(crate) type LeavingGuards<S> = SmallVec<[Leaving<S>; FEW]>;
+
 /// A guard on whose surface an arc starts, within rounding.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Leaving<S> {
     /// The surface.
     pub surface: S,

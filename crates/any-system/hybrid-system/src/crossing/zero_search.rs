@@ -40,84 +40,30 @@ const CLEAR: f64 = 2.0;
 /// `time`, unless `hidden`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct ZeroSearch {
-    direction: Direction,
-    time: f64,
+    pub(super) direction: Direction,
+    pub(super) time: f64,
     /// The side of zero, ±1; `None` as long as the function has not left the zero it started at.
-    side: Option<f64>,
+    pub(super) side: Option<f64>,
     /// The last time at which the function was clear of rounding, on `side`.
-    clear: f64,
+    pub(super) clear: f64,
     /// True as long as it is not known how the function leaves the zero it started at.
-    leaving: bool,
+    pub(super) leaving: bool,
     /// True if the function has stayed at that zero up to `time`.
-    stays: bool,
+    pub(super) stays: bool,
     /// True as long as the function has not been clear of the error of its start.
-    unclear: bool,
+    pub(super) unclear: bool,
     /// The value at the start, if it counts as zero. The zeros of g − level are searched as long as g is `unclear`.
-    level: f64,
+    pub(super) level: f64,
     /// The error of `level`.
-    level_error: f64,
-    hidden: Option<Hidden>,
+    pub(super) level_error: f64,
+    pub(super) hidden: Option<Hidden>,
     /// The last crossing was found before the function had left its start clearly.
-    left_hidden: bool,
+    pub(super) left_hidden: bool,
+    /// The next change of sign belongs to a zero before the start.
+    pub(super) passes: bool,
 }
 
 impl ZeroSearch {
-    /// Starts at `time`, where the function is clearly on `side`, ±1.
-    pub(crate) fn on_side(direction: Direction, time: f64, side: f64) -> Self {
-        ZeroSearch {
-            direction,
-            time,
-            side: Some(side),
-            clear: time,
-            leaving: false,
-            stays: false,
-            unclear: false,
-            level: 0.0,
-            level_error: 0.0,
-            hidden: None,
-            left_hidden: false,
-        }
-    }
-
-    /// Starts at `time` on a zero: the computed `value` counts as zero, with an error of at least its size. The function
-    /// leaves to `side`, if that is known; a side of 0 says that it stays there, as far as the start shows.
-    pub(crate) fn leaving(
-        direction: Direction,
-        (time, value): (f64, f64),
-        error: f64,
-        side: Option<f64>,
-    ) -> Self {
-        ZeroSearch {
-            side: side.filter(|side| *side != 0.0),
-            stays: side == Some(0.0),
-            leaving: true,
-            unclear: true,
-            level: value,
-            level_error: error.max(value.abs()),
-            ..Self::on_side(direction, time, 0.0)
-        }
-    }
-
-    /// Starts at `time` on `side`, ±1, although rounding may hide the function there: its zero is still to come.
-    pub(crate) fn before_zero(direction: Direction, time: f64, side: f64, error: f64) -> Self {
-        ZeroSearch { unclear: true, level_error: error, ..Self::on_side(direction, time, side) }
-    }
-
-    /// Starts at `time`, where `at` encloses the function and `value` is the computed one, wrong by `error` at most. The
-    /// side to which the function leaves a zero there may be known.
-    pub(crate) fn new(
-        direction: Direction,
-        (time, value): (f64, f64),
-        at: Enclosure,
-        error: f64,
-        leaving: Option<f64>,
-    ) -> Self {
-        match (leaving, at.widened(error).sign()) {
-            (None, Some(side)) => Self::on_side(direction, time, side),
-            _ => Self::leaving(direction, (time, value), error.max(at.magnitude()), leaving),
-        }
-    }
-
     /// The time up to which the search is done.
     pub(crate) fn time(&self) -> f64 {
         self.time
@@ -254,11 +200,32 @@ impl ZeroSearch {
         if let Some(hidden) = &mut self.hidden {
             let closest = closest(function, self.level, hidden, from, until);
             hidden.closest = Some(closest);
+            let last = function.value(until) - self.level;
+            if horizon && self.side.is_some_and(|side| last * side < 0.0) {
+                // It has changed its sign on the last stretch, by a jump.
+                return Ok(self.crossing_at_horizon(from, until, last.signum()));
+            }
             if horizon && !self.unclear {
                 return Ok(Found::Undecided { time: closest.0, value: closest.1 });
             }
         }
         Ok(Found::Nothing)
+    }
+
+    /// What a change of sign to `sign` on a hidden stretch that ends at the horizon is.
+    fn crossing_at_horizon(&mut self, from: f64, until: f64, sign: f64) -> Found {
+        let hidden = self.hidden.take().map_or(from, |hidden| hidden.from);
+        let counts = self.direction.admits(-sign, sign) && !std::mem::take(&mut self.passes);
+        (self.side, self.clear) = (Some(sign), until);
+        match counts && !self.leaving {
+            true => Found::Crossing {
+                time: until,
+                error: until - hidden,
+                hidden: true,
+                rising: sign > 0.0,
+            },
+            false => Found::Nothing,
+        }
     }
 
     /// Passes an interval that rounding hides.
@@ -296,7 +263,8 @@ impl ZeroSearch {
         // directions count, no side is beyond the surface, and this is the side to which it left.
         let at_start = self.leaving && self.direction == Direction::Either;
         self.left_hidden = self.leaving;
-        let found = if self.direction.admits(side, sign) && !at_start {
+        let passes = std::mem::take(&mut self.passes);
+        let found = if self.direction.admits(side, sign) && !at_start && !passes {
             let (time, error) = match &hidden {
                 // Where the function is clear again. At an earlier time a new search would start in the same hidden
                 // interval, and could find a part of the same crossing.

@@ -126,6 +126,12 @@ impl<A: Fn(f64) -> f64, R: Fn(f64, f64) -> f64> Bounded for GuardOnStep<A, R> {
             error = self.error_on(left, right);
             found = zero_test(&values, error);
         }
+        // The nodes leave out the ends: a jump between the last of them and the end is halved like others.
+        if let ZeroTest::NoZero { sign } = found
+            && ((self.along)(right) - level) * sign < 0.0
+        {
+            return Ok(ZeroTest::Undecided);
+        }
         let short = right - left < STRAIGHT * (self.to - self.from)
             && right - left > NODE_ULPS * f64::EPSILON * right;
         // A jump or a kink is halved down to the rounding of the time, and says nothing about the values elsewhere.

@@ -6,7 +6,7 @@ use super::polish::{Accuracy, CorrectedStep, rate};
 use super::step::Step;
 use super::tolerances::Tolerances;
 use crate::crossing::{
-    Certainty, Crossing, EventKind, NextEvent, Search, ZeroSearch, guard_rate,
+    Certainty, Crossing, EventKind, NextEvent, Search, ZeroSearch, guard_rate, rounding_around,
     rounding_beside_zero, rounding_of_state, side_of_surface, stated_or_measured,
 };
 use crate::error::Error;
@@ -77,10 +77,18 @@ impl<T: HybridSystem + ?Sized> Pass<'_, T> {
         let known = self.request.side(surface);
         let search = match side_of_surface(start, stated, along) {
             Some(side) if known.is_none() => ZeroSearch::on_side(direction, 0.0, side),
+            // A touch that it has had is no further one.
+            Some(side) if known == Some(side) => {
+                let error = stated_or_measured(stated, start, along);
+                ZeroSearch::before_zero(direction, 0.0, side, error)
+            }
+            Some(side) if known == Some(-side) => ZeroSearch::passing(direction, 0.0, side),
             _ => {
-                // An exact zero has no error of its own.
-                let error =
-                    if value == 0.0 { 0.0 } else { stated_or_measured(stated, start, along) };
+                // An exact zero has no error of its own, but the states of the step have.
+                let error = match value == 0.0 {
+                    true => rounding_around(start, along),
+                    false => stated_or_measured(stated, start, along),
+                };
                 let side = known.or_else(|| guard_rate(start, rate, error, along).map(f64::signum));
                 ZeroSearch::leaving(direction, (0.0, value), error, side)
             }
