@@ -325,3 +325,47 @@ def test_the_arrays_of_the_program_have_the_same_labels(tmp_path):
     stored = hopper.basins(**JOB, store=tmp_path / "basins.zarr").label.values
     assert labels.flags.f_contiguous and labels.dtype == stored.dtype
     assert labels.T.tobytes() == stored.tobytes()
+
+
+def test_metadata_on_disk_are_not_believed(tmp_path):
+    import json
+
+    store, call = tmp_path / "s", dict(M=(0.1, 1), shape=(64, 64))
+    true = hopper.basins(store=store, **call)
+    labels, meanings = true["label"].values, true["label"].attrs["flag_meanings"]
+
+    def changed(name, change):
+        own = json.loads((store / name / "zarr.json").read_text())
+        change(own)
+        (store / name / "zarr.json").write_text(json.dumps(own))
+
+    def consolidated(own):
+        return own["consolidated_metadata"]["metadata"]["label"]
+
+    changes = [
+        ("label", lambda own: own.update(dimension_names=["alpha", "M"])),
+        ("label", lambda own: own.update(dimension_names=["x", "y"])),
+        ("label", lambda own: own["attributes"].update(flag_meanings="a b c")),
+        ("", lambda own: own["attributes"].update(source="evil 9.9")),
+        ("", lambda own: own["attributes"].update(extra="1")),
+        ("", lambda own: consolidated(own).update(dimension_names=["alpha", "M"])),
+        ("", lambda own: consolidated(own)["attributes"].update(flag_meanings="a b c")),
+    ]
+    for name, change in changes:
+        changed(name, change)
+        again = hopper.basins(store=store, **call)
+        assert again.identical(true)
+        import xarray
+
+        by_reader = xarray.open_zarr(store)["label"]
+        assert by_reader.dims == ("M", "alpha") and by_reader.attrs["flag_meanings"] == meanings
+        assert (by_reader.values == labels).all()
+    # Broken ones are written again.
+    for path in ("label/zarr.json", "M/zarr.json", "label/digests/0"):
+        (store / path).write_bytes(b"\xff\xfe{")
+        assert hopper.basins(store=store, **call).identical(true)
+    (store / "label/digests/0").unlink()
+    (store / "label/digests/0").mkdir()
+    assert hopper.basins(store=store, **call).identical(true)
+    shutil.copytree(store / "label", store / "label2")
+    assert set(hopper.basins(store=store, **call).data_vars) == {"label"}

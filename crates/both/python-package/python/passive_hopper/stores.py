@@ -6,7 +6,8 @@ processes and workers may be killed at any instant, and a region may be computed
 
 What is on disk is never believed. Beside the array, ``label/digests`` has a note for each region: the SHA-256 of its labels as they were computed.
 A region counts as finished if its labels have this digest; one that was changed, copied from another region, or damaged is computed again. So are
-coordinates and attributes that differ. The digest of the whole store is that of the notes' labels, read back.
+coordinates, and the metadata of the group and of its arrays: they are compared with those of a new store of the same job. The digest of the
+whole store is that of the notes' labels, read back.
 """
 
 import hashlib
@@ -71,6 +72,8 @@ def _opened(found):
     """A store as a dataset. JSON forgets the type of its flags."""
     import numpy
 
+    # Arrays that someone has put beside ours are none of ours.
+    found = found[["label"]]
     flags = found["label"].attrs
     if "flag_values" in flags:
         flags["flag_values"] = numpy.array(flags["flag_values"], dtype="uint16")
@@ -90,12 +93,10 @@ def _open_or_make(path, job):
     zarr = _import_zarr()
     wanted = job_attributes(*job)
     if path.exists():
-        try:
-            attributes = dict(zarr.open_group(path, mode="r").attrs)
-        except PermissionError:
-            raise
-        except (OSError, ValueError) as error:
-            raise FileExistsError(f"{path} is no Zarr store; give the name of a new folder") from error
+        found = _metadata(path)
+        if found is None or found.get("node_type") != "group":
+            raise FileExistsError(f"{path} is no Zarr store; give the name of a new folder")
+        attributes = found.get("attributes", {})
         for name in ("command", "computation"):
             if attributes.get(name) != wanted[name]:
                 raise ValueError(
@@ -104,26 +105,9 @@ def _open_or_make(path, job):
                 )
         _mend(path, job)
         return
-    M, alpha, shape = job
-    values = coordinates(M, alpha, shape)
     beside = Path(tempfile.mkdtemp(prefix=f".{path.name}.", suffix=".tmp", dir=path.parent))
     try:
-        group = zarr.create_group(beside, zarr_format=3, attributes=wanted)
-        for name, (numbers, attributes) in values.items():
-            _make_coordinate(group, name, numbers, attributes)
-        chunks = (min(REGION, shape[0]), min(CHUNK, shape[1]))
-        rows = -(-shape[1] // chunks[1]) * chunks[1]
-        group.create_array(
-            "label",
-            shape=shape,
-            dtype="uint16",
-            chunks=chunks,
-            shards=(chunks[0], rows),
-            compressors=[zarr.codecs.ZstdCodec(level=5, checksum=True)],
-            fill_value=_native.label_codes()["OUTSIDE"],
-            dimension_names=("M", "alpha"),
-            attributes=label_attributes([]),
-        )
+        _make(beside, job)
         os.chmod(beside, 0o777 & ~_mask())
         os.rename(beside, path)
     except BaseException:
@@ -132,6 +116,28 @@ def _open_or_make(path, job):
             # Another process has made the same store meanwhile, or something else: the next look tells.
             return _open_or_make(path, job)
         raise
+
+
+def _make(folder, job):
+    """Writes the store of a job into an empty folder: coordinates and metadata, and no labels."""
+    zarr = _import_zarr()
+    shape = job[2]
+    group = zarr.create_group(folder, zarr_format=3, attributes=job_attributes(*job))
+    for name, (numbers, attributes) in coordinates(*job).items():
+        _make_coordinate(group, name, numbers, attributes)
+    chunks = (min(REGION, shape[0]), min(CHUNK, shape[1]))
+    rows = -(-shape[1] // chunks[1]) * chunks[1]
+    group.create_array(
+        "label",
+        shape=shape,
+        dtype="uint16",
+        chunks=chunks,
+        shards=(chunks[0], rows),
+        compressors=[zarr.codecs.ZstdCodec(level=5, checksum=True)],
+        fill_value=_native.label_codes()["OUTSIDE"],
+        dimension_names=("M", "alpha"),
+        attributes=label_attributes([]),
+    )
 
 
 def _mask():
@@ -157,11 +163,42 @@ def _make_coordinate(group, name, numbers, attributes):
     group.create_array(name, data=numbers, dimension_names=(name,), attributes=attributes)
 
 
+def _metadata(folder):
+    """The metadata of a group or an array; None if they cannot be read."""
+    try:
+        found = json.loads((folder / "zarr.json").read_text())
+    except PermissionError:
+        raise
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) else None
+
+
+def _mend_metadata(path, job):
+    """Writes the metadata of the group and of the labels again if they differ from those of a new store. What is added when a store is
+    finished is compared then."""
+    with tempfile.TemporaryDirectory() as folder:
+        _make(Path(folder), job)
+        new = {name: _metadata(Path(folder) / name) for name in ("", "label")}
+    for name, wanted in new.items():
+        own = _metadata(path / name) or {}
+        # The labels' own are compared when the store is finished.
+        of_job = lambda attributes: {key: value for key, value in attributes.items() if name == "" and key != "sha256"}
+        alike = {**own, "attributes": of_job(own.get("attributes") or {})}
+        alike.pop("consolidated_metadata", None)
+        plain = {**wanted, "attributes": of_job(wanted["attributes"])}
+        plain.pop("consolidated_metadata", None)
+        if alike != plain:
+            (path / name).mkdir(exist_ok=True)
+            write_whole(path / name / "zarr.json", json.dumps(wanted, indent=2).encode())
+
+
 def _mend(path, job):
-    """Writes the coordinates again that are missing or differ from those of the job."""
+    """Writes the metadata and the coordinates again that are missing or differ from those of the job."""
     import numpy
 
     zarr = _import_zarr()
+    _mend_metadata(path, job)
     group = zarr.open_group(path, mode="r", use_consolidated=False)
     for name, (numbers, attributes) in coordinates(*job).items():
         try:
@@ -171,11 +208,12 @@ def _mend(path, job):
             right = right and dict(own.attrs) == attributes and tuple(own.metadata.dimension_names or ()) == (name,)
         except PermissionError:
             raise
-        except (KeyError, ValueError, RuntimeError, FileNotFoundError):
+        except (KeyError, TypeError, ValueError, RuntimeError, OSError):
             right = False
         if not right:
             mended = zarr.open_group(path, mode="r+", use_consolidated=False)
             shutil.rmtree(path / name, ignore_errors=True)
+            (path / name).unlink(missing_ok=True)
             _make_coordinate(mended, name, numbers, attributes)
 
 
@@ -207,7 +245,9 @@ def _verified(path, job, region):
     labels = _read(path, job, region)
     try:
         note = _note(path, region).read_text()
-    except FileNotFoundError:
+    except PermissionError:
+        raise
+    except (OSError, ValueError):
         return None
     return None if labels is None or note != _digest(job, region, labels) else labels
 
@@ -224,6 +264,8 @@ def _write_region(path, job, region, threads):
         _labels(path, "r+")[begin:end] = labels
     note = _note(path, region)
     note.parent.mkdir(exist_ok=True)
+    if note.is_dir():
+        shutil.rmtree(note)
     # After the labels: a process that is killed in between leaves a region that is computed again.
     write_whole(note, _digest(job, region, labels).encode())
 
@@ -246,7 +288,7 @@ def _finish(path, job, regions):
         codes |= set(numpy.unique(labels).tolist())
     group = zarr.open_group(path, mode="r", use_consolidated=False)
     attributes = _stored(label_attributes(sorted(codes)))
-    if group.attrs.get("sha256") == digest.hexdigest() and dict(group["label"].attrs) == attributes:
+    if group.attrs.get("sha256") == digest.hexdigest() and dict(group["label"].attrs) == attributes and _is_consolidated(path):
         return
     _labels(path, "r+").attrs.put(attributes)
     for left in (path / "label" / "c").glob("*/*.partial"):
@@ -261,6 +303,13 @@ def _finish(path, job, regions):
         # xarray asks for consolidated metadata, and zarr warns that its form may change. Both can read the store without.
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path, zarr_format=3)
+
+
+def _is_consolidated(path):
+    """Whether the metadata that readers find in one place are those of the arrays."""
+    of_all = ((_metadata(path) or {}).get("consolidated_metadata") or {}).get("metadata") or {}
+    arrays = {"M", "alpha", "label"}
+    return arrays <= set(of_all) and all(own == _metadata(path / name) for name, own in of_all.items())
 
 
 def _task(path, job, region, version):
